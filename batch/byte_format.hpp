@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes values as bytes, equal on every processor: whole numbers and doubles as eight bytes, least
-// significant first; texts and lists after their length. A double keeps its bits, also NaN.
+// Writes values as bytes, equal on every processor. Whole numbers and doubles take eight bytes, the least
+// significant first. Texts and lists follow their length. A double keeps its bits, also NaN.
 #pragma once
 #include <bit>
 #include <cstddef>
@@ -33,8 +33,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads the bytes of a ByteWriter. It fails beyond the end or at an impossible length, and then reads
-/// nothing more.
+/// Reads the bytes of a ByteWriter. Reading fails beyond the end or at an impossible length; after that
+/// nothing more is read.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -54,7 +54,8 @@ class ByteReader {
   template <class T, class Read>
   std::vector<T> list(Read read) {
     std::vector<T> list;
-    // No entry is shorter than eight bytes, so an impossible length reserves no memory.
+    // Every entry has at least eight bytes. A longer list than fits is refused, so that an impossible length
+    // reserves no memory.
     const std::uint64_t length = whole();
     if (length > rest_.size() / 8) failed_ = true;
     for (std::uint64_t n = 0; n < length && !failed_; ++n) list.push_back(read());

@@ -26,9 +26,10 @@ using std::chrono::steady_clock;
 
 /// Pause between two checks for letters, so that waiting does not occupy a core.
 constexpr milliseconds follower_pause{2};
-/// Time between two letters with rows: a killed process loses the rows made since the last one.
+/// Time between two letters with rows. If a process is killed, the rows made since its last letter are lost.
 constexpr milliseconds rows_every{50};
-/// Runs kept in reserve, in seconds at the pace since the last request. Longer runs are requested one by one.
+/// Runs kept in reserve, in seconds of work at the pace since the last request. Longer runs are requested one
+/// by one.
 constexpr double ahead_s = 0.25;
 constexpr double most_ahead = 4096;
 
@@ -39,7 +40,8 @@ letters::Letter letter_of(const Mail& mail) {
   return std::move(*letter);
 }
 
-/// The plan ended before a question was answered: the leader may have ended, and the run is no longer needed.
+/// Thrown if the plan ends before a question is answered: the leader may have ended, and the run is no longer
+/// needed.
 struct PlanEnded {};
 
 /// Executes one plan's runs on `jobs` threads; the calling thread exchanges messages with the leader.
@@ -73,7 +75,7 @@ class Hand {
       try {
         make_runs(runs, runs.jobs, [this] { return next(); });
       } catch (const PlanEnded&) {
-        // Runs in progress are not sent; `open_` lists them.
+        // The rows of runs in progress are not sent; `open_` lists these runs.
       } catch (...) {
         error = std::current_exception();
       }
@@ -92,7 +94,7 @@ class Hand {
   }
 
  private:
-  // Called by the threads that make runs:
+  // Functions for the threads that make runs:
 
   std::optional<std::size_t> next() {
     std::unique_lock lock(guard_);
@@ -113,7 +115,7 @@ class Hand {
     ++made_;
   }
 
-  // Called by the thread of the letters:
+  // Functions for the thread that exchanges letters:
 
   void take(const letters::Letter& letter) {
     const std::lock_guard lock(guard_);
@@ -179,7 +181,7 @@ class Hand {
   std::mutex guard_;
   std::condition_variable moved_, work_came_;
   std::deque<std::uint64_t> ready_;
-  std::set<std::uint64_t> open_;  ///< received runs without a row yet
+  std::set<std::uint64_t> open_;  ///< received runs that have no row yet
   std::vector<analysis::RunValues> rows_;
   std::vector<letters::Question> questions_;
   std::map<std::uint64_t, std::string> answers_;
@@ -204,7 +206,8 @@ int follow(Cluster& cluster, const Prepare& prepare, const std::function<bool()>
     if (const auto* begin = std::get_if<letters::Begin>(&letter)) {
       if (const std::optional<int> exit = Hand(cluster, *begin).work(prepare, told_to_end)) return *exit;
     } else if (const auto* runs = std::get_if<letters::Runs>(&letter))
-      // The leader sent these before it knew that this process has left the plan.
+      // The leader sent these numbers before it knew that this process has left the plan, so that they are
+      // returned.
       cluster.send(0, letters::bytes_of(letters::Gone{runs->numbers}));
   }
 }

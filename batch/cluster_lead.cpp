@@ -22,16 +22,17 @@ using std::chrono::steady_clock;
 
 /// Pause between two checks for letters, so that waiting does not occupy a core.
 constexpr milliseconds pause{1};
-/// Limit of the wait, because mpirun kills the processes a second after its request to end.
+/// Longest wait for the other processes' end, because mpirun kills the processes a second after its request
+/// to end.
 constexpr milliseconds patience{500};
 
-/// The remaining runs, and the number of runs that other processes hold. Callable from any thread.
+/// The remaining runs, and the number of runs that other processes have. Any thread may call it.
 class Handout {
  public:
   explicit Handout(const PlanRuns& runs) : runs_(runs), count_(analysis::runs_of(runs.plan)) {}
 
-  /// Returns at most `most` of the remaining runs, but no more than a fair share, so that all processes end
-  /// together.
+  /// Gives out at most `most` of the remaining runs, but no more than a fair share, so that all processes end
+  /// at about the same time.
   std::vector<std::uint64_t> hand_out(std::uint64_t idle, std::uint64_t ahead, std::uint64_t processes) {
     const std::lock_guard lock(guard_);
     const std::uint64_t part = (count_ - cursor_ + returned_.size()) / (2 * processes);
@@ -51,8 +52,8 @@ class Handout {
     returned_.insert(returned_.end(), unmade.begin(), unmade.end());
     moved_.notify_all();
   }
-  /// Returns a run to the leader's own threads. Waits while other processes hold runs, because one may be
-  /// returned.
+  /// Gives a run to the leader's own threads. Waits while other processes have runs, because one of these may
+  /// be returned.
   std::optional<std::size_t> next() {
     std::unique_lock lock(guard_);
     while (!over_ && !runs_.stop.stop_requested()) {
@@ -184,9 +185,10 @@ class Leader {
     handout_.came_back(0, gone.unmade);
   }
   template <class Other>
-  void take(unsigned, Other&) {}  // no process sends letters to the leader that are the leader's own
+  void take(unsigned, Other&) {}  // a process never sends the leader a letter of the leader's own kinds
 
-  /// A process without remaining runs stays registered, because a run may be returned.
+  /// Gives runs to the processes that have requested some. A process that gets none stays registered, because
+  /// a run may be returned.
   void feed() {
     for (auto one = hungry_.begin(); one != hungry_.end();) {
       const auto& [rank, hunger] = *one;

@@ -16,7 +16,7 @@ template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
 // Lists the members of each struct in the order of their bytes, for writing and reading. Structs of other
-// folders are unpacked completely, so that a new member is a compiler error here.
+// folders are unpacked completely, so that a new member causes a compiler error here.
 
 auto members(Is<analysis::Axis> auto& axis) {
   auto& [key, values, from, to, points, spacing, strays] = axis;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the messages between the processes of a cluster, and each as bytes (batch/byte_format.hpp).
+// Defines the messages (letters) between the processes of a cluster, and each letter as bytes
+// (batch/byte_format.hpp).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,21 +15,21 @@
 
 namespace batch::letters {
 
-// From the leader.
+// Letters from the leader:
 
 /// Begins a plan.
 struct Begin {
   analysis::Plan plan;
   analysis::PlanColumns columns;
-  std::uint64_t jobs = 1;  ///< threads of each process
-  std::string made_of;     ///< same value as in Briefing
+  std::uint64_t jobs = 1;  ///< number of threads of each process
+  std::string made_of;     ///< Briefing::made_of
 };
 /// Numbers of the runs that the receiver has to make.
 struct Runs {
   std::vector<std::uint64_t> numbers;
 };
 struct Answer {
-  std::uint64_t to = 0;  ///< number of the question
+  std::uint64_t to = 0;  ///< number of the question that is answered
   std::string bytes;
 };
 /// Ends the plan; runs in progress are no longer needed.
@@ -37,14 +38,14 @@ struct Dismissed {
   std::uint64_t exit = 0;
 };
 
-// To the leader.
+// Letters to the leader:
 
-/// Finished rows without their points, which follow from the plan. The leader puts them under its columns again.
+/// Finished rows without their points, which follow from the plan. The leader joins them with its columns.
 struct Rows {
   std::vector<analysis::RunValues> rows;
 };
-/// The sender requests more work: `idle` threads have no run; `ahead` more runs would keep all threads busy
-/// for the next moment.
+/// The sender requests more work: `idle` threads have no run, and `ahead` more runs would keep all threads
+/// busy for the next moment.
 struct Hungry {
   std::uint64_t idle = 0, ahead = 0;
 };
@@ -52,7 +53,7 @@ struct Question {
   std::uint64_t number = 0;
   std::string bytes;
 };
-/// The sender will send no more rows of this plan. It did not make these runs.
+/// The sender will send no more rows of this plan. It has not made the runs `unmade`.
 struct Gone {
   std::vector<std::uint64_t> unmade;
 };
@@ -60,7 +61,7 @@ struct Gone {
 using Letter = std::variant<Begin, Runs, Answer, End, Dismissed, Rows, Hungry, Question, Gone>;
 
 std::string bytes_of(const Letter& letter);
-/// Empty if the bytes are not exactly one letter.
+/// Reads a letter. Empty if the bytes are not exactly one letter.
 std::optional<Letter> read(std::string_view bytes);
 
 }  // namespace batch::letters

@@ -21,11 +21,11 @@ namespace {
 using analysis::FigureColumn;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Value of a point that could not run, or of a figure without a value: worse than any measurable miss.
+/// Value of a point that could not run, or of a figure without a value. It is worse than any measurable miss.
 constexpr double hopeless = 1e3;
-constexpr double close = 1e-3;  ///< relative to a limit's size, and to a range
+constexpr double close = 1e-3;  ///< precision of the search, relative to a limit's size and to a range
 
-/// Distance of a figure beyond its limits, relative to their size; negative within.
+/// Distance by which a figure exceeds its limits, relative to their size; negative within the limits.
 double beyond(const FigureColumn& f, double x) {
   if (!(x - x == 0.0)) return hopeless;
   double miss = -hopeless;
@@ -37,9 +37,9 @@ double beyond(const FigureColumn& f, double x) {
 
 struct Evaluated {
   std::vector<std::string> point;
-  std::vector<double> at, figures;  ///< coordinates 0 to 1; figures of the worst drive
-  double cost = none;               ///< the figure, relative to its size at the first point that has one
-  std::vector<double> misses;       ///< one per requirement
+  std::vector<double> at, figures;  ///< coordinates of the point, 0 to 1; figures of its worst drive
+  double cost = none;  ///< the figure to minimise, relative to its size at the first point that has it
+  std::vector<double> misses;  ///< one value of beyond() per requirement
   double worst() const {
     return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end());
   }
@@ -88,7 +88,7 @@ class Search {
     return found == tried_.end() || (*found)->cost != (*found)->cost ? nullptr : found->get();
   }
 
-  /// Empty if it was stopped.
+  /// The row of a drive at a point. Empty if the search was stopped.
   std::optional<analysis::RunRecord> row(const std::vector<std::string>& point, std::size_t number,
                                          std::size_t drive) const {
     if (w_.known)
@@ -101,8 +101,9 @@ class Search {
     return made;
   }
 
-  /// Evaluates the drives of a point. Each figure is that of its worst drive: if required, the one nearest to its
-  /// limit or farthest beyond; if minimised, the largest.
+  /// Evaluates the drives of a point. Each figure is that of its worst drive. For a required figure, this is
+  /// the drive nearest to the limit or farthest beyond it; for the minimised figure, the drive with the
+  /// largest value.
   const Evaluated& evaluate(const std::vector<double>& u) {
     auto e = std::make_unique<Evaluated>();
     e->at = u;
@@ -185,7 +186,8 @@ class Search {
     nlopt_set_maxeval(o, static_cast<int>(4 * w_.evaluations));
     double least = 0.0;
     const nlopt_result how =
-        nlopt_optimize(o, u.data(), &least);  // the best point is among those tried, however the search ended
+        nlopt_optimize(o, u.data(), &least);  // the result is not used, because the best of all tried points
+                                              // is taken, however the search ended
     converged_ = !ended() && (how == NLOPT_XTOL_REACHED || how == NLOPT_FTOL_REACHED || how == NLOPT_SUCCESS);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the best point of a plan's ranges: the least value of one figure while every drive holds every
-// requirement. It uses NLopt's COBYLA, which needs no gradients of the limits: figures of a switching simulation
-// have none (M. J. D. Powell 1994, S. G. Johnson).
+// Finds the best point of a plan's ranges: the least value of one figure while every drive meets every
+// requirement. It uses NLopt's COBYLA, which needs no gradients of the limits (M. J. D. Powell 1994, S. G.
+// Johnson). Figures of a switching simulation have no useful gradients.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -17,25 +17,25 @@
 namespace batch {
 
 struct Optimisation {
-  const analysis::Plan& plan;  ///< only ranges; with drives at each point
+  const analysis::Plan& plan;  ///< its axes must be ranges; it may have several drives at each point
   analysis::TableColumns columns;
   std::size_t figure = 0;         ///< column of the figure to be minimised
-  std::size_t evaluations = 200;  ///< points at most
-  /// The drive of a point. Called on any thread, several at once.
+  std::size_t evaluations = 200;  ///< largest number of points
+  /// The drive of a point. Several threads may call it at the same time.
   std::function<base::Result<analysis::PlannedRun>(const std::vector<std::string>& point, std::size_t drive)>
       scenario;
-  /// A stored row, if any; its number is evaluation times drives, plus the drive. It is used if its point is the
-  /// wanted one.
+  /// A stored row, if there is one. Its number is the evaluation times the number of drives, plus the drive.
+  /// It is used only if its point is the wanted one.
   std::function<std::optional<analysis::RunRecord>(std::size_t number)> known;
-  std::function<void(analysis::RunRecord&&)> take;        ///< each new row; from any thread
-  std::function<void(std::size_t evaluations)> progress;  ///< points tried so far
+  std::function<void(analysis::RunRecord&&)> take;        ///< gets each new row, from any thread
+  std::function<void(std::size_t evaluations)> progress;  ///< gets the number of points tried so far
   std::stop_token stop;
   unsigned jobs = 0;
 };
 
-/// Half of the points, but at most ten per key, are spread evenly over the ranges; then COBYLA continues from
-/// the best. The same input gives the same path with any number of threads. Empty if it was stopped before
-/// its first point was complete, or if no point could run.
+/// Runs the search. Half of the points, but at most ten per key, are spread evenly over the ranges; then
+/// COBYLA continues from the best of them. The same input gives the same path with any number of threads.
+/// Empty if the search was stopped before its first point was complete, or if no point could run.
 std::optional<analysis::Optimum> optimise(const Optimisation& work);
 
 }  // namespace batch

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a plan's runs on all cores. Each run equals a single one to the bit, because the runs share nothing.
+// Makes a plan's runs on all cores. Each run equals the same run made alone, to the bit, because runs share
+// nothing.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -17,17 +18,17 @@ namespace batch {
 struct PlanRuns {
   const analysis::Plan& plan;
   analysis::TableColumns columns;
-  /// The scenario of run n; Problems become its row. Several threads call it at once.
+  /// The scenario of run n; Problems become the run's row. Several threads call it at the same time.
   std::function<base::Result<analysis::PlannedRun>(std::size_t n)> scenario;
-  /// Whether run n is required; empty: all are. Called like `scenario`.
+  /// Whether run n is required; empty: all runs are. Several threads call it at the same time.
   std::function<bool(std::size_t n)> wanted;
   /// Receives each row when its run ends, in any order; several threads call it at the same time.
   std::function<void(analysis::RunRecord&&)> take;
-  std::stop_token stop;  ///< also ends the runs in progress, which leave no row
-  unsigned jobs = 0;     ///< threads; 0: one per core
+  std::stop_token stop;  ///< also ends the runs in progress, which then leave no row
+  unsigned jobs = 0;     ///< number of threads; 0: one per core
 };
 
-/// Makes a run and its row; empty if it was stopped before its end.
+/// Makes a run and its row. Empty if the run was stopped before its end.
 std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& columns, std::size_t number,
                                               std::vector<std::string> point,
                                               const base::Result<analysis::PlannedRun>& planned,
@@ -36,7 +37,7 @@ std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& colu
 /// Like row_of_run(), for one run of the plan.
 std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n);
 
-/// Makes all wanted runs. An exception of one of the functions is thrown again here.
+/// Makes all wanted runs. An exception that one of the functions throws is rethrown here.
 void run_plan(const PlanRuns& runs);
 
 /// Makes the runs that `next` returns, on `threads` threads, until it returns none or the work is stopped.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joins the cluster that mpirun or srun starts. Uses MPI if the build has it (SIXSTEP_MPI); without it, a
-// process that belongs to several reports that. MPI belongs to a process, not to an object: each function is
-// called once.
+// process that is one of several reports a Problem. MPI belongs to a process, not to an object, so that each
+// function is called only once.
 #pragma once
 #include <string>
 
@@ -17,11 +17,11 @@ struct Started {
 };
 Started started();
 
-/// Returns a cluster of one if one process was started, without MPI.
+/// Joins the cluster. If only one process was started, returns a cluster of one, without MPI.
 base::Result<Cluster> join_ranks();
 
-/// Last call of a process: waits until all processes have called it. Without it mpirun considers the process
-/// lost and ends the others.
+/// The last call of a process: waits until all processes have called it. Without this call, mpirun considers
+/// the process lost and ends the others.
 void part();
 
 }  // namespace batch

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Repeats a call that a signal has interrupted. Returns 0 or errno.
+/// Repeats a call that a signal has interrupted, until it is completed. Returns 0 or errno.
 template <class Call>
 int persistently(Call call) {
   for (;;) {
@@ -50,7 +50,8 @@ int write_all(int descriptor, std::string_view text, bool waits) {
   return 0;
 }
 
-/// The end of a chain of links, whether it exists or not; for a circle, the last link visited.
+/// The file at the end of a chain of links, whether it exists or not; if the links form a circle, the last
+/// link visited.
 fs::path end_of_links(fs::path path) {
   constexpr int most_links = 40;  // the kernel's limit
   std::error_code none;
@@ -59,14 +60,14 @@ fs::path end_of_links(fs::path path) {
   return path;
 }
 
-/// A name that no other program uses and that no killed program has left in the folder.
+/// A name that no other program uses, and that no killed program can have left in the folder.
 std::string random_name() {
   std::random_device random;
   return fmt::format(".sixstep-{:08x}{:08x}.tmp", random(), random());
 }
 
-/// Reasons against a file at this path although the folder is writable. `partial`: the name for an
-/// interrupted run.
+/// Reasons why a file at this path is refused although the folder is writable. `partial`: name of the file
+/// for an interrupted run.
 base::Problems refused(const Destination& to, const std::string& partial) {
   if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
@@ -83,7 +84,7 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   return {};
 }
 
-/// A name is safe on the disk only after its folder is synchronised.
+/// Synchronises a folder, because only then is a file's new name safe on the disk.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -123,8 +124,8 @@ void AtomicFile::Remove::operator()(std::string* name) const {
   delete name;
 }
 
-/// Opens a device or pipe directly, which may wait for a pipe's other end. Writes do not block in the kernel,
-/// where a signal between two pieces would be lost.
+/// Opens a device or pipe directly, which may wait for the pipe's other end. Writes do not block in the
+/// kernel, because a signal between two parts of a blocking write would be lost.
 int AtomicFile::open_device() {
   waits_ = true;
   const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -132,8 +133,8 @@ int AtomicFile::open_device() {
   return descriptor;
 }
 
-/// Opens a unique name in the folder of the final file. `old`: the file to be replaced; the new one never has
-/// wider permissions, not even for a moment.
+/// Opens a unique name in the folder of the final file. `old` is the file to be replaced. The new file never
+/// has more permissions than the old one, not even for a moment.
 int AtomicFile::open_beside(const struct stat* old) {
   constexpr mode_t usual = 0666, permission_bits = 0777;
   const mode_t permissions = old ? old->st_mode & permission_bits : usual;
@@ -145,8 +146,9 @@ int AtomicFile::open_beside(const struct stat* old) {
   } while (descriptor < 0 && errno == EEXIST);
   if (temporary_) note_temporary(temporary_->c_str());
   if (descriptor >= 0 && old) {
-    std::ignore = ::fchown(descriptor, old->st_uid, old->st_gid);  // only root may give a file away
-    ::fchmod(descriptor, permissions);                             // the umask may have removed some
+    std::ignore = ::fchown(descriptor, old->st_uid, old->st_gid);  // succeeds only for root, because only
+                                                                   // root may give a file to another user
+    ::fchmod(descriptor, permissions);  // the umask may have removed some permissions
   }
   return descriptor;
 }
@@ -169,7 +171,7 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
     descriptor = file.open_device();
   } else {
     file.path_ = end_of_links(to.path).string();
-    // Made absolute now, because foreign code in a run may change the working folder.
+    // The path is made absolute now, because foreign code in a run may change the working folder.
     std::error_code unknown;
     const fs::path here = fs::path(file.path_).parent_path();
     file.folder_ = fs::absolute(here.empty() ? "." : here, unknown);
@@ -228,11 +230,11 @@ base::Problems AtomicFile::save_what_is_whole() {
   return {problem};
 }
 
-/// Makes it safe on the disk first, then renames it. Returns 0 or errno.
+/// Writes the file to the disk first, then renames it. Returns 0 or errno.
 int AtomicFile::put_in_place(const std::string& path) {
   if (!temporary_) return 0;
   const int descriptor = *descriptor_;
-  // Removes bytes of a failed write, and reserved space, after the completely written text.
+  // Removes bytes of a failed write, and reserved space, behind the completely written text.
   if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
     return failed;
   if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;

@@ -12,7 +12,8 @@
 namespace files {
 namespace {
 
-/// pwrite or pread of all bytes. Returns 0 or errno. A premature end means that the file was cut.
+/// Calls pwrite or pread until all bytes are moved. Returns 0 or errno. A premature end means that the file
+/// was shortened by another program.
 template <class Move>
 int move_all(Move move, std::size_t bytes, std::uint64_t at) {
   std::size_t done = 0;
@@ -43,7 +44,7 @@ ColumnSpool::ColumnSpool(const std::string& path, std::size_t columns)
   if (*descriptor_ < 0)
     error_ = errno;
   else
-    ::unlink(name.c_str());  // disappears with the program, however that ends
+    ::unlink(name.c_str());  // the file disappears with the program, however the program ends
 }
 
 void ColumnSpool::row(std::span<const double> numbers) {
@@ -60,7 +61,7 @@ void ColumnSpool::spill() {
   error_ = move_all(
       [&](std::size_t done, std::size_t n, off_t at) { return ::pwrite(*descriptor_, from + done, n, at); },
       bytes, blocks_ * bytes);
-  if (error_ != 0) return;  // the block stays in memory and is not lost
+  if (error_ != 0) return;  // after an error the block stays in memory and is not lost
   ++blocks_;
   held_ = 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads rows and returns columns, with memory for only one block of rows. The rest is in an unnamed file in
-// the folder of the final one.
+// Takes rows and returns columns, with memory for only one block of rows. The other rows are in an unnamed
+// file in the folder of the final file.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -21,16 +21,17 @@ class ColumnSpool {
   /// If `path` is empty, it is in the folder of temporary files.
   ColumnSpool(const std::string& path, std::size_t columns);
 
-  /// True after a row did not fit on the disk: it and all following rows are lost, earlier ones are not.
+  /// Adds a row. If a row does not fit on the disk, this row and all following rows are lost; earlier rows
+  /// are not.
   void row(std::span<const double> numbers);
   bool failed() const { return error_ != 0; }
-  /// errno; 0: no error.
+  /// errno of the first failure; 0: no error.
   int error() const { return error_; }
 
   std::size_t rows() const { return blocks_ * block_rows + held_; }
   std::size_t columns() const { return columns_; }
 
-  /// Passes the column's numbers to `take` in order, in pieces; false if `take` or the disk fails.
+  /// Passes the column's numbers to `take` in order, in pieces. Returns false if `take` or the disk fails.
   bool column(std::size_t which, const std::function<bool(std::span<const double>)>& take);
 
  private:
@@ -41,7 +42,7 @@ class ColumnSpool {
 
   std::size_t columns_;
   std::unique_ptr<int, Close> descriptor_;
-  std::vector<double> block_;  // column after column, block_rows each
+  std::vector<double> block_;  // one column after the other, block_rows numbers each
   std::size_t held_ = 0, blocks_ = 0;
   int error_ = 0;
 };

@@ -24,7 +24,7 @@ base::Problem unloaded(const std::string& path, std::string why) {
           .cure = "compile it with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
 }
 
-/// Runs the object's code already, with the constructors of its libraries.
+/// Loads a shared object. Loading already runs the object's code: the constructors of its libraries.
 base::Result<text::NamedText> loaded_from(const std::string& path, const std::string& whole) {
   void* const object = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) {
@@ -45,7 +45,7 @@ base::Result<text::NamedText> loaded_from(const std::string& path, const std::st
   return text::NamedText{path, {}, *guarded};
 }
 
-/// The same options as those of the Python package's compiled().
+/// The command that compiles the source, with the options of the Python package's compiled().
 std::string compile_command(const std::string& source) {
   const std::filesystem::path path(source);
   const bool cpp = path.extension() == ".cpp" || path.extension() == ".cc" || path.extension() == ".cxx";
@@ -67,7 +67,7 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
                          .limit = "is not a compiled library: it may be the source",
                          .cure = "compile it and name the result: " + compile_command(path) +
                                  ", where FOLDER has sixstep/control/own/own_controller.h"};
-  // The loader searches a name without a slash among the system's libraries.
+  // The path gets a slash, because the loader searches a name without a slash among the system's libraries.
   std::error_code ignored;
   const std::string whole = std::filesystem::absolute(path, ignored).string();
   base::Result<text::NamedText> loaded = base::Problem{};

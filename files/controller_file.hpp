@@ -8,8 +8,9 @@
 
 namespace files {
 
-/// Loads it until the program ends; the same file is loaded once. Its bytes count as read (ReadLog). Problem: a
-/// part of the interface is missing or wrong. Later mistakes are caught by controller_guard.hpp.
+/// Loads the file until the program ends; a file that is loaded already is not loaded again. Its bytes count
+/// as read (ReadLog). Problem: a part of the interface is missing or wrong. Mistakes during calls are caught
+/// by controller_guard.hpp.
 base::Result<text::NamedText> load_controller(const std::string& path);
 
 }  // namespace files

@@ -35,10 +35,11 @@ const femode_t& usual_mode() {
   return usual;
 }
 
-/// A controller as loaded, and as the program calls it.
+/// A controller in two forms: as loaded, and as the program calls it.
 struct Guarded {
   std::string path, name, sentence;
-  std::deque<std::string> words;  ///< texts of its parameters; pointers to them stay valid
+  std::deque<std::string> words;  ///< texts of the controller's parameters; a deque, so that pointers to them
+                                  ///< stay valid
   std::vector<sixstep_parameter> parameters;
   sixstep_controller real{}, shown{};
 };
@@ -48,7 +49,7 @@ std::array<Guarded, most_controllers> controllers;
 std::size_t loaded_controllers = 0;
 std::mutex adding;
 
-/// Runs the controller's code on this thread, and reports if it does not return normally.
+/// Runs the controller's code on this thread. If the code does not return normally, this is reported.
 template <class Work>
 void inside(const char* path, ControllerPlace place, const Work& work) {
   const femode_t& usual = usual_mode();
@@ -73,8 +74,8 @@ void must_be_whole(const ControllerThread& thread, const GuardedRoom& room, cons
 constexpr char beside_state[] = "wrote beside its state", beside_config[] = "wrote beside its config",
                beside_answer[] = "wrote beside its answer";
 
-/// The interface has no argument for the controller itself. Therefore each controller has its own functions,
-/// by its number.
+/// The interface has no argument that identifies the controller. Therefore each controller has functions of
+/// its own, selected by its number.
 template <std::size_t N>
 struct Calls {
   static const Guarded& is() { return controllers[N]; }
@@ -107,7 +108,7 @@ struct Calls {
 
   static void step(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint,
                    sixstep_answer* answer) {
-    std::atomic<std::uint64_t>& steps = controller_thread().steps;  // written by this thread alone
+    std::atomic<std::uint64_t>& steps = controller_thread().steps;  // only this thread writes it
     steps.store(steps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     const sixstep_measured seen = *measured;
     with_bytes(ControllerPlace::step, config, state, answer,
@@ -154,7 +155,7 @@ void show(std::size_t which, sixstep_controller& as, std::index_sequence<N...>) 
   all[which](as);
 }
 
-/// Its texts are copied once, here, because their pointers may be wrong.
+/// Copies the controller's texts once, because its pointers may become wrong later.
 void take(Guarded& into, const std::string& path, const sixstep_controller& real) {
   into.path = path;
   into.real = into.shown = real;
@@ -173,13 +174,13 @@ void take(Guarded& into, const std::string& path, const sixstep_controller& real
 }  // namespace
 
 void in_controller(const std::string& path, const std::function<void()>& work) {
-  static std::deque<std::string> paths;  // kept, because later messages use the names
+  static std::deque<std::string> paths;  // kept without end, because later messages use the names
   const char* stays = nullptr;
   {
     const std::lock_guard lock(adding);
     stays = paths.emplace_back(path).c_str();
   }
-  usual_mode();  // saved before foreign code can change it
+  usual_mode();  // saves the mode before foreign code can change it
   watch_controllers(stays);
   inside(stays, ControllerPlace::loading, [&](const ControllerThread&) { work(); });
 }

@@ -31,7 +31,7 @@ char noted_in[4096];  // a path that a signal handler opens
 
 long this_thread() { return ::syscall(SYS_gettid); }
 
-/// Finds the record by the thread's number, because thread-local memory may have been overwritten.
+/// Finds the thread's record by the thread's number, because thread-local memory may have been overwritten.
 ControllerThread* found_thread() {
   const long me = this_thread();
   for (ControllerThread& t : threads)
@@ -98,8 +98,8 @@ struct sigaction before_us[64];
 extern "C" void on_crash(int signal, siginfo_t*, void*) {
   const ControllerThread* const at = found_thread();
   if (at && at->place != ControllerPlace::outside) end_by_controller(*at, crash_of(signal));
-  // The crash is not in the controller's code, but it may have overwritten memory: the previous handler
-  // continues.
+  // The crash is not in a controller's code, but a controller may have overwritten memory. After this message
+  // the previous handler continues.
   SignalLine words;
   words << "sixstep crashed; " << (last_loaded.load() ? last_loaded.load() : "a controller")
         << " runs in this program and may have written over its memory";
@@ -118,15 +118,15 @@ extern "C" void on_exit_of_the_program() {
   end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
 }
 
-/// The record of the watchdog for calls that do not return: a thread's call and the number of checks that
-/// found it.
+/// What the watchdog for calls that do not return has seen of a thread: its call, and the number of checks
+/// that found the same call.
 struct SeenCall {
   std::uint64_t calls = 0;
   int looks = 0;
 };
 
-/// Checks ten times a second. It counts checks instead of reading a clock, because a program that a debugger
-/// or Ctrl-Z stops makes no progress either.
+/// Checks ten times a second. It counts checks and reads no clock, because calls make no progress either
+/// while a debugger or Ctrl-Z stops the program.
 void* watch_calls(void*) {
   constexpr int looks_a_second = 10;
   static SeenCall seen[most_threads];
@@ -144,12 +144,12 @@ void* watch_calls(void*) {
   }
 }
 
-/// The watchdog's thread gets no signal, because a signal must interrupt the thread that waits.
+/// Blocks all signals in the watchdog's thread, because a signal must interrupt the thread that waits for it.
 void start_watch_of_calls() {
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  pthread_t watch{};  // not std::thread, which throws where the system has no thread left
+  pthread_t watch{};  // not std::thread, which throws if the system cannot start another thread
   if (::pthread_create(&watch, nullptr, watch_calls, nullptr) == 0) ::pthread_detach(watch);
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
@@ -165,7 +165,7 @@ void watch_the_end() {
   start_watch_of_calls();
 }
 
-/// A separate stack for the handler, because an overflowed stack has no room for it.
+/// A separate stack for the signal handler, because an overflowed stack has no room for it.
 struct HandlerStack {
   static constexpr std::size_t bytes = 65536;
   std::unique_ptr<char[]> room = std::make_unique<char[]>(bytes);
@@ -182,7 +182,7 @@ struct HandlerStack {
   }
 };
 
-/// The last call of a thread, however it ends.
+/// Called at the end of a thread, however the thread ends.
 extern "C" void on_end_of_thread(void* thread) {
   const auto* const at = static_cast<const ControllerThread*>(thread);
   if (at->place != ControllerPlace::outside) end_by_controller(*at, "ended its thread, as by pthread_exit()");
@@ -196,7 +196,7 @@ pthread_key_t end_of_thread() {
   return key;
 }
 
-/// Registers the thread with the watchdog during the thread's life.
+/// Registers the thread with the watchdog for as long as the thread lives.
 struct Membership {
   HandlerStack stack;
   ControllerThread* at = nullptr;
@@ -214,7 +214,8 @@ struct Membership {
     ::pthread_setspecific(end_of_thread(), at);
   }
   ~Membership() {
-    if (at->place != ControllerPlace::outside) return;  // exit() runs this, too; its handler reports it
+    // If a controller calls exit(), this runs too; the handler of exit() reports it.
+    if (at->place != ControllerPlace::outside) return;
     at->runs = 0;
     at->thread = 0;
   }
@@ -266,15 +267,15 @@ void tell_controllers_that_do_not_come_back() {
   constexpr char what[] = "does not come back";
   for (const ControllerThread& t : threads) {
     if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
-    note_run(t, what);  // noted before the message, after which the user may interrupt again
+    note_run(t, what);  // noted before the message, because the user may interrupt again after the message
     tell(t, what, "; press Ctrl-C again to end (or send a second SIGTERM)");
   }
 }
 
 }  // namespace files
 
-// Replaces the C library's functions, which would end the program without a message. A shared object that calls
-// these names gets the program's versions.
+// Replaces functions of the C library that would end the program without a message. A shared object that
+// calls these names gets the program's versions.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 __attribute__((noreturn, visibility("default"))) void _exit(int code) {

@@ -15,11 +15,12 @@
 namespace files {
 namespace {
 
-/// The beginning of a format, and the text before the version, which may follow a few bytes later.
+/// The beginning of a format, and the text that precedes the version. The text may follow the beginning after
+/// a few bytes.
 struct Mark {
   std::string_view begin, name;
 };
-constexpr Mark marks[] = {{"", "# sixstep "},  // CSV
+constexpr Mark marks[] = {{"", "# sixstep "},  // the format CSV
                           {"// ", "// Made by sixstep "},
                           {"", "$version sixstep "},
                           {"", "MATLAB 5.0 MAT-file, sixstep "},

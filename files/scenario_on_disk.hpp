@@ -9,24 +9,24 @@
 
 namespace files {
 
-/// Finds named files in the folder of the file that names them, and motors also in the data folder as
-/// motors/NAME.toml.
+/// A Resolve that finds named files in the folder of the file that names them, and motors also in the data
+/// folder as motors/NAME.toml.
 text::Resolve on_disk(const std::string& data_dir = {});
 
 struct ReadOptions {
-  std::string data_dir;                  ///< contains motors/; empty: none
+  std::string data_dir;                  ///< folder with motors/; empty: none
   std::vector<text::Setting> overrides;  ///< settings of the command line, which override the file
 };
 
-/// text::read_scenario_text() of the file.
+/// Reads the file, then calls text::read_scenario_text().
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
 
-/// Like read_scenario(), for a given text. `path` is its name in messages, and the place from which named
-/// files are found.
+/// Like read_scenario(), for a given text. `path` is the text's name in messages, and named files are
+/// searched relative to it.
 base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
                                                  const ReadOptions& options = {});
 
-/// A motor by path or name.
+/// Reads a motor's sheet by path or name.
 base::Result<design::Sheet> read_sheet(const std::string& name, const std::string& data_dir = {});
 
 }  // namespace files

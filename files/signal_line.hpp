@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats and writes text without the C library's memory and locks, which a signal handler must not use.
+// Formats and writes text without the C library's memory and locks, because a signal handler must not use
+// these.
 #pragma once
 #include <unistd.h>
 

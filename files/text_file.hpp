@@ -12,8 +12,9 @@ namespace files {
 /// The whole file, byte for byte.
 base::Result<std::string> read_text(const std::string& path);
 
-/// Notes every file that read_text() reads in this thread during its life: a scenario's, its motor's, and all
-/// files named there. A log inside another passes its paths on to it when it ends.
+/// Notes every file that read_text() reads in this thread while the log exists: a scenario's file, its
+/// motor's file, and all files named there. A log that ends inside another one passes its paths on to the
+/// outer log.
 class ReadLog {
  public:
   ReadLog();
@@ -25,12 +26,12 @@ class ReadLog {
   const std::vector<std::string>& paths() const { return paths_; }
   /// Digest of the contents in the order of reading. Paths have no influence.
   std::uint64_t digest() const { return digest_; }
-  /// The text of the first file, because a pipe can be read only once.
+  /// The text of the first file. It is kept because a pipe can be read only once.
   const std::string& first_text() const { return first_text_; }
 
   void note(const std::string& path, const std::string& text);
 
-  /// Whether a log of this thread, or one that ended inside it, has noted the file, under any name.
+  /// Whether a log of this thread, or a log that ended inside it, has noted the file, under any name.
   static bool has(const std::string& path);
 
  private:
@@ -40,10 +41,10 @@ class ReadLog {
   ReadLog* outer_;
 };
 
-/// 64 bits of a text; `before` is the digest of the preceding text. Not cryptographic.
+/// A digest of 64 bits of a text; `before` is the digest of the preceding text. It is not cryptographic.
 std::uint64_t text_digest(const std::string& text, std::uint64_t before = 0);
-/// Like read_text(), for a file that another file names. It must be a regular file, because a device or a
-/// pipe may never end.
+/// Like read_text(), for a file that another file names. The file must be a regular one, because a device or
+/// a pipe may never end.
 base::Result<std::string> read_regular_text(const std::string& path);
 
 }  // namespace files

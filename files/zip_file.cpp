@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// By minizip, which is part of zlib's own sources and writes to any place through its callbacks.
+// Uses minizip, which is part of zlib's own sources and can write to any place through its callbacks.
 #include "files/zip_file.hpp"
 
 #include <minizip/zip.h>
@@ -10,7 +10,7 @@
 namespace files {
 namespace {
 
-/// Where minizip writes.
+/// The memory into which minizip writes.
 struct Memory {
   std::string bytes;
   std::size_t at = 0;
@@ -40,7 +40,7 @@ int error_of_memory(voidpf, voidpf) { return 0; }
 
 bool add(zipFile zip, const ZipEntry& entry) {
   zip_fileinfo about{};
-  about.dosDate = (1U << 21) | (1U << 16);  // 1980-01-01, the first that the format has
+  about.dosDate = (1U << 21) | (1U << 16);  // 1980-01-01, the first date that the format has
   about.external_fa = (entry.executable ? 0100755U : 0100644U) << 16;
   constexpr uLong made_by_unix = 3U << 8;
   const int level = entry.packed ? Z_DEFAULT_COMPRESSION : 0;

@@ -9,13 +9,13 @@
 namespace files {
 
 struct ZipEntry {
-  std::string name;  ///< "sources/a.c"
+  std::string name;  ///< path in the archive, such as "sources/a.c"
   std::string content;
-  bool packed = true;  ///< false: its bytes stand in the archive as they are
+  bool packed = true;  ///< false: the entry's bytes are stored uncompressed
   bool executable = false;
 };
 
-/// The archive: the same bytes for the same entries, without dates. Empty if memory ends.
+/// The archive. The same entries give the same bytes, without dates. Empty if there is not enough memory.
 std::string zipped(const std::vector<ZipEntry>& entries);
 
 }  // namespace files

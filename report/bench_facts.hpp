@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws elements that the pages of bench measurements share.
+// Draws elements that several pages of bench measurements use.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ inline void add_bar(SvgCurve& curve, double x, double from, double to) {
   curve.y.insert(curve.y.end(), {from, to, NAN});
 }
 
-/// The stride that leaves enough points of a long curve for a screen.
+/// The stride with which a long curve keeps enough points for a screen.
 inline std::size_t thinned_stride(std::size_t points) {
   constexpr std::size_t enough = 1500;
   return std::max<std::size_t>(1, points / enough);

@@ -33,7 +33,8 @@ std::vector<double> frequencies(const BodeStudy& s) {
   return w;
 }
 
-/// Adds the designed curves. Their phase begins as at the first line and continues without jumps.
+/// Adds the designed curves. Their phase begins in the turn of the first line's phase and continues without
+/// jumps.
 void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
   if (!s.designed || s.points.empty()) return;
   SvgCurve g{"designed", "reference", {}, {}}, p{"designed", "reference", {}, {}};
@@ -71,7 +72,7 @@ std::string charts(const BodeStudy& s) {
   return svg_chart(gain) + svg_chart(phase) + svg_chart(closed) + svg_chart(coherence);
 }
 
-/// Replaces the terminal's ASCII spellings by printed signs.
+/// Replaces the ASCII spellings of the terminal's text by printed signs, such as +- by ±.
 std::string in_print(std::string text) {
   const auto put = [&text](std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))

@@ -14,7 +14,7 @@ struct BodePage {
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_bode(const BodePage& page);
 
 }  // namespace report

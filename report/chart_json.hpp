@@ -19,7 +19,7 @@ namespace report {
 
 using json = nlohmann::ordered_json;
 
-/// The chosen rows of a column as base64 of its bytes.
+/// The chosen rows of a column as base64 of their bytes.
 template <class To>
 std::string packed(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   std::vector<To> chosen;
@@ -52,11 +52,11 @@ struct CurvePlace {
 json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places);
 
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario);
-/// The windows that fit into the page with all their rows.
+/// The windows, as many as the page can hold with all their rows.
 std::vector<Interval> kept(const Windows& windows, const std::vector<double>& time, std::size_t most_rows);
 
-/// Returns text in the library's format; invalid UTF-8 is replaced. The library itself needs more time for a
-/// megabyte of base64.
+/// Returns the JSON text that the library would print; invalid UTF-8 is replaced. The library itself needs
+/// more time for a megabyte of base64.
 std::string dumped(const json& page);
 
 }  // namespace report

@@ -21,7 +21,7 @@ struct Bins {
   std::uint32_t most = 1;
 };
 
-/// The nonempty bins, with an empty one on either side.
+/// The range of nonempty bins, with an empty bin on either side.
 Bins bins_of(const InterruptTimes& t) {
   Bins b{InterruptTimes::bins - 1, 0, 1};
   for (int n = 0; n < InterruptTimes::bins; ++n) {
@@ -33,7 +33,7 @@ Bins bins_of(const InterruptTimes& t) {
   return {std::max(b.first - 1, 0), std::min(b.last + 1, InterruptTimes::bins - 1), b.most};
 }
 
-/// Bars with the number of interrupts per duration; the time below the first and the last bar.
+/// Bars with the number of interrupts per duration. Below the first and the last bar stands its duration.
 std::string histogram(const InterruptTimes& t, double clock_Hz) {
   const Bins b = bins_of(t);
   const int bins = b.last - b.first + 1, bar_wide = std::max(least_bar_wide, least_wide / bins);

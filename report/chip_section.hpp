@@ -6,8 +6,8 @@
 
 namespace report {
 
-/// The times of a chip's interrupts when it ran the drive (rig/chip_drive.hpp), each with its histogram;
-/// empty if no chip ran.
+/// The durations of a chip's interrupts if it ran the drive (rig/chip_drive.hpp), each interrupt with a
+/// histogram; empty if no chip ran.
 std::string chip_section(const sixstep::study::Outcome& outcome);
 
 }  // namespace report

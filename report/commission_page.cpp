@@ -36,7 +36,7 @@ std::string facts(const CommissionStudy& s) {
   return out + bench_fact("Verdict", s.holds() ? "all within bounds" : "not all within bounds");
 }
 
-/// The time span from the first to the last of these phases.
+/// The time from the beginning of the first of these phases to the end of the last.
 CommissionPhase span_of(const CommissionStudy& s, Phase first, Phase last) {
   CommissionPhase out{.phase = first, .from_s = 0.0, .to_s = 0.0};
   bool any = false;

@@ -13,7 +13,7 @@ struct CommissionPage {
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_commission(const CommissionPage& page);
 
 }  // namespace report

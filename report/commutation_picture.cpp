@@ -14,8 +14,8 @@ namespace {
 namespace analysis = sixstep::analysis;
 
 constexpr double wave_left = 102, sector_width = 126, wave_right = wave_left + 6 * sector_width;
-constexpr double heads_height = 34, line_height = 24, level_height = 13;  // heights of headings, lines, and
-                                                                          // levels of a Hall line
+// heights of headings, lines, and levels of a Hall line; pixels
+constexpr double heads_height = 34, line_height = 24, level_height = 13;
 constexpr double emf_half = 30;
 constexpr const char* leg_letters[] = {"a", "b", "c"};
 constexpr const char* phase_colours[] = {"--a", "--b", "--c"};
@@ -78,14 +78,14 @@ std::string back_emf(const analysis::WiringStudy& study, double middle) {
                        line_through(curves[phase]));
   }
   out += "</g>\n";
-  for (std::size_t phase = 0; phase < 3; ++phase)  // the label is in the middle of the flat top
+  for (std::size_t phase = 0; phase < 3; ++phase)  // each label is in the middle of the phase's flat top
     out += fmt::format("<text class=\"m b s\" style=\"fill:var({})\" x=\"{:.0f}\" y=\"{:.1f}\">{}</text>\n",
                        phase_colours[phase], wave_left + sector_width * (1 + 2 * static_cast<double>(phase)),
                        middle - emf_half + 13, leg_letters[phase]);
   return out;
 }
 
-/// A leg's six sectors: filled where it is high, empty where it is low, a dashed line where it floats.
+/// A leg's six sectors: filled if the leg is high, empty if it is low, a dashed line if it floats.
 std::string leg_band(std::size_t leg, double y) {
   std::string out = name(fmt::format("leg {}", leg_letters[leg]), y + 9) +
                     fmt::format("<g style=\"color:var({})\">", phase_colours[leg]);

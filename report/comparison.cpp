@@ -28,7 +28,7 @@ std::string number(std::size_t place) {
                      place + 1);
 }
 
-/// A table with one column per run after the first column.
+/// A table whose first column is followed by one column per run.
 std::string table(const char* first, std::size_t runs, const std::string& rows) {
   std::string head = fmt::format("<th scope=\"col\">{}</th>", first);
   for (std::size_t k = 0; k < runs; ++k)
@@ -72,10 +72,10 @@ std::string difference_table(const std::vector<ComparedRun>& runs) {
                       : table("Key", runs.size(), rows);
 }
 
-/// One run's value of a figure.
+/// A figure's value in one run.
 struct Measured {
   double value = 0.0;
-  std::string css;  ///< "ok" or "bad" if it was judged
+  std::string css;  ///< "ok" or "bad" if a requirement judges it
 };
 using Ask = std::function<std::optional<Measured>(const ComparedRun&)>;
 
@@ -84,13 +84,13 @@ const char* mark(const std::string& css) {
   return css == "bad" ? " <b>✗ not met</b>" : "";
 }
 
-/// A figure of all runs, with the differences to the first run's value.
+/// A figure's row with the values of all runs and their differences from the first run's value.
 std::string figure_row(const std::string& name, const std::string& unit, const std::vector<ComparedRun>& runs,
                        const Ask& ask) {
   std::vector<std::optional<Measured>> found;
   found.reserve(runs.size());
   for (const ComparedRun& run : runs) found.push_back(run.outcome ? ask(run) : std::nullopt);
-  // Left out if no run has a value, or all values are zero.
+  // A figure is left out if no run has a value, or if all values are zero.
   if (std::ranges::all_of(found, [](const auto& m) { return !m || (m->value == 0.0 && m->css.empty()); }))
     return "";
   std::string html = fmt::format("<tr><th scope=\"row\">{}</th>", with_subscripts(name));
@@ -220,7 +220,7 @@ std::string chips(const std::vector<ComparedRun>& runs) {
   return html;
 }
 
-/// The difference of a board's log from the simulation. Empty without a log.
+/// The table of differences between a board's log and the simulation. Empty without a log.
 std::string trace_comparison_table(const ComparisonInput& in) {
   if (in.laid_over.empty()) return "";
   std::string rows;

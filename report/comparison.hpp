@@ -12,29 +12,31 @@
 namespace report {
 
 struct ComparedRun {
-  std::string name;                          ///< the file's, short
-  const sixstep::study::Scenario& scenario;  ///< for a board's log, the scenario that it is compared with
-  const sixstep::study::Outcome* outcome;    ///< null: a board's log, which has only columns
-  const sixstep::study::Trace& events;       ///< every event, both sides of each jump; for drawing
-  const sixstep::study::Trace& grid;         ///< the same instants for all runs, exact there; for subtraction
+  std::string name;                          ///< short name of the file
+  const sixstep::study::Scenario& scenario;  ///< scenario of the run; for a board's log, the scenario with
+                                             ///< which the log is compared
+  const sixstep::study::Outcome* outcome;    ///< null for a board's log, which has only columns
+  const sixstep::study::Trace& events;       ///< every event, with both sides of each jump; for drawing
+  const sixstep::study::Trace& grid;  ///< exact values at the same instants in all runs; for subtraction
 };
 
-inline constexpr std::size_t most_compared = 5;  ///< limit: number of distinguishable colours
+inline constexpr std::size_t most_compared = 5;  ///< a page has no more distinguishable colours
 
 struct ComparisonInput {
   std::vector<ComparedRun> runs;  ///< two to most_compared; differences are relative to the first one, which
                                   ///< must be a run
-  std::vector<sixstep::analysis::TraceComparison> laid_over{};  ///< results for a log, which is the last run
+  std::vector<sixstep::analysis::TraceComparison> laid_over{};  ///< comparison with a log, which is then the
+                                                                ///< last run
   double shift_s = 0.0;                                         ///< shift of the log
   std::string command;
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_comparison(const ComparisonInput& input);
 
-/// The time grid, s, on which these scenarios are subtracted: whole periods of the fastest PWM, as fine as a
-/// page can hold.
+/// The time grid in s on which the runs of these scenarios are subtracted: whole periods of the fastest PWM,
+/// as fine as a page can hold.
 double common_grid_s(const std::vector<const sixstep::study::Scenario*>& scenarios);
 
 }  // namespace report

@@ -18,11 +18,12 @@ namespace {
 
 using Values = std::vector<double>;
 
-constexpr std::size_t difference_rows = 15000;  // drawn without an envelope: below PlotSize::full
+constexpr std::size_t difference_rows = 15000;  // so few rows that they are drawn without an envelope
+                                                // (PlotSize::full)
 
 struct Compared {
   const char *id, *title, *unit, *quantity, *column;
-  double factor = 1.0;  ///< multiplies the column's number
+  double factor = 1.0;  ///< factor for the column's number
 };
 constexpr Compared of_turning_motors[] = {
     {"position", "Position", "°", "angle", "angle_rad", 180.0 / 3.14159265358979323846},
@@ -66,7 +67,7 @@ bool moves(const Values& values) {
                              [&](double v) { return std::abs(v - values.front()) > 1e-9 * std::abs(v); });
 }
 
-/// Whether all runs have the column and it changes in at least one.
+/// Whether all runs have the column, and it changes in at least one of them.
 bool worth_a_chart(const Compared& what, const std::vector<Values>& columns,
                    const std::vector<ComparedRun>& runs) {
   const bool has = std::ranges::none_of(columns, [](const Values& v) { return v.size() < 2; });
@@ -120,7 +121,8 @@ json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes
   return chart;
 }
 
-/// Every row of the runs that are so long that they get an envelope. Every second chart is an overlay.
+/// Packs every row of the runs that are so long that their curves are drawn as an envelope. Every second
+/// chart overlays the runs; the others are differences.
 json every_row(const std::vector<ComparedRun>& runs, const std::deque<std::vector<Values>>& drawn) {
   const PlotSize size;
   json out = json::array();
@@ -172,7 +174,7 @@ std::string comparison_data(const std::vector<ComparedRun>& runs) {
   out["windows"] = windows_json(choose_windows(runs[0].events, runs[0].scenario), runs[0].scenario);
   out["pole_pairs"] = runs[0].outcome->motor.machine.pole_pairs;
   Axes axes(out);
-  std::deque<std::vector<Values>> drawn;  // by overlay, by run
+  std::deque<std::vector<Values>> drawn;  // by chart of overlaid runs, then by run
   for (const Compared& what : compared_of(runs)) {
     std::vector<Values> columns;
     columns.reserve(runs.size());

@@ -40,7 +40,7 @@ const ContestRow* least_of(const Contest& c, std::size_t figure) {
 std::string name_of(const Contest& c, const ContestRow& row) {
   return std::string(c.entries[place_of(c, row)].who->name);
 }
-/// The number at a controller's point, and in front of its name at its curve.
+/// The controller's number, which stands at its point and in front of the name at its curve.
 std::string number_of(const Contest& c, const ContestRow& row) {
   return fmt::format("{}", place_of(c, row) + 1);
 }
@@ -57,7 +57,7 @@ std::string facts(const Contest& c) {
   return out;
 }
 
-/// Whether no controller has less of both: the Pareto front from the least ripple to the least losses.
+/// Whether no other controller has both less ripple and less losses: the Pareto front.
 bool on_front(const Contest& c, const ContestRow& row) {
   const auto ripple = analysis::ripple_figure, loss = analysis::loss_figure;
   return std::none_of(c.rows.begin(), c.rows.end(), [&](const ContestRow& other) {
@@ -91,7 +91,8 @@ SvgChart trade(const Contest& c) {
   return chart;
 }
 
-/// The speed from shortly before the load step until all controllers have settled, or the course continues.
+/// The speed from shortly before the load step until all controllers have settled, or until the next part of
+/// the course.
 SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* label, const char* style) {
   const analysis::Course& course = c.bench.course;
   const double before_s = 0.1 * (course.slow_at_s - course.load_at_s), to_s = course.load_at_s + 5 * before_s;
@@ -104,7 +105,7 @@ SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* l
   return curve;
 }
 
-/// Each controller's response to the load over that of the usual one.
+/// Each controller's response to the load, drawn over the response of the usual controller.
 std::string load_steps(const Contest& c) {
   const ContestTrace* usual = nullptr;
   for (const ContestRow& row : c.rows)
@@ -130,7 +131,7 @@ std::string html_list(const std::vector<std::string>& lines, std::string_view cl
   return lines.empty() ? std::string() : out + "</ul>\n";
 }
 
-/// Each table below its title; the least values are also bold.
+/// Each table below its title; the least value of a column is also bold.
 std::string tables(const Contest& c) {
   std::string out;
   for (const text::ContestTable& table : text::contest_tables(c)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a comparison of controllers as one HTML file: the least value of each figure, torque ripple against
-// losses, and each controller's response to the load, compared with that of the usual one.
+// losses, and each controller's response to the load together with that of the usual controller.
 #pragma once
 #include <string>
 
@@ -14,7 +14,7 @@ struct ContestPage {
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_contest(const ContestPage& page);
 
 }  // namespace report

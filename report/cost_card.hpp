@@ -10,19 +10,19 @@
 
 namespace report {
 
-/// Turn-ons per second and chopped switch, as in the figure of that name; with a PWM, its frequency. 0 if each
-/// chopped switch was turned on at most once. All six switches together turn on more often, because of
-/// commutation and of the other switch of a leg that is chopped complementarily.
+/// Turn-ons per second of the chopped switch, as in the figure of that name; with a PWM, its frequency. 0 if
+/// each chopped switch was turned on at most once. All six switches together turn on more often: commutation
+/// adds turn-ons, and so does the other switch of a leg with complementary chopping.
 double switching_frequency_Hz(const sixstep::study::Outcome& outcome);
 
-/// Turn-ons of T1 to T6 from whole_from_s() on. A switch that is on in the run's first row counts as turned on
-/// at its start.
+/// Number of turn-ons of T1 to T6 from whole_from_s() on. A switch that is on in the first row counts as
+/// turned on there.
 std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
 
-/// Half a sentence; empty if the trace has no gates.
+/// The turn-ons as half a sentence; empty if the trace has no gates.
 std::string switching_words(const sixstep::study::Outcome& outcome, const sixstep::study::Trace& trace);
 
-/// The content of the card; empty without any known cost.
+/// The content of the card; empty if no cost is known.
 std::string cost_content(const sixstep::study::Outcome& outcome, const sixstep::study::Trace& trace);
 
 }  // namespace report

@@ -19,7 +19,7 @@ namespace analysis = sixstep::analysis;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A point and its place on the axis.
+/// A point of the curve, and its place on the axis.
 struct OnCurve {
   const analysis::OperatingPoint* point;
   const analysis::NominalPoint* nominal = nullptr;
@@ -30,7 +30,8 @@ using Of = std::function<double(const OnCurve&)>;
 struct CurveLine {
   const char *label, *style, *meaning;
   Of of;
-  enum class Drawn { line, points, region } drawn = Drawn::line;  ///< a region is filled down to zero
+  /// region: the area from the curve down to zero is filled.
+  enum class Drawn { line, points, region } drawn = Drawn::line;
 };
 
 template <double analysis::OperatingPoint::*member>
@@ -135,7 +136,7 @@ class Charts {
     };
   }
 
-  /// Operating regions that bus and winding allow together: continuously, and for ten seconds.
+  /// Operating regions that bus and winding together allow: continuously, and for ten seconds.
   std::vector<CurveLine> regions() const {
     if (!curve_.thermal) return {};
     const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const OnCurve& p) {
@@ -149,8 +150,8 @@ class Charts {
              [=](const OnCurve& p) { return below(limit(p).continuous_Nm, p); }, CurveLine::Drawn::region}};
   }
 
-  /// The highest torque of the axis: the end of the motor's usual range, because the stall torque may be ten
-  /// times that and would compress the rest. 0 if the range is unknown.
+  /// The highest torque of the axis: the end of the motor's usual range. The stall torque may be ten times as
+  /// large and would compress the rest. 0 if the range is unknown.
   double corner_Nm() const {
     constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
     double corner = 0.0;

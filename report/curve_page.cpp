@@ -135,7 +135,7 @@ std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
 }
 
 std::string cell(double x, int digits = 4) {
-  const bool nothing = std::fabs(x) < 1e-9;  // rounding of a no-load point
+  const bool nothing = std::fabs(x) < 1e-9;  // only rounding at a no-load point
   return fmt::format("<td class=\"num\">{}</td>", nothing ? "0" : plain(x, digits));
 }
 

@@ -14,7 +14,7 @@ struct CurvePageInput {
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_curve(const CurvePageInput& input);
 
 }  // namespace report

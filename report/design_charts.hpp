@@ -8,7 +8,7 @@
 
 namespace report {
 
-/// The designed response over the simulated one, and the current of the latter.
+/// The designed response over the simulated one, and the simulated current.
 std::string step_charts(const sixstep::analysis::DesignStudy& study);
 /// Empty charts of |L| and its phase over the frequency.
 struct BodeCharts {
@@ -21,7 +21,7 @@ struct BodeCharts {
                  .y_tick = 45.0,
                  .levels = {-180.0}};
 };
-/// |L| and its phase of each loop, with the specified delay.
+/// Gain and phase of the open loop L of each loop, with the specified delay.
 std::string loop_charts(const sixstep::analysis::DesignStudy& study);
 std::string limit_charts(const sixstep::analysis::DesignStudy& study);
 

@@ -9,13 +9,13 @@ namespace report {
 
 struct DesignPage {
   const sixstep::analysis::DesignStudy& study;
-  std::string verdict;   ///< one line
+  std::string verdict;   ///< verdict in one line
   std::string scenario;  ///< text of the simulated file
   std::string command;   ///< the command that makes this page again
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_design(const DesignPage& page);
 
 }  // namespace report

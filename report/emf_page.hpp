@@ -14,7 +14,7 @@ struct EmfPage {
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_emf(const EmfPage& page);
 
 }  // namespace report

@@ -13,7 +13,7 @@ namespace report {
 struct BookOf {
   bool twist = false, cogging = false, delta = false;
 };
-/// The section of energies, with the symbols of the motor's kind.
+/// The section with the energies, in the symbols of the motor's kind.
 std::string energy_section(const sixstep::study::EnergyBook& book, const sixstep::base::Motion& motion,
                            BookOf drive);
 /// The losses of each switch and diode as a table; empty if the bridge's data do not suffice.

@@ -17,7 +17,8 @@ struct Prefix {
 constexpr std::array<Prefix, 8> prefixes{
     {{1e12, "p"}, {1e9, "n"}, {1e6, "µ"}, {1e3, "m"}, {1, ""}, {1e-3, "k"}, {1e-6, "M"}, {1e-9, "G"}}};
 
-/// A unit as in column names and descriptions, as printed, and whether a prefix is customary.
+/// A unit as column names and descriptions have it, the same unit as printed, and whether it usually has a
+/// prefix.
 struct UnitForm {
   std::string_view written, printed;
   bool prefixed;
@@ -54,7 +55,7 @@ int decade(double value) {
 
 std::string with_unit(std::string number, const std::string& unit) {
   if (unit.empty()) return number;
-  // Degrees and per cent follow their own custom; all other units follow a non-breaking space.
+  // Degrees stand directly after the number; other units follow a non-breaking space.
   return number + (unit == "°" ? "" : "\u00a0") + unit;
 }
 
@@ -93,7 +94,7 @@ std::string plain(double value, int digits, bool trim) {
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
   int power = decade(value);
   if (std::abs(value) >= std::pow(10.0, power + 1) - 0.5 * std::pow(10.0, power + 1 - digits))
-    ++power;  // e.g. 9.9999
+    ++power;  // as for 9.9999
   if (value != 0.0 && (power < -4 || power > 7)) {
     return fixed(value / std::pow(10.0, power), digits - 1, true) + "·10" + superscript(power);
   }
@@ -116,7 +117,7 @@ std::string computed(double value, std::string_view unit) {
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
   if (!std::isfinite(difference)) return "not comparable";
-  // A ratio of opposite signs has no meaning: show the difference itself.
+  // A ratio of opposite signs has no meaning, so that the difference itself is printed.
   if (reference == 0.0 || (measured < 0.0) != (reference < 0.0))
     return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
   const double percent = 100.0 * difference / reference;
@@ -130,7 +131,8 @@ std::string in_percent(double part) { return plain(100.0 * part, 2, true) + "\u0
 Judged judged(double measured, std::optional<double> min, std::optional<double> max, std::string_view unit) {
   const double limit = max && *max != 0.0 ? *max : min && *min != 0.0 ? *min : measured;
   const Scale scale = scale_for(limit, unit);
-  // Limits close together, or a measurement close to its limit, need more digits to show the difference.
+  // Limits that are close together, or a measurement close to its limit, need more digits to be
+  // distinguished.
   double resolution = std::abs(limit) * 1e-3;
   const auto finer = [&](double gap) {
     if (gap > 0.0 && std::isfinite(gap)) resolution = std::min(resolution, gap * 0.1);

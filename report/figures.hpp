@@ -18,23 +18,24 @@ struct Scale {
 /// mrad/s, no krpm.
 Scale scale_for(double magnitude, std::string_view unit);
 
-/// "0.927": with `digits` significant digits, a true minus, and powers of ten where plain digits would be
-/// unreadable.
+/// A number such as "0.927", with `digits` significant digits, a true minus sign, and a power of ten if plain
+/// digits would be unreadable.
 std::string plain(double value, int digits, bool trim = false);
 
-/// "0.927 ms", "33.5 mNm/A", "7.3·10⁻⁶ Nm s": for given values, without trailing zeros.
+/// A given value with its unit, without trailing zeros: "0.927 ms", "33.5 mNm/A", "7.3·10⁻⁶ Nm s".
 std::string given(double value, std::string_view unit);
 
-/// Whether the value is a time of an event that did not occur; a word then replaces it.
+/// Whether the value is the time of an event that did not occur; a word then replaces the number.
 bool never(double value, std::string_view unit);
 
-/// Prints a computed value with four digits.
+/// A computed value with its unit and four digits.
 std::string computed(double value, std::string_view unit);
 
-/// measured/reference - 1 as "+1.3 %", or "+0.02 A" if the reference is zero; words if one is no number.
+/// The deviation measured/reference - 1 as "+1.3 %", or as "+0.02 A" if the reference is zero; words if one
+/// of the numbers is not finite.
 std::string deviation(double measured, double reference, std::string_view unit);
 
-/// "97 %" for 0.97, with two digits.
+/// A fraction in per cent with two digits: "97 %" for 0.97.
 std::string in_percent(double part);
 
 /// A figure and its limits in one unit, with enough digits to distinguish them.
@@ -44,10 +45,10 @@ struct Judged {
 };
 Judged judged(double measured, std::optional<double> min, std::optional<double> max, std::string_view unit);
 
-/// The value in rpm if the unit is rad/s, else empty.
+/// The value in rpm as an addition, if the unit is rad/s; else empty.
 std::string aside(double value, std::string_view unit);
 
-/// "1 234 567" with narrow spaces.
+/// A count with narrow spaces between groups: "1 234 567".
 std::string grouped(long long count);
 
 }  // namespace report

@@ -58,7 +58,7 @@ std::string derivation_table(const std::vector<sixstep::design::DerivationStep>&
       "<table class=\"steps\"><thead><tr><th>Step</th><th>Formula</th><th "
       "class=\"num\">Value</th></tr></thead><tbody>\n";
   for (const auto& step : steps) {
-    // A frequency in rad/s could be mistaken for a speed with a linear motor.
+    // With a linear motor, a frequency in rad/s could be mistaken for a speed, so that its unit is 1/s.
     const Scale scale = scale_for(step.value, linear && step.unit == "rad/s" ? "1/s" : step.unit);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",

@@ -38,10 +38,12 @@ std::vector<double> in_degrees(std::vector<double> angles) {
   return times(std::move(angles), 180.0 / 3.14159265358979323846);
 }
 
-/// A field-oriented drive has no driven pair; its currents in the rotor's frame have a chart of their own.
+/// The chart of currents. A field-oriented drive has no driven pair, and its currents in the rotor's frame
+/// have another chart.
 Group currents(const Trace& trace, bool of_field) {
   Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
-  // i_m equals one phase's current at every instant: it is drawn first, below them.
+  // i_m equals the current of one phase at every instant, so that it is drawn first, below the phase
+  // currents.
   if (!of_field) add(g, trace, "i_m_A", "i_m", "beneath");
   add(g, trace, "i_a_A", "i_a", "a");
   add(g, trace, "i_b_A", "i_b", "b");
@@ -102,7 +104,7 @@ Group logic(const Trace& trace, std::deque<std::vector<double>>& derived) {
   add(g, trace, "gate_T6", "T6 c↓", "c-soft");
   const auto* hall = find_column(trace, "hall");
   if (!hall) return g;
-  for (int bit = 2; bit >= 0; --bit) {  // H1 H2 H3 are bits 2, 1, 0
+  for (int bit = 2; bit >= 0; --bit) {  // H1, H2, H3 are bits 2, 1, 0
     std::vector<double> level;
     level.reserve(hall->size());
     for (const double code : *hall)
@@ -159,7 +161,7 @@ Group duty(const Trace& trace) {
   return g;
 }
 
-/// The shaft's angle is shown if it is controlled; otherwise it only grows.
+/// The shaft's angle, if it is controlled; otherwise it only grows, and is not shown.
 Group position(const Trace& trace, std::deque<std::vector<double>>& derived, bool linear) {
   Group g{.id = "position",
           .title = "Position",
@@ -179,7 +181,7 @@ Group position(const Trace& trace, std::deque<std::vector<double>>& derived, boo
   return g;
 }
 
-/// A stiff bus needs no chart.
+/// The bus voltage; a stiff bus needs no chart.
 Group bus(const Trace& trace) {
   Group g{.id = "bus", .title = "Bus voltage", .unit = "V", .height_px = 130};
   const auto* volts = find_column(trace, "bus_V");
@@ -189,8 +191,8 @@ Group bus(const Trace& trace) {
   return g;
 }
 
-/// Whether a group has no curve, or is zero throughout, as the speed of a held rotor. Currents stay, because
-/// zero current is information.
+/// Whether a group has no curve, or only zeros, such as the speed of a held rotor. Currents are shown in any
+/// case, because zero current is information.
 bool nothing_to_see(const Group& g) {
   if (g.logic || g.id == "currents") return g.curves.empty();
   return std::ranges::all_of(g.curves, [](const Curve& curve) {

@@ -12,7 +12,7 @@ namespace report {
 
 struct Curve {
   std::string label;    ///< "i_a"; an underscore starts a subscript
-  std::string style;    ///< a colour of the style sheet
+  std::string style;    ///< name of a colour in the style sheet
   std::string meaning;  ///< shown when the pointer is over the label
   const std::vector<double>* values = nullptr;
 };
@@ -20,10 +20,11 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;      ///< one strip of zeros and ones per signal, below each other
-  bool lanes = false;      ///< curves above each other, each with its own zero, because they would hide each
-                           ///< other
-  std::string quantity{};  ///< "speed", "angle", "torque", "current": the reader may choose its unit
+  bool logic = false;      ///< each signal is a strip of zeros and ones, one below the other
+  bool lanes = false;      ///< the curves are drawn one above the other, each with its own zero, because they
+                           ///< would hide each other
+  std::string quantity{};  ///< "speed", "angle", "torque" or "current" if the reader may choose the unit;
+                           ///< else empty
   std::vector<Curve> curves{};
 };
 
@@ -33,7 +34,7 @@ struct Groups {
   std::deque<std::vector<double>> derived;  ///< computed columns (Hall bits); a deque keeps their addresses
 };
 
-/// The controlled quantity comes first. Charts without any curve with a number are omitted.
+/// The groups, the controlled quantity first. Charts without any curve that has a number are omitted.
 Groups chart_groups(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);
 
 }  // namespace report

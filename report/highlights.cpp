@@ -15,7 +15,8 @@ using sixstep::control::Mode;
 using sixstep::study::Scenario;
 using sixstep::study::Trace;
 
-constexpr double near = 0.1;  ///< part of a step: the goal's neighbourhood, wider than most ripple
+constexpr double near = 0.1;  ///< "near" the goal means within this fraction of the step, more than most
+                              ///< ripple
 constexpr double degrees_per_rad = 180.0 / 3.14159265358979323846;
 
 /// The reference and the measured signal in one unit: signal = column * factor.
@@ -55,27 +56,27 @@ std::vector<Change> changes_of(const Values& reference, double start) {
   return out;
 }
 
-/// Whether a six-step drive starts its rotor open-loop by a current alone: the speed reference is then 0 up to
-/// the hand-over, and again after it has lost the rotor.
+/// Whether a six-step drive starts its rotor open-loop by a current alone. The speed reference is then 0
+/// until the speed loop takes over, and again after the drive has lost the rotor.
 bool starts_blindly(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::sensorless &&
          s.control.sensorless.commutates != sixstep::study::Commutates::hall;
 }
 
-/// Like starts_blindly(), for a field-oriented drive with an observer. Its loop has a real step from the
-/// speed at which the loop starts.
+/// Like starts_blindly(), for a field-oriented drive with an observer. Its speed loop has a real step when it
+/// starts: from the speed that the rotor has then.
 bool takes_over_turning(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::field &&
          s.control.field.angle == sixstep::study::FieldAngle::observer;
 }
 
-/// The size of a change as a step; 0 for changes from and to 0 in a blind start.
+/// The size of a change if it counts as a step; 0 for changes from and to 0 in a blind start.
 double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
-/// The row of the first Hall edge after the current has come near its goal. The later course consists of
-/// commutations of a steady current, no longer of its step. The last row if there is no such edge.
+/// The row of the first Hall edge after the current has come near its goal, else the last row. After this
+/// edge the current no longer shows the step, but commutations of a steady current.
 std::size_t end_of_current_step(const Values* hall, const Values& signal, const Change& step,
                                 std::size_t last) {
   if (!hall) return last;
@@ -139,11 +140,11 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   const bool of_pair = loop == &current_loop;
   const std::size_t until =
       of_pair ? end_of_current_step(find_column(trace, "hall"), *signal, *largest, next) : next;
-  std::size_t outside = largest->row;  // last row outside the goal's neighbourhood
+  std::size_t outside = largest->row;  // last row at which the signal was not near its goal
   for (std::size_t n = largest->row; n <= until; ++n)
     if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
   const double at = (*time)[largest->row], end = (*time)[next];
-  // A reference that changes continuously has no visible step.
+  // Least number of PWM periods without a change. A reference that changes continuously has no visible step.
   constexpr double least_periods = 3.0;
   if (end - at < least_periods * scenario.pwm.period_s && largest + 1 != changes.end())
     return from_start(*time, scenario);
@@ -163,7 +164,8 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
 
 namespace {
 
-/// Integrals over a window of the line through the rows: y and y^2, and its lowest and highest value.
+/// Integrals over a window of the straight lines through the rows, of y and of y^2, and the lowest and
+/// highest value.
 struct Line {
   double integral = 0.0, square = 0.0, low = INFINITY, high = -INFINITY;
 };
@@ -184,7 +186,7 @@ Line line_over(const Values& time, const Values& y, const Interval& window) {
   return out;
 }
 
-/// Whether a column of references has references: a controller without a current loop writes zeros.
+/// Whether a column of current references holds any. A controller without a current loop writes zeros.
 bool names_a_current(const Values& reference) {
   return std::ranges::any_of(reference, [](double ampere) { return ampere != 0.0; });
 }
@@ -239,7 +241,7 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
 
 namespace {
 
-/// Time during which a value that is constant between rows was at the bound or beyond it.
+/// Time in s during which a value that is constant between rows was at the bound or beyond it.
 double seconds_at(const Values& time, const Values& held, double bound, double from_s) {
   double sum = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n)
@@ -248,14 +250,14 @@ double seconds_at(const Values& time, const Values& held, double bound, double f
   return sum;
 }
 
-/// The used part of the bus: a pair's duty, or for three legs the vector relative to the circle that they reach
-/// at every angle, bus over sqrt 3.
+/// The used fraction of the bus voltage: the duty of a pair; for three legs the voltage vector relative to
+/// the circle that they reach at every angle, bus over sqrt 3.
 std::optional<Values> part_of_bus(const Trace& trace, const Scenario& scenario) {
   const Values *d = find_column(trace, "v_d_V"), *q = find_column(trace, "v_q_V"),
                *bus = find_column(trace, "bus_V"), *duty = find_column(trace, "duty");
   if (scenario.control.drive != sixstep::study::FirmwareKind::field)
     return duty ? std::optional(*duty) : std::nullopt;
-  // A finite set's states use the whole bus or none of it.
+  // The states of a finite set use the whole bus or none of it, so that a fraction says nothing.
   if (!d || !q || !bus || scenario.control.field.law == sixstep::study::FieldLaw::finite_set)
     return std::nullopt;
   Values part(d->size());
@@ -274,7 +276,7 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
                         scenario.control.mode >= Mode::current;
   if (!time || !duty || compares || scenario.control.mode == Mode::off) return std::nullopt;
   const double from_s = whole_from_s(trace);
-  // A vector's length is rounded; a duty is not.
+  // The length of a vector has a rounding error; a duty has none.
   const double whole = scenario.control.drive == sixstep::study::FirmwareKind::field ? 1.0 - 1e-6 : 1.0;
   Held out{.seen_s = time->back() - from_s,
            .bus_s = seconds_at(*time, *duty, whole, from_s),
@@ -283,8 +285,9 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   const auto* reference = find_column(trace, "i_ref_A");
   if (scenario.control.drive == sixstep::study::FirmwareKind::own &&
       !(reference && names_a_current(*reference)))
-    out.limit_A.reset();  // a user's controller may have no current reference
-  // The controller's number may be float or fixed-point: compare within the coarsest step, 2^-14 of full scale.
+    out.limit_A.reset();  // the controller is a user's and may have no current reference
+  // The controller's number may be float or fixed-point. The comparison allows the coarsest step, 2^-14 of
+  // full scale.
   if (reference && out.limit_A)
     out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);
   return out;

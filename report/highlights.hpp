@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extracts the main facts from the rows of a run: its largest step, the current during it, and the time
+// Finds the main facts in the rows of a run: its largest step, the current during the step, and the time
 // during which the bus or a limit delayed it. Between two rows the trace is a straight line, as in a chart.
 #pragma once
 #include <optional>
@@ -14,9 +14,9 @@
 namespace report {
 
 /// The greatest change of the setpoint. The first setpoint is compared with the start's value. In a
-/// sensorless start the speed reference is 0 until the speed loop starts, while the shaft turns already. For
-/// a six-step drive that change is no step; for a field-oriented one it is a step from the speed at which the
-/// loop starts.
+/// sensorless start the speed reference is 0 until the speed loop starts, while the shaft already turns. For
+/// a six-step drive this change of the reference is no step. For a field-oriented drive it is a step from the
+/// speed at which the loop starts.
 struct Step {
   std::string of;  ///< "speed", "current", "position"; "start" if nothing is controlled
   std::string unit;
@@ -24,9 +24,10 @@ struct Step {
   double from = 0.0, to = 0.0;
   double index = 0.0;   ///< position: angle at which the drive's count is 0, if that is an encoder's index
   double next_s = 0.0;  ///< time of the next change, or the run's end
-  HeldCurrent held{};   ///< the current shown with it
-  Interval window;      ///< the close-up: 1.5 times the time to within 10 % of the step from its goal
-  bool done = false;    ///< came within 10 % of the step from its goal before next_s
+  HeldCurrent held{};   ///< the current that is shown with the step
+  Interval window;      ///< interval of the close-up: 1.5 times the time until the signal is within 10 % of
+                        ///< the step from its goal
+  bool done = false;    ///< whether the signal came within 10 % of the step from its goal before next_s
 };
 std::optional<Step> largest_step(const sixstep::study::Trace& trace,
                                  const sixstep::study::Scenario& scenario);
@@ -49,13 +50,15 @@ std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, cons
 /// Time in s during which the bus or a limit delayed the run.
 struct Held {
   double seen_s =
-      0.0;  ///< length of the run's last part, if an envelope replaces the rows before it; else of the run
-  double bus_s = 0.0;  ///< the driven pair fully on, or the vector on its circle: the voltage is at its limit
-  double largest_duty = 0.0;      ///< for three legs the vector's part of the circle
-  std::optional<double> limit_A;  ///< limit of the current reference, in cascades
-  double limit_s = 0.0;           ///< the reference is at the limit
+      0.0;  ///< length of the evaluated time: the run, or the part after the rows that an envelope replaces
+  double bus_s = 0.0;  ///< time with the voltage at its limit: the driven pair fully on, or the vector on its
+                       ///< circle
+  double largest_duty = 0.0;      ///< for three legs, the vector's fraction of the circle
+  std::optional<double> limit_A;  ///< limit of the current reference; only in a cascade
+  double limit_s = 0.0;           ///< time with the reference at the limit
 };
-/// Empty if comparators switch the bridge: their duty is the state of a switch.
+/// The delays of a run. Empty if comparators switch the bridge, because the duty is then the state of a
+/// switch.
 std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                               const sixstep::study::Outcome& outcome);
 

@@ -50,7 +50,8 @@ std::string escaped(std::string_view text) { return text::markup_text(text, text
 
 namespace {
 
-/// K_t, I_stall, tau_m: one underscore after a short name. resistance_ohm is a key and stays as typed.
+/// Sets a subscript after one underscore if the name is short: K_t, I_stall, tau_m. resistance_ohm is a key
+/// and stays as typed.
 std::string word_with_subscript(std::string_view word) {
   constexpr std::size_t longest_name = 3;
   const std::size_t cut = word.find('_');
@@ -97,7 +98,7 @@ std::string typeset(std::string_view formula) {
     } else {
       for (const auto& [typed, printed] : signs)
         if (formula.starts_with(typed)) piece = typed, shown = printed;
-      if (piece == "-" && (text.empty() || text.ends_with('('))) shown = "−";  // a sign, not a hyphen
+      if (piece == "-" && (text.empty() || text.ends_with('('))) shown = "−";  // a minus sign, not a hyphen
     }
     text += shown;
     formula.remove_prefix(piece.size());
@@ -106,7 +107,7 @@ std::string typeset(std::string_view formula) {
 }
 
 std::string script_safe(std::string_view json) {
-  // In JSON a '<' occurs only inside strings, where \u003c means the same.
+  // In JSON a '<' occurs only inside strings, where \u003c has the same meaning.
   const std::string shown = text::visible(json, text::Lines::kept);
   std::string out;
   out.reserve(shown.size());

@@ -13,29 +13,31 @@ namespace report {
 /// Escapes text for element content and quoted attributes.
 std::string escaped(std::string_view text);
 
-/// escaped(), with "T_reg" as T and a subscript: a letter, an underscore and the letters up to the next sign.
+/// escaped(), with subscripts: "T_reg" is a T with subscript reg. A subscript is a letter, an underscore and
+/// the letters up to the next other character.
 std::string with_subscripts(std::string_view text);
 
-/// A typed formula, "w0 sqrt(1 - xi^2)", as printed: ω₀ √(1 − ξ²). Words are unchanged.
+/// A formula as printed: "w0 sqrt(1 - xi^2)" becomes ω₀ √(1 − ξ²). Words are unchanged.
 std::string typeset(std::string_view formula);
 
-/// JSON for <script>: it must not contain "</script>" or "<!--" for the HTML parser.
+/// JSON for <script>: without "</script>" and "<!--", which would end or change the script for the HTML
+/// parser.
 std::string script_safe(std::string_view json);
 
 std::string base64(std::span<const std::uint8_t> bytes);
-/// Little-endian on every machine.
+/// The values' bytes as base64, little-endian on every machine.
 std::string base64(std::span<const float> values);
 std::string base64(std::span<const double> values);
 
 /// A table's cell that holds a number.
 std::string number_cell(const std::string& html);
-/// A table's first row. A name that begins with # is the head of a column of numbers.
+/// A table's first row. A name that begins with # is the heading of a column of numbers.
 std::string table_head(std::initializer_list<std::string_view> names);
 
 using Gap = std::pair<std::string_view, std::string_view>;
 
 /// Replaces each {{name}} of the page once. The inserted text is not searched again, so that no content can
-/// break the page.
+/// change the page's structure.
 std::string filled(std::string_view page, std::initializer_list<Gap> gaps);
 
 }  // namespace report

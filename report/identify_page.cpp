@@ -27,7 +27,7 @@ using sixstep::analysis::EdgePassage;
 using sixstep::analysis::HallIdentity;
 using sixstep::analysis::IdentifiedEdge;
 
-/// The pin that changes: 0, 1 or 2.
+/// The pin whose level changes at the edge: 0, 1 or 2.
 std::size_t pin_of(const IdentifiedEdge& e) {
   return 2 - static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(e.before ^ e.after)));
 }
@@ -54,13 +54,13 @@ std::string facts(const HallIdentity& f) {
   return out;
 }
 
-/// Places of the edges of one kind over time; one colour per pin.
+/// Places of the rising or of the falling edges over time, with one colour per pin.
 SvgChart passages(const HallIdentity& f, bool rising) {
   SvgChart chart{.title = rising ? "Rising edges in the order of time" : "Falling edges in the order of time",
                  .x_label = "s",
                  .y_label = "deviation from the nominal place, electrical degrees",
                  .levels = {0.0}};
-  // Without voltages the absolute level is unknown: the mean of all edges defines zero.
+  // Without voltages the absolute place is unknown, so that the mean of all edges is drawn as zero.
   double level = 0.0, count = 0.0;
   for (const EdgePassage& p : f.passages)
     if (!f.place && !p.left_out) level += p.place_deg - f.edges[p.edge].own_deg.value, count += 1.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes identified Hall probes as one HTML file: where each edge was passed, and how the rotor turned.
+// Writes identified Hall probes as one HTML file: at which angle each edge was passed, and how the rotor
+// turned.
 #pragma once
 #include <string>
 
@@ -14,7 +15,7 @@ struct IdentifyPage {
   std::string version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_identify(const IdentifyPage& page);
 
 }  // namespace report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keeps the rows of a run for its report in bounded memory. Every event is kept until memory is full. Then an
-// envelope, with each column's lowest and highest values, replaces the older rows; the latest ones and those of
-// the largest step stay.
+// envelope, with each column's lowest and highest values, replaces the older rows. The latest rows and those
+// of the largest step are kept.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -20,7 +20,7 @@ inline constexpr std::size_t most_row_bytes = 160'000'000;
 
 class KeptRows {
  public:
-  /// The scenario must live as long. Reports made at the same time share the memory.
+  /// The scenario must outlive this object. Reports that are made at the same time share the memory.
   explicit KeptRows(const sixstep::study::Scenario& scenario, std::size_t most_bytes = most_row_bytes);
 
   void add(sixstep::study::Row row);
@@ -36,13 +36,13 @@ class KeptRows {
 
   const sixstep::study::Scenario* scenario_;
   sixstep::study::Trace trace_;
-  std::size_t most_;              // rows
-  std::size_t thinned_ = 0;       // rows of the envelope at the front
-  std::optional<Interval> step_;  // kept whole among them
+  std::size_t most_;              // largest number of rows
+  std::size_t thinned_ = 0;       // number of rows of the envelope, which are the first rows
+  std::optional<Interval> step_;  // interval among them that is kept completely
 };
 
-/// The message that the report will not keep all rows: before the run an estimate, after it the fact. Empty if
-/// it keeps all.
+/// The message that the report will not keep all rows: an estimate before the run, a fact after it. Empty if
+/// the report keeps all rows.
 std::string rows_foretold(const sixstep::study::Scenario& scenario, std::size_t most_bytes = most_row_bytes);
 std::string rows_told(const sixstep::study::Trace& trace);
 

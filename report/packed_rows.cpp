@@ -13,12 +13,13 @@
 namespace report {
 namespace {
 
-constexpr double highest_count = 65533.0;  // one count is spare, for a zero that is a whole count
+constexpr double highest_count = 65533.0;  // one count is left over, so that zero can be placed on a whole
+                                           // count
 constexpr std::uint16_t no_number = 65535;
 
-/// zlib's settings. The lower planes of a run's times hardly repeat; for them only the frequency of bytes is
-/// used. A page that is too large at the quick level may fit at the thorough one, which takes three times as
-/// long.
+/// zlib's settings. The lower planes of a run's times hardly repeat, so that only the frequency of their
+/// bytes is used. A page that is too large with the quick level may fit with the thorough one, which takes
+/// three times as long.
 struct Effort {
   int level;
   bool count_times;
@@ -26,13 +27,13 @@ struct Effort {
 constexpr Effort quick{4, true}, thorough{6, false};
 constexpr std::size_t time_planes = sizeof(std::uint32_t), noisy_time_planes = 3;
 
-/// A zlib stream of plane after plane.
+/// A zlib stream to which planes are added one after the other.
 class Deflated {
  public:
   Deflated(std::size_t rows, std::size_t columns, const Effort& effort, std::size_t most_bytes)
       : effort_(effort), most_(most_bytes) {
     constexpr std::size_t to_change =
-        64;  // bytes at most when a plane's settings differ from the previous plane's
+        64;  // additional bytes, at most, if a plane's settings differ from those of the previous plane
     planes_ = time_planes + 2 * columns;
     const std::size_t room = compressBound(planes_ * rows) + planes_ * to_change;
     bytes_ = std::make_unique_for_overwrite<Bytef[]>(room);
@@ -68,8 +69,8 @@ class Deflated {
   bool sound_ = true, counting_ = false;
 };
 
-/// Groups bytes of equal weight: the high bytes of small differences are zeros, which compress to almost
-/// nothing.
+/// Adds planes, each with the bytes of one weight. The high bytes of small differences are zeros, which
+/// compress to almost nothing.
 template <class Count>
 void add_planes(Deflated& out, const std::vector<Count>& counts) {
   const std::size_t rows = counts.size();
@@ -88,10 +89,10 @@ void add_planes(Deflated& out, const std::vector<Count>& counts) {
 void add_times(Deflated& bytes, const std::vector<double>& time, PackedRows& out) {
   double gap = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n) gap = std::max(gap, time[n] - time[n - 1]);
-  constexpr double picosecond = 1e-12, most = 4e9;  // below 2^32, with room for a rounding
+  constexpr double picosecond = 1e-12, most = 4e9;  // below 2^32, with room for rounding
   out.start_s = time.front();
   out.tick_s = std::max(picosecond, gap / most);
-  // The differences fit into 32 bits, so the counts may wrap.
+  // The counts may wrap, because their differences fit into 32 bits.
   std::vector<std::uint32_t> counts;
   counts.reserve(time.size());
   for (const double t : time)
@@ -141,7 +142,7 @@ std::optional<PackedRows> packed_with(const Effort& effort, const std::vector<do
 std::optional<PackedRows> packed_rows(const std::vector<double>& time,
                                       const std::vector<const std::vector<double>*>& columns,
                                       std::size_t most_bytes) {
-  // Even a tenth of a byte per value would be too large.
+  // Too large even if compression left only a tenth of a byte per value.
   if (time.size() < 2 || time.size() * columns.size() / 10 > most_bytes) return std::nullopt;
   auto packed = packed_with(quick, time, columns, most_bytes);
   return packed ? packed : packed_with(thorough, time, columns, most_bytes);

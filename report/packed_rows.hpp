@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs every row of a run small enough for the page, for close-ups where an envelope replaces the rows
-// otherwise.
+// Packs every row of a run whose rows then fit into the page. Close-ups thus show every row if an envelope
+// replaces the rows otherwise.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace report {
 
-/// Columns in 65535 steps of their range, times in whole picoseconds (a coarser unit if the time between rows
-/// exceeds 4.29 ms). Both are stored as differences from row to row, in planes of bytes of equal weight,
-/// compressed by zlib.
+/// The packed rows. Columns are in 65535 steps of their range. Times are in whole picoseconds, or in a
+/// coarser unit if the time between rows exceeds 4.29 ms. Both are stored as differences from row to row, in
+/// planes of bytes of equal weight, compressed by zlib.
 struct PackedRows {
   struct Column {
     double low = 0.0, step = 0.0;  ///< value = low + step * count; the count 65535 is "no number"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the inputs of a run: the sheet's values with frame and source, the model derived from them, the gains.
+// Writes the inputs of a run: the sheet's values with frame and source, the model that follows from them, and
+// the gains.
 #pragma once
 #include <string>
 #include <string_view>
@@ -15,7 +16,7 @@ std::string setup_section(const sixstep::study::Scenario& scenario);
 /// Unit of d1 and d0, output per error: an outer loop's output is a part of the largest one.
 std::string_view gain_unit(const sixstep::study::LoopGains& gains, bool linear);
 std::string gains_section(const sixstep::study::Outcome& outcome);
-/// The numbers of a user's controller, those that its own file presets marked.
+/// The numbers of a user's controller. Those that are the controller's presets are marked.
 std::string own_section(const sixstep::study::Own& own);
 /// The derivation of a design's numbers: symbol, formula, value.
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);

@@ -32,14 +32,14 @@ bool asks(const PagePlan& plan) {
                      [](const analysis::FigureColumn& f) { return f.required; });
 }
 
-/// The plan's name in its colour, if there are two plans.
+/// The plan's name in the plan's colour, if there are two plans; else empty.
 std::string tag(const PlanPageInput& in, std::size_t p) {
   if (in.plans.size() < 2) return "";
   return fmt::format("<span class=\"run\" style=\"border-color: var(--{})\">{}</span> ", plan_colours[p],
                      escaped(in.plans[p].story.name));
 }
 
-/// The same text on a separate line, above this plan's part.
+/// The plan's name on a separate line, above the part of this plan.
 std::string whose(const PlanPageInput& in, std::size_t p) {
   return in.plans.size() < 2 ? "" : "<p class=\"whose\">" + tag(in, p) + "</p>\n";
 }
@@ -73,7 +73,7 @@ std::string plan_fact(std::string_view name, const std::string& html) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html);
 }
 
-/// Numbers with prefix and unit, as on the terminal; words are unchanged.
+/// The values of an axis: numbers with prefix and unit, as on the terminal; words unchanged.
 std::string words_of(const analysis::Axis& axis, const std::string& unit) {
   std::string words;
   for (const std::string& value : axis.values) {
@@ -157,11 +157,11 @@ std::string statistics(const PlanPageInput& in) {
          "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
-/// A figure of several plans, drawn into one picture over one axis.
+/// A figure that several plans have, drawn into one picture over one axis.
 struct Shared {
   const analysis::FigureColumn* column;
   Span span;
-  std::vector<std::pair<std::size_t, std::size_t>> in;  ///< plan, and its figure
+  std::vector<std::pair<std::size_t, std::size_t>> in;  ///< index of a plan, and index of its figure
 };
 
 std::vector<Shared> shared_figures(const std::vector<PagePlan>& plans) {
@@ -210,7 +210,7 @@ std::string for_each_plan(const PlanPageInput& in, Section section, bool tagged 
   return html;
 }
 
-/// The note that the drawings show only a part of the runs, because they are too many.
+/// The note that the drawings show only a part of the runs, if there are too many.
 std::string left_out(const PlanPageInput& in) {
   for (const PagePlan& plan : in.plans)
     if (plan.story.series.runs > most_rows_on_a_page / in.plans.size())

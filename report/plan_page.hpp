@@ -15,7 +15,7 @@ struct PagePlan {
   const text::PlanStory& story;
   std::string title, motor, notes;
   std::string repeats;  ///< a command line to which a run's number is appended: "sixstep run a.toml --only"
-  std::map<std::size_t, std::string> reports{};  ///< run number and file of each report
+  std::map<std::size_t, std::string> reports{};  ///< file of the report for each run number that has one
 };
 
 struct PlanPageInput {
@@ -25,12 +25,13 @@ struct PlanPageInput {
 };
 
 inline constexpr std::size_t most_plans_on_a_page =
-    2;  ///< each has two colours, for runs that hold and runs that miss
+    2;  ///< each plan has two colours, for runs that hold and runs that miss
 
-/// Most rows for the drawings; of more runs an even selection is drawn. The statistics use all runs.
+/// Largest number of rows for the drawings. If there are more runs, an even selection is drawn. The
+/// statistics use all runs.
 inline constexpr std::size_t most_rows_on_a_page = 200'000;
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_plan(const PlanPageInput& input);
 
 }  // namespace report

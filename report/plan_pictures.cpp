@@ -18,7 +18,7 @@ namespace analysis = sixstep::analysis;
 constexpr double plot_width = 360, plot_height = 150, plot_left = 12, plot_right = 12, plot_top = 18,
                  plot_bottom = 24;
 
-/// The histogram's axis: the span, and a limit that is near it.
+/// The range of the histogram's axis: the span of the values, and a limit if it is near.
 struct Reach {
   double low, high;
   double at(double v) const {
@@ -47,7 +47,7 @@ Reach reach_of(const analysis::FigureColumn& f, const Span& span) {
   return {reach.low - margin, reach.high + margin};
 }
 
-/// The share of all runs of its plan, so that plans of different size compare.
+/// The fraction of all runs of the plan, so that plans of different size can be compared.
 double share(const Histogram& h, std::size_t count) {
   const std::size_t all = std::accumulate(h.counts.begin(), h.counts.end(), h.never + h.missing);
   return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(all, 1));
@@ -99,7 +99,7 @@ std::string limit_lines(const analysis::FigureColumn& f, const Reach& reach) {
     const bool flip = x > 0.6 * plot_width;
     row = std::fabs(x - last) < as_wide_as_a_label
               ? row + 1
-              : 0;  // labels that would overlap are placed below each other
+              : 0;  // labels that would overlap are placed one below the other
     last = x;
     svg += fmt::format(
         "<line class=\"limit\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1}\"/><text x=\"{2:.1f}\" y=\"{5}\" "

@@ -18,8 +18,8 @@ struct DrawnHistogram {
   const Histogram& histogram;
 };
 
-/// A <figure>: bars with each bin's share of a plan's runs, over the span, the limits nearby, and a line on runs
-/// without a value.
+/// A <figure> with bars that show each bin's fraction of a plan's runs. It also shows the span, the limits
+/// nearby, and the number of runs without a value.
 std::string histogram_picture(const sixstep::analysis::FigureColumn& figure, const Span& span,
                               const std::vector<DrawnHistogram>& drawn);
 

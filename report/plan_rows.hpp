@@ -14,7 +14,7 @@
 
 namespace report {
 
-/// How a run ended; determines its colour.
+/// How a run ended, which determines the colour of its drawing.
 enum class RunState : std::uint8_t { holds, misses, fault, refused };
 
 RunState state_of(const sixstep::analysis::RunRecord& record);
@@ -23,11 +23,11 @@ struct PlanColumn {
   enum class Kind : std::uint8_t { key, strayed, figure } kind = Kind::key;
   std::string name, unit;
   bool logarithmic = false;
-  bool required = false;  ///< a figure with a requirement, between these limits
+  bool required = false;  ///< the figure has a requirement, with these limits
   std::optional<double> min{}, max{};
-  std::vector<std::string> words{};  ///< words of a key without numbers; its values are indices into
-                                     ///< these
-  std::vector<float> values{};       ///< one per row; NaN: none
+  std::vector<std::string> words{};  ///< words of a key without numbers; the values are then indices into
+                                     ///< these words
+  std::vector<float> values{};       ///< one value per row; NaN: none
 };
 
 struct PlanRows {
@@ -53,8 +53,8 @@ std::vector<Span> figure_spans(const text::PlanStory& story);
 
 inline constexpr std::size_t histogram_bins = 32;
 
-/// Runs by the value of a figure, over a span; in addition the runs in which its event never occurred, and
-/// those without a value.
+/// The number of runs per interval of a figure's value. Runs whose event never occurred, and runs without a
+/// value, are counted separately.
 struct Histogram {
   std::vector<std::size_t> counts = std::vector<std::size_t>(histogram_bins);
   std::size_t never = 0, missing = 0;

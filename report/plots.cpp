@@ -18,8 +18,8 @@ bool rewires(const sixstep::study::Scenario& s) {
   });
 }
 
-/// All changes of conduction if they are few enough for a page. `with_rows`: only the end, because the packed rows
-/// have the codes.
+/// All changes of conduction, if they are few enough for a page. `with_rows`: only the run's end, because the
+/// packed rows contain the codes.
 json conduction_json(const Conduction& c, bool with_rows) {
   constexpr std::size_t most = 400000;
   if (c.code.empty()) return nullptr;
@@ -43,8 +43,7 @@ std::vector<double> by_row(const Conduction& c, const std::vector<double>& time)
   return codes;
 }
 
-/// Every row of every curve, and after the curves the conduction codes; null if that is too large for the
-/// page.
+/// Every row of every curve, followed by the conduction codes; null if this is too large for the page.
 json every_row(const std::vector<double>& time, const Groups& groups, const Conduction& conducts,
                std::size_t most_bytes) {
   std::vector<const std::vector<double>*> columns;
@@ -98,7 +97,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   const json every = time->size() > size.full && trace.whole.empty()
                          ? every_row(*time, groups, conducts, size.packed_bytes)
                          : json();
-  // If every row is in the page, an envelope needs no close-ups.
+  // If every row is in the page, no close-up is needed beside the envelope.
   const std::vector<Interval> keep =
       every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
   if (!every.is_null()) out["rows"] = json::array({every});
@@ -112,14 +111,14 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
     out["charts"].push_back(std::move(chart));
   }
   if (!groups.angle_deg.empty()) {
-    // The angle is smooth: straight lines between 2000 rows are good enough for the drawing.
+    // The angle is smooth, so that straight lines between 2000 rows are exact enough for the drawing.
     const Thinned rows = thinned(*time, {groups.angle_deg}, {}, 2000, 2000);
     out["angle"] = {{"axis", axes.of(*time, rows.rows)},
                     {"data", packed<float>(groups.angle_deg, rows.rows)}};
   }
   out["conduction"] = conduction_json(conducts, !every.is_null());
   out["legs"] = phase_at;
-  if (found) out["spectra"] = spectra_json(*found, out);  // behind the axes over time
+  if (found) out["spectra"] = spectra_json(*found, out);  // after the axes over time
   out["pole_pairs"] = pole_pairs;
   return dumped(out);
 }

@@ -11,12 +11,12 @@
 
 namespace report {
 
-/// Rows per chart. Above `full`: an envelope of at most `cap` rows, and every row packed; if that is too large,
-/// every row of the close-ups.
+/// Largest number of rows per chart. With more than `full` rows, the page has an envelope of at most `cap`
+/// rows, and in addition every packed row. If these are too large, it has every row of the close-ups only.
 struct PlotSize {
   std::size_t cap = 6000;
   std::size_t full = 16000;
-  std::size_t packed_bytes = 5'000'000;  ///< limit of all packed rows; base64 adds a third
+  std::size_t packed_bytes = 5'000'000;  ///< largest size of all packed rows; base64 adds a third
 };
 
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64

@@ -15,24 +15,24 @@ namespace report {
 struct ReportInput {
   const sixstep::study::Scenario& scenario;
   const sixstep::study::Outcome& outcome;
-  const sixstep::study::Trace& trace;  ///< trace of KeptRows; columns of NaN are left out
+  const sixstep::study::Trace& trace;  ///< trace of KeptRows; columns that are all NaN are left out
   std::string command;                 ///< the command that makes this report again
   std::string version;
-  std::string scenario_text;  ///< the file as written
+  std::string scenario_text;  ///< text of the scenario's file
 };
 
-/// The same input gives the same bytes: no date, no machine name.
+/// Returns the page. The same input gives the same bytes: no date, no machine name.
 std::string render(const ReportInput& input);
 
 struct IndexEntry {
   std::string title;
-  std::string file;                        ///< file name of the report, relative to the index; empty: none
-  const sixstep::study::Outcome* outcome;  ///< null: none
-  bool finished = true;                    ///< false: interrupted or never started; it is not judged
+  std::string file;  ///< file name of the report, relative to the index; empty: there is no report
+  const sixstep::study::Outcome* outcome;  ///< null: there is no outcome
+  bool finished = true;                    ///< false: interrupted or never started, so that it is not judged
 };
 
 /// The table of all verdicts of one command, with links to the reports. If an experiment is not finished, the
-/// table begins with that note and has no total.
+/// table begins with a note on it and has no total.
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version);
 

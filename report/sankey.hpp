@@ -7,8 +7,8 @@
 
 namespace report {
 
-/// A <figure> with an SVG: on the left the sources of energy over the run, on the right the sinks. Empty if
-/// no energy flowed, or if the sums differ by more than half a pixel, because the picture would then be
+/// A <figure> with an SVG: the sources of energy over the run on the left, the sinks on the right. Empty if
+/// no energy flowed, or if the two sums differ by more than half a pixel, because the picture would then be
 /// wrong.
 std::string energy_sankey(const sixstep::study::EnergyBook& book);
 

@@ -90,7 +90,7 @@ class Flat final : public sixstep::base::Visitor {
     member.walk(*this);
     path_ = outer;
   }
-  /// Only the list [[at]] changes a run. Values that an event does not change are omitted.
+  /// Of all lists, only [[at]] changes a run. Values that an event does not change are omitted.
   void visit_list(std::string_view key, sixstep::base::ListMember& items, const About&) override {
     if (key != sixstep::study::events_list) return;
     Flat plain(motion_);
@@ -111,7 +111,7 @@ class Flat final : public sixstep::base::Visitor {
   std::string path_;
 };
 
-/// Values of an extended scenario are already the scenario's own.
+/// `extends` is among these keys, because the values of the extended file are already the scenario's own.
 bool changes_no_run(const std::string& key) {
   return key == "title" || key == "notes" || key == "extends" || key.starts_with("record.");
 }

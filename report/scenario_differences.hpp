@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the keys in which scenarios differ, by the description that also reads them.
+// Finds the keys in which scenarios differ, with the descriptions by which scenarios are also read.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,11 +9,12 @@
 namespace report {
 
 struct KeyDifference {
-  std::string key;                  ///< "control.current.settle_s"
+  std::string key;                  ///< path such as "control.current.settle_s"
   std::vector<std::string> values;  ///< value in each scenario, with unit; "–" if not given
 };
 
-/// Titles, notes, recorded columns and requirements are ignored, because they do not change a run.
+/// The keys in which the scenarios differ. Titles, notes, recorded columns and requirements are ignored,
+/// because they do not change a run.
 std::vector<KeyDifference> differences(const std::vector<const sixstep::study::Scenario*>& scenarios);
 
 }  // namespace report

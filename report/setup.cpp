@@ -31,7 +31,7 @@ std::string listed(const std::vector<double>& values, const char* unit) {
 
 namespace {
 
-/// "soft chopping", and the chopped switch if it is not always the upper one.
+/// The chopping in words: "soft chopping", and the chopped switch if it is not always the upper one.
 std::string chopping_words(const study::Pwm& p) {
   std::string words = std::string(sixstep::base::word(study::chopping_choices, p.chopping)) + " chopping";
   if (p.pattern != sixstep::control::PwmPattern::upper)
@@ -78,7 +78,7 @@ std::string speed_loop_words(const study::Control& c) {
                                                      : current_loop_words(c.current));
 }
 
-/// ", fixed point Q1.14": digits before and after the point.
+/// The arithmetic in words: ", fixed point Q1.14" with the digits before and after the point.
 std::string arithmetic(study::Arithmetic a) {
   return study::in_arithmetic(a, []<class Scalar>() -> std::string {
     if constexpr (std::is_floating_point_v<Scalar>) {
@@ -91,7 +91,7 @@ std::string arithmetic(study::Arithmetic a) {
   });
 }
 
-/// A user's own controller: its name, the controlled quantity, and the numbers that differ from the defaults.
+/// A user's own controller: its name, the controlled quantity, and the numbers that are not presets.
 std::string own_controller(const study::Scenario& s) {
   const study::Own& own = s.control.own;
   std::string text = fmt::format("{} ({}), {}", own.loaded ? own.loaded->name : "own", own.controller,

@@ -11,7 +11,7 @@ using namespace sixstep;
 
 namespace {
 
-/// The controller settings that an event changes, in a word or two each.
+/// The controller settings that an event changes, each in one or two words.
 std::string tuned(const study::At& at) {
   std::string text;
   const auto add = [&text](bool changed, const std::string& words) {

@@ -18,7 +18,7 @@ std::string shaft(const sixstep::study::Load& load, bool linear);
 std::string heat(const sixstep::study::Heat& h);
 std::string sensors(const sixstep::study::Sensors& s);
 bool all_ideal(const sixstep::study::Sensors& s);
-/// The first eight values, and their total number.
+/// The first eight values, and the number of all values.
 std::string listed(const std::vector<double>& values, const char* unit);
 std::string events(const std::vector<sixstep::study::At>& events, bool linear);
 /// Each key with another value than its default that `sentences` do not depend on, and its value with its unit. So a

@@ -13,7 +13,7 @@ struct Shell {
   std::string_view command;
   std::string_view version;
   std::string_view main_class = {};
-  bool charts = true;  ///< its scripts draw with uPlot
+  bool charts = true;  ///< true: the page's scripts draw with uPlot
 };
 
 /// A page without a script.

@@ -14,7 +14,8 @@
 namespace report {
 namespace {
 
-/// A curve of less than a whole turn ends elsewhere than it began: its strongest lines are those of the cut.
+/// A note on a stretch that is less than a whole turn: a curve then ends at another value than it began with,
+/// and its strongest lines are those of this jump.
 std::string cut_short(const Stretch& stretch) {
   constexpr double least_turn = 0.01;  // a held rotor that trembles has no electrical frequency
   if (!(stretch.part > least_turn)) return "";
@@ -85,8 +86,9 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
   for (const Wanted& w : wanted) {
     const auto* values = find_column(trace, w.column);
     if (!values) continue;
-    // 64 cells per period: an eighth of their frequency is eight times the PWM's. Frequencies that would fold
-    // into the lines are above 56 times it, where the cells' means leave an eighth.
+    // 64 cells per period: the drawn lines reach an eighth of the cells' frequency, which is eight times the
+    // PWM's. Only frequencies above 56 times the PWM's would fold into the lines, and the cells' means reduce
+    // these to an eighth.
     Lines lines = lines_of(time, *values, stretch->time, scenario.pwm.period_s / 64);
     if (std::ranges::max(lines.amplitude) >= least_tone)
       out.all.push_back({w.id, w.title, w.quantity, w.unit, w.label, w.style, std::move(lines)});

@@ -22,7 +22,7 @@ struct Spectra {
   std::vector<DrawnSpectrum> all;
 };
 
-/// Empty if the run has no steady stretch, or no signal changes there.
+/// The spectra. Empty if the run has no steady stretch, or if no signal changes in it.
 std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                                double pole_pairs);
 

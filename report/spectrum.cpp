@@ -19,10 +19,10 @@ using std::numbers::pi;
 
 constexpr double fewest_periods = 64.0;
 constexpr double most_periods =
-    4096.0;  // with 64 cells per period as many cells as a transform takes in about 50 ms
+    4096.0;  // with 64 cells per period, this is as many cells as a transform processes in about 50 ms
 constexpr std::size_t fewest_cells = 1024, most_cells = 1u << 18;
 
-/// The value on the line between rows.
+/// The value at t on the straight line between two rows.
 double value_at(const Values& time, const Values& y, double t) {
   const auto after = std::ranges::upper_bound(time, t) - time.begin();
   if (after == 0) return y.front();
@@ -31,7 +31,7 @@ double value_at(const Values& time, const Values& y, double t) {
   return y[n - 1] + (y[n] - y[n - 1]) * (t - time[n - 1]) / (time[n] - time[n - 1]);
 }
 
-/// The last time, before the row `last`, at which a curve through the rows was at `level`.
+/// The last time, not after the row `last`, at which the straight lines through the rows were at `level`.
 std::optional<double> last_crossing(const Values& time, const Values& y, double level, double not_before) {
   for (std::size_t n = time.size(); n-- > 1 && time[n] >= not_before;) {
     const double a = y[n - 1] - level, b = y[n] - level;
@@ -41,7 +41,7 @@ std::optional<double> last_crossing(const Values& time, const Values& y, double 
   return std::nullopt;
 }
 
-/// Means of the line through the rows over `count` equal cells of the stretch.
+/// Means of the straight lines through the rows, over `count` equal cells of the stretch.
 Values cell_means(const Values& time, const Values& y, const Interval& stretch, std::size_t count) {
   const double width = (stretch.to - stretch.from) / static_cast<double>(count);
   Values means(count, 0.0);
@@ -53,7 +53,8 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
     if (!(from < end)) continue;
     const double slope = (y[n] - y[n - 1]) / (t1 - t0);
     while (from < end) {
-      const bool last = cell + 1 == count;  // its edge may be rounded below the stretch's end
+      const bool last = cell + 1 == count;  // the last cell's edge may be rounded to a value below the
+                                            // stretch's end
       const double to = last ? end : std::min(end, stretch.from + width * static_cast<double>(cell + 1));
       if (to > from) means[cell] += (to - from) * (y[n - 1] + slope * ((from + to) / 2 - t0)) / width;
       if (to < end) ++cell;
@@ -63,8 +64,8 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
   return means;
 }
 
-/// The tone of a highest line, from its higher neighbour, by the Hann window's response to a tone `off` lines
-/// away.
+/// The tone to which a line belongs that is higher than its neighbours. It is computed from the line and its
+/// higher neighbour, by the Hann window's response to a tone `off` lines away.
 Tone tone_at(const Values& a, std::size_t k) {
   const bool up = a[k + 1] >= a[k - 1];
   const double ratio = (up ? a[k + 1] : a[k - 1]) / a[k];
@@ -121,7 +122,8 @@ void transform(std::vector<std::complex<double>>& values) {
     reversed ^= bit;
     if (n < reversed) std::swap(values[n], values[reversed]);
   }
-  // The factors of half the size are every second one: a power of two does not change the bits of the angle.
+  // The factors for half the size are every second factor of the full size: division by a power of two does
+  // not change the bits of the angle.
   std::vector<std::complex<double>> turns(count / 2), turn(count / 2);
   for (std::size_t k = 0; k < turns.size(); ++k)
     turns[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(count));
@@ -130,8 +132,8 @@ void transform(std::vector<std::complex<double>>& values) {
     for (std::size_t start = 0; start < count; start += size)
       for (std::size_t k = 0; k < size / 2; ++k) {
         const std::complex<double> even = values[start + k], other = values[start + k + size / 2];
-        // The product is written out, because the operator also checks infinities, which takes three times as
-        // long.
+        // The product is written out, because the complex operator also checks for infinities, which takes
+        // three times as long.
         const std::complex<double> odd(turn[k].real() * other.real() - turn[k].imag() * other.imag(),
                                        turn[k].real() * other.imag() + turn[k].imag() * other.real());
         values[start + k] = even + odd;
@@ -148,8 +150,8 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   const auto window = [count](std::size_t n) {
     return 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count));
   };
-  // Mean weighted by the window: with a plain mean, a fraction of a period would appear as a tone in the
-  // first line.
+  // The mean is weighted by the window: without the weights, a fraction of a period would appear as a tone in
+  // the first line.
   double mean = 0.0;
   for (std::size_t n = 0; n < count; ++n) mean += means[n] * window(n) / (0.5 * static_cast<double>(count));
   std::vector<std::complex<double>> bins(count);
@@ -159,7 +161,8 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   out.amplitude.assign(count / 8 + 1, 0.0);
   for (std::size_t k = 1; k < out.amplitude.size(); ++k) {
     const double x = pi * static_cast<double>(k) / static_cast<double>(count);
-    // 2/N for an amplitude, 1/2 for the window's mean, and the damping of the cells' means.
+    // The factor has three parts: 2/N for an amplitude, 1/2 for the window's mean, and the damping by the
+    // cells' means.
     out.amplitude[k] = 4.0 / static_cast<double>(count) * std::abs(bins[k]) * x / std::sin(x);
   }
   out.tones = tones_of(out.amplitude);

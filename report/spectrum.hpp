@@ -12,19 +12,19 @@
 
 namespace report {
 
-/// The stretch of the spectrum: the later half of the last stretch with one setpoint, at most 4096 PWM periods.
-/// If the rotor turns, it is shortened to whole electrical turns, so that harmonics of the electrical frequency
-/// fall on lines.
+/// The stretch of time from which a spectrum is computed: the later half of the last interval with one
+/// setpoint, at most 4096 PWM periods. If the rotor turns, it is shortened to whole electrical turns, so that
+/// harmonics of the electrical frequency coincide with lines.
 struct Stretch {
   Interval time;
-  long long turns = 0;  ///< electrical
+  long long turns = 0;  ///< number of electrical turns
   double part = 0.0;    ///< fraction of an electrical turn, if the stretch is shorter than one turn
 };
-/// Empty if shorter than 64 PWM periods, which do not resolve frequencies.
+/// The stretch. Empty if it is shorter than 64 PWM periods, which do not resolve frequencies.
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
                                       const sixstep::study::Scenario& scenario, double pole_pairs);
 
-/// A pure tone: its place in lines, possibly between two, and its amplitude (peak value).
+/// A pure tone: its place counted in lines, which need not be whole, and its amplitude (peak value).
 struct Tone {
   double line = 0.0, amplitude = 0.0;
 };
@@ -32,19 +32,20 @@ struct Tone {
 /// Least amplitude in the column's unit; smaller amplitudes are only rounding.
 inline constexpr double least_tone = 1e-9;
 
-/// Amplitude (peak value) of line k at k/duration. A Hann window widens a pure tone to three lines. Between two
-/// lines the highest one would be up to 15 % too low; therefore the tone's place and amplitude are computed from
-/// the two highest lines, and the highest line gets that amplitude.
+/// Amplitude (peak value) of line k at the frequency k/duration. A Hann window widens a pure tone to three
+/// lines. If the tone is between two lines, the highest line alone would be up to 15 % too low. Therefore the
+/// tone's place and amplitude are computed from the two highest lines, and the highest line gets this
+/// amplitude.
 struct Lines {
   double spacing_Hz = 0.0, cell_s = 0.0;
-  std::vector<double> amplitude{};  ///< up to an eighth of the cells' frequency; [0], the mean, is 0
+  std::vector<double> amplitude{};  ///< up to an eighth of the cells' frequency; [0], the mean, is set to 0
   std::vector<Tone>
-      tones{};  ///< strongest first; without tones below a thousandth of it or least_tone, in the leakage of a
-                ///< stronger one, or on the first line, where a drift shows too
+      tones{};  ///< strongest first; left out are tones below least_tone or a thousandth of the strongest,
+                ///< those in the leakage of a stronger one, and the first line, where a drift appears too
 };
-/// The spectrum of the straight lines between the rows. They are averaged exactly over equal cells no longer
-/// than `cell_s`, which damps higher frequencies instead of folding them down; the damping of the lower ones is
-/// divided out again.
+/// The spectrum of the straight lines between the rows. The lines are averaged exactly over equal cells no
+/// longer than `cell_s`. Averaging damps higher frequencies, so that they are not folded down. Its damping of
+/// the lower frequencies is divided out again.
 Lines lines_of(const std::vector<double>& time, const std::vector<double>& values, const Interval& stretch,
                double cell_s);
 

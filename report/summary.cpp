@@ -48,7 +48,7 @@ std::string closest(const Outcome& outcome) {
                 fmt::format("{}: {}", with_subscripts(tightest->figure), escaped(room_words(*tightest))));
 }
 
-/// The part of the bus in use, if no two consecutive samples used all of it.
+/// The used part of the bus, if no two consecutive samples used all of it.
 std::string least_of_bus(double largest_duty, bool legs) {
   constexpr double whole = 1.0 - 1e-6;
   if (largest_duty >= whole) return "all of it used at single samples only";
@@ -105,7 +105,7 @@ std::string own_numbers(const Scenario& scenario) {
   return text;
 }
 
-/// The text for a drive without a loop with gains.
+/// The text for a drive that has no loop with gains.
 std::string without_gains(const Scenario& scenario) {
   using sixstep::control::Mode;
   if (scenario.control.mode == Mode::off) return "off";

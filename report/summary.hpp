@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the first screen with the verdict: the limiting requirement, the gains with their source, the
-// current during a step, the costs in energy and switching.
+// Writes the first screen of a report with the verdict: the limiting requirement, the gains with their
+// source, the current during a step, and the costs in energy and switching.
 #pragma once
 #include <string>
 

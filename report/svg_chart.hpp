@@ -11,7 +11,7 @@ inline constexpr const char* curve_styles[] = {"a", "b", "c"};
 
 struct SvgCurve {
   std::string label;
-  std::string style;  ///< a colour of the style sheet: "a", "b", "c", "main", "reference" (dashed)
+  std::string style;  ///< name in the style sheet: "a", "b", "c", "main", "reference" (dashed)
   std::vector<double> x{},
       y{};  ///< a point that is not finite, or not positive on a logarithmic axis, interrupts the curve
 };
@@ -20,16 +20,16 @@ struct SvgCurve {
 struct SvgMark {
   double x, y;
   std::string label;
-  std::string style;  ///< style, as for a curve
+  std::string style;  ///< style, with the names for curves
 };
 
 struct SvgChart {
   std::string title, x_label, y_label{};
   bool log_x = false, log_y = false;
   double y_tick = 0.0;   ///< distance of the grid lines; 0: round numbers
-  bool compact = false;  ///< half the size, for charts side by side
+  bool compact = false;  ///< half the usual size, for charts side by side
   std::vector<SvgCurve> curves{};
-  std::vector<double> levels{};  ///< horizontal lines
+  std::vector<double> levels{};  ///< values at which horizontal lines are drawn
   std::vector<SvgMark> marks{};
 };
 

@@ -9,14 +9,15 @@ namespace {
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-/// Whether row n has the values of its neighbours.
+/// Whether row n and its two neighbours have the same values in every curve.
 bool is_level(const Curves& curves, std::size_t n) {
   for (const auto& y : curves)
     if (!same(y[n - 1], y[n]) || !same(y[n], y[n + 1])) return false;
   return true;
 }
 
-/// The rows needed for drawing: a row whose neighbours have the same values in every curve lies on a level line.
+/// The rows needed for drawing. A row is not needed if its neighbours have the same values in every curve,
+/// because it lies on a level line.
 std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) {
   std::vector<std::size_t> rows;
   rows.reserve(count);
@@ -25,7 +26,8 @@ std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) 
   return rows;
 }
 
-/// The first and last rows and each curve's extremes in [begin, end), rising and without repetition.
+/// Adds the first and last rows and each curve's extremes in [begin, end), in rising order and without
+/// repetition.
 void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std::size_t end,
                    const Curves& curves, std::vector<std::size_t>& chosen, std::vector<std::size_t>& kept) {
   chosen.assign({rows[begin], rows[end - 1]});
@@ -71,7 +73,8 @@ Thinned thinned(std::span<const double> time, const Curves& curves, std::span<co
   std::vector<std::size_t> detail;
   for (const std::size_t n : out.rows)
     if (std::ranges::any_of(keep, [&](const Interval& i) { return i.holds(time[n]); })) detail.push_back(n);
-  // Extremes often coincide. Therefore the loop starts with many buckets and reduces them until the rows fit.
+  // Extremes often coincide in one row. Therefore the loop starts with many buckets and reduces them until
+  // the rows fit.
   std::size_t buckets = std::max<std::size_t>(cap / 3, 1);
   std::vector<std::size_t> coarse = envelope(time, out.rows, curves, buckets);
   while (coarse.size() > cap && buckets > 1) {

@@ -20,13 +20,13 @@ struct Thinned {
 };
 
 /// The rows that draw these curves over one time axis. Rows that change nothing are dropped without loss. If
-/// more than `full` are left, time is cut into equal buckets; each keeps, per curve, its first, lowest, highest
-/// and last row, `cap` rows at most. Inside `keep` every row stays.
+/// more than `full` rows are left, time is divided into equal buckets. Each bucket keeps the first, lowest,
+/// highest and last row of each curve, at most `cap` rows in total. Inside `keep` every row stays.
 Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
                 std::size_t cap, std::size_t full);
 
-/// Selects from these rows the first, lowest, highest and last of each curve in each of `buckets` equal
-/// stretches of time: at most 2 + 2 curves rows per stretch.
+/// Selects from these rows the first, lowest, highest and last row of each curve in each of `buckets` equal
+/// intervals of time: at most 2 + 2 curves rows per interval.
 std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
                                   const Curves& curves, std::size_t buckets);
 

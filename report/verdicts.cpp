@@ -19,11 +19,11 @@ std::string with_aside(const std::string& main, const std::string& extra) {
   return extra.empty() ? main : fmt::format("{}<small class=\"aside\">{}</small>", main, extra);
 }
 
-/// A small scale: the allowed range shaded, the measured value as a mark. Limits are at 20 and 80 %, so that the
-/// remaining room is visible.
+/// A small scale with the allowed range shaded and a mark at the measured value. Limits are at 20 and 80 %,
+/// so that the remaining distance is visible.
 std::string gauge(const Verdict& v) {
   if (!std::isfinite(v.measured) || (!v.min && !v.max)) return "";
-  double low = 0.0, high = 80.0, at = 0.0;  // allowed range and mark, % of the width
+  double low = 0.0, high = 80.0, at = 0.0;  // places of allowed range and mark, in per cent of the width
   if (v.min && v.max) {
     const double width = *v.max - *v.min;
     low = 20.0;

@@ -8,7 +8,7 @@
 
 namespace report {
 
-/// The verdict of a run; a run without requirements has neither passed nor failed.
+/// The verdict of a run. A run without requirements has neither passed nor failed.
 struct Standing {
   std::string css;   ///< "pass", "fail", "none"
   std::string word;  ///< "PASS", "FAIL", "NO REQUIREMENT"
@@ -16,14 +16,14 @@ struct Standing {
 };
 Standing standing(const sixstep::study::Outcome& outcome);
 
-/// The remaining distance to the nearer limit, relative to half the distance of both limits, or to the single
-/// limit; negative if not met. Empty if this has no meaning.
+/// The remaining distance to the nearer limit, relative to half the distance between the two limits, or to
+/// the only limit; negative if the requirement is missed. Empty if this has no meaning.
 std::optional<double> room(const sixstep::study::Verdict& verdict);
-/// "1.5 % below its limit", "0.2 A from the nearer of its limits"; only for a verdict that is met and has a
-/// room().
+/// The distance in words: "1.5 % below its limit", "0.2 A from the nearer of its limits". Only for a
+/// requirement that is met and has a room().
 std::string room_words(const sixstep::study::Verdict& verdict);
 
-/// Rows of the requirement table: mark, figure, required, measured, place within the limits.
+/// Rows of the requirement table: mark, figure, required, measured, and place within the limits.
 std::string requirement_rows(const sixstep::study::Outcome& outcome);
 
 /// Rows of the comparison table: figure, source's value, measured, deviation, source.

@@ -9,18 +9,18 @@
 
 namespace report {
 
-/// A column by name; null if the trace lacks it or it holds no number.
+/// A column by name; null if the trace does not have it, or if it holds no number.
 const std::vector<double>* find_column(const sixstep::study::Trace& trace, std::string_view name);
 
 /// Whether the trace has every row of the interval.
 bool is_whole(const sixstep::study::Trace& trace, const Interval& interval);
-/// The time from which the trace has every row; the first row's time if it has all.
+/// The time from which on the trace has every row; the first row's time if none was replaced.
 double whole_from_s(const sixstep::study::Trace& trace);
 
 struct Windows {
   std::optional<Interval> periods;  ///< three PWM periods in which the bridge switches, as late as possible
   std::optional<Interval>
-      commutation;                 ///< around a Hall edge under considerable current, as late as possible
+      commutation;  ///< interval around a Hall edge with a considerable current, as late as possible
   std::optional<Interval> step{};  ///< the largest change of the setpoint
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the elements of the wiring pictures: lines with no more points than are visible, and the marks and
-// colours of each behaviour.
+// Draws the elements of the wiring pictures: lines with no more points than are visible, and a mark and a
+// colour for each behaviour.
 #pragma once
 #include <string>
 #include <string_view>
@@ -20,8 +20,8 @@ struct Place {
   double x = 0.0, y = 0.0;
 };
 
-/// "M..l.." in tenths of a pixel, for a group scaled by 0.1; points within 0.3 pixels of a straight line are
-/// left out.
+/// A path "M..l.." in tenths of a pixel, for a group that is scaled by 0.1. Points within 0.3 pixels of a
+/// straight line are left out.
 std::string line_through(const std::vector<Place>& points);
 
 /// The style class of a behaviour: "forward", "rough", "hums", "backward", "unclear".
@@ -30,13 +30,13 @@ std::string_view style_of(sixstep::analysis::WiringDoes does);
 /// An arrow in the direction of motion, or a wave for humming, in a box of 12 pixels.
 std::string mark_of(sixstep::analysis::WiringDoes does, double x, double y);
 
-/// Lines of text of at most `width` characters, `leading` pixels apart, beginning at the first baseline.
+/// Lines of text of at most `width` characters, `leading` pixels apart. The first baseline is at y.
 std::string wrapped(std::string_view text, std::size_t width, double x, double y, double leading,
                     std::string_view style = "");
 /// The number of lines that wrapped() makes.
 std::size_t lines_of(std::string_view text, std::size_t width);
 
-/// "×17": the phase current relative to that with straight wires.
+/// The ratio as text: "×17" for 17 times the phase current of straight wires.
 std::string times_text(double ratio);
 
 /// The style rules of these drawings, in the colours of the page.

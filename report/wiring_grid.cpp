@@ -28,7 +28,7 @@ double at(std::size_t n, double begin, double size) {
   return begin + static_cast<double>(n) * (size + grid_gap) + (n >= 3 ? group_gap : 0);
 }
 
-/// Three wires from the motor's ends, in their order, to the board's places.
+/// Three wires from the motor's terminals, in their order, to the board's places.
 std::string wires(const std::array<std::uint8_t, 3>& ends, const char* const (&from)[3],
                   const char* const (&to)[3], double x, double y, bool across) {
   std::string out;

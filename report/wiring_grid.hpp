@@ -4,9 +4,9 @@
 
 namespace report {
 
-/// Six by six wirings: for each its torque over an electrical turn, theory as an area and measurement as a line,
-/// and below it the rotor's motion from six starts. Rows are orders of the phases at the legs, columns orders of
-/// the probes at the pins.
+/// The 36 wirings as a grid. Rows are orders of the phases at the legs, columns are orders of the probes at
+/// the pins. Each wiring has its torque over an electrical turn, theory as an area and measurement as a line.
+/// Below it is the rotor's motion from six starts.
 Panel wiring_grid(const sixstep::analysis::WiringStudy& study);
 
 /// A card for each behaviour of a wiring: the current at the bench, the other symptoms in words, and the next

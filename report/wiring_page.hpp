@@ -15,7 +15,7 @@ struct WiringPageInput {
   std::string_view version;
 };
 
-/// The same input gives the same bytes.
+/// Returns the page. The same input gives the same bytes.
 std::string render_wiring(const WiringPageInput& input);
 
 }  // namespace report

@@ -10,7 +10,8 @@ std::string unpacked(std::string_view packed, std::size_t size) {
   uLongf written = size;
   const int wrong = ::uncompress(reinterpret_cast<Bytef*>(out.data()), &written,
                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-  if (wrong != Z_OK || written != size) out.clear();  // a damaged program; each text is then missing
+  // Happens only in a damaged program; the texts are then missing.
+  if (wrong != Z_OK || written != size) out.clear();
   return out;
 }
 

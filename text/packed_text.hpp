@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Unpacks texts that tools/embed.py has compressed: pages, motors and tables make the program a thirtieth larger otherwise.
+// Unpacks texts that tools/embed.py has compressed. Without compression, pages, motors and tables would make
+// the program a thirtieth larger.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace text {
 
-/// The `size` bytes of a zlib stream that this program contains.
+/// Unpacks a zlib stream of this program to its `size` bytes.
 std::string unpacked(std::string_view packed, std::size_t size);
 
 }  // namespace text

@@ -13,9 +13,10 @@
 namespace text {
 
 struct NamedText {
-  std::string name;  ///< for messages; names inside the text are relative to it
+  std::string name;  ///< name for messages; names inside the text are relative to it
   std::string text;
-  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if the name is one
+  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if the name is that of a
+                                                   ///< controller
 };
 
 struct Naming {
@@ -26,19 +27,19 @@ struct Naming {
 };
 
 /// Returns the named text. A Problem's `where` is the place of the search. Its `limit` is the reason why the
-/// text cannot be read, empty if it does not exist. An empty Resolve finds nothing.
+/// text cannot be read, and empty if the text does not exist. An empty Resolve finds nothing.
 using Resolve = std::function<base::Result<NamedText>(const Naming&)>;
 
 /// The text, or a Problem to be reported at the name.
 base::Result<NamedText> find_text(const Resolve& resolve, const Naming& naming);
 
-/// Finds texts in this list by their names; a motor's name may lack .toml.
+/// A Resolve that finds texts in this list by their names; a motor's name may lack .toml.
 Resolve among(std::vector<NamedText> texts);
 
-/// `name` relative to the folder of `from`, in one spelling: "a/b.toml" for "../b.toml" in "a/c/d.toml".
+/// `name` relative to the folder of `from`, without "..": "a/b.toml" for "../b.toml" in "a/c/d.toml".
 std::string beside(std::string_view from, std::string_view name);
 
-/// "b" of "a/b.toml".
+/// A file's name without folder and suffix: "b" for "a/b.toml".
 std::string stem_of(std::string_view name);
 
 }  // namespace text

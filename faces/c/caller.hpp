@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller in the controller's place. The engine calls a controller or a chip; here both read what the caller
-// has set, and keep what they are given.
+// The caller of the C library takes the controller's place. The engine calls a controller or a chip. Both
+// read what the caller has set, and store what the engine gives them.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -17,13 +17,13 @@ struct Exchange {
   sixstep_measured measured{};
   double setpoint = 0.0;
   std::uint32_t gates = 0;
-  std::int64_t stop_ps = never_ps;  ///< next instant at which the run with gates stops
+  std::int64_t stop_ps = never_ps;  ///< next instant at which a run with SIXSTEP_CHIP_GATES stops
 
   static constexpr std::int64_t never_ps = std::int64_t{1} << 62;
 };
 
-/// While it lives, runs that this thread advances exchange with `exchange`. A run has no pointer to it, so that a copy
-/// of the run is independent.
+/// While this object lives, runs that its thread advances use `exchange`. A run has no pointer to it, so that
+/// a copy of the run is independent.
 class Exchanging {
  public:
   explicit Exchanging(Exchange& exchange);

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of a linear motor also the name that its files have, its unit, and the factor from the value to it.
+/// The signals as JSON. For a linear motor, each also has the name that files use, its unit, and the factor
+/// from the value to that unit.
 Json signals(const Session& session) {
   Json list = Json::array();
   const std::vector<study::Column>& columns = study::all_columns();

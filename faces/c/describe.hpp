@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sixstep_describe() tells of a session.
+// Makes the text of sixstep_describe().
 #pragma once
 #include <string>
 
@@ -7,7 +7,8 @@
 
 namespace c_face {
 
-/// JSON: version, duration, control period, signals with their place among all, and keys of changes.
+/// Returns JSON: version, duration, control period, the session's signals with their indices, and the keys
+/// that can be changed.
 std::string described(const Session& session);
 
 }  // namespace c_face

@@ -18,14 +18,15 @@ using Cbor = nlohmann::json;
 
 constexpr char magic[] = "sixstep session";
 
-/// The bytes of an answer are its fields in the order of the struct, the same in every process of one interface.
+/// The bytes of an answer: its fields in the order of the struct. They are the same in every process with the
+/// same interface.
 std::vector<std::uint8_t> bytes_of(const sixstep_answer& answer) {
   std::vector<std::uint8_t> out(sizeof answer);
   std::memcpy(out.data(), &answer, sizeof answer);
   return out;
 }
 
-/// Empty if the bytes are no saved session of this version.
+/// The parts of saved bytes. Empty if the bytes are no saved session of this version.
 struct Parts {
   Source source;
   std::vector<Command> commands;
@@ -77,7 +78,7 @@ std::optional<Parts> parts_of(const Cbor& in) {
   return out;
 }
 
-/// Bytes of the checksum behind those that it is of.
+/// Number of bytes of the checksum, which follows the bytes that it covers.
 constexpr std::size_t checksum_bytes = 8;
 
 std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {

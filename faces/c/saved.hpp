@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session as bytes: scenario, commands and instant, from which the run is simulated again. They hold no memory of
-// the machine, so that any machine with the same version of the library reads them.
+// Converts a session to bytes: scenario, commands and instant, from which the run is simulated again. They do
+// not contain memory contents, so that any machine with the same version of the library can read them.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace c_face {
 
-/// CBOR (RFC 8949) and a checksum. `session` must be open.
+/// Returns CBOR (RFC 8949) and a checksum. `session` must be open.
 std::vector<std::uint8_t> saved(const Session& session);
 
 /// Opens `session` and simulates it up to the saved instant.

@@ -17,7 +17,7 @@ namespace c_face {
 
 namespace {
 
-/// Finds files as the command line does, and the caller's controller by its name.
+/// Finds files like the command line, and the caller's controller by its name.
 text::Resolve resolve_with(const std::string& data_folder, bool legs) {
   return [on_disk = files::on_disk(data_folder), legs](const text::Naming& naming) {
     if (naming.kind == text::Naming::Kind::controller && naming.name == caller_name)
@@ -27,7 +27,7 @@ text::Resolve resolve_with(const std::string& data_folder, bool legs) {
   };
 }
 
-/// The caller replaces the scenario's controller. Only the board's parts of the scenario remain.
+/// Puts the caller in the place of the scenario's controller. Only the keys of the scenario's board remain.
 void hand_over(study::Scenario& s, sixstep_chip chip) {
   if (chip != SIXSTEP_CHIP_PAIR && chip != SIXSTEP_CHIP_LEGS) return;
   s.control.drive = study::FirmwareKind::own;
@@ -37,7 +37,8 @@ void hand_over(study::Scenario& s, sixstep_chip chip) {
 
 constexpr char change_head[] = "\n[[at]]\ntime_s = ";
 
-/// A change is read as the end of the scenario's text; its lines are counted from its own first one.
+/// A change is read as the end of the scenario's text. In its problems, lines are counted from the change's
+/// own first line.
 base::Problems in_change(base::Problems found, const Source& source) {
   const auto own = std::count(source.toml.begin(), source.toml.end(), '\n') + 1, lines = own + 2;
   for (base::Problem& p : found) {
@@ -48,7 +49,7 @@ base::Problems in_change(base::Problems found, const Source& source) {
     const auto [end, wrong] = std::from_chars(from, last, line);
     if (wrong != std::errc{} || line <= own) continue;
     if (line <= lines)
-      p.where = "toml";  // of all its lines
+      p.where = "toml";  // the problem is about all lines
     else
       p.where = "toml:" + std::to_string(line - lines) + std::string(end, last);
   }
@@ -71,7 +72,7 @@ Session::Session(const Session& other)
 
 sixstep_status Session::refused(base::Problems found) {
   problems = std::move(found);
-  for (base::Problem& p : problems)  // the command line's word for a setting
+  for (base::Problem& p : problems)  // replaces the command line's word for a setting
     if (constexpr std::string_view option = "--set "; p.where.starts_with(option))
       p.where.replace(0, option.size(), "options.settings: ");
   return SIXSTEP_REFUSED;
@@ -121,7 +122,7 @@ void Session::note_what_applies() {
     applies_[c] = study::applies(static_cast<study::ColumnId>(c), run_->scenario());
 }
 
-/// Makes ahead_ of run_, and reads it at the instant: run_ itself has skipped there.
+/// Makes ahead_ as a copy of run_, and reads the copy at the instant. run_ has only skipped to this instant.
 bool Session::look_ahead(std::int64_t at_ps) {
   exchange_.stop_ps = Exchange::never_ps;
   ahead_ = run_;
@@ -134,7 +135,7 @@ double Session::time_s() const {
 }
 double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
-/// A fault that ended the run is told at once, from a copy that is finished in its place.
+/// A fault that ended the run is reported at once. A finished copy of the run gives the fault's problem.
 sixstep_status Session::reached(bool goes_on) {
   if (goes_on) return SIXSTEP_OK;
   if (seen().now_s() >= seen().scenario().duration_s * (1 - 1e-9)) return SIXSTEP_OVER;
@@ -148,7 +149,8 @@ sixstep_status Session::advance(double to_s) {
   if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
   if (std::isnan(to_s)) return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
   const Exchanging here(exchange_);
-  // Past its end a run is over: a larger number changes nothing, and an instant has room for it.
+  // The instant is limited: beyond the run's end nothing changes, and a larger number could exceed the range
+  // of an instant.
   const double end_s = 2 * seen().scenario().duration_s;
   return reached(seen().advance(to_s < end_s ? (to_s < 0 ? 0.0 : to_s) : end_s));
 }
@@ -159,8 +161,9 @@ sixstep_status Session::advance_to_tick() {
   return reached(seen().advance_to_tick());
 }
 
-/// Looks on a grid that does not depend on the caller's steps, and halves the step with a change down to a picosecond.
-/// run_, at the last change of the gates, is the past from which that step is simulated again.
+/// Reads at instants of a grid that does not depend on the caller's steps. If the side changes between two
+/// instants, the step between them is halved until it is a picosecond. run_, which is at the last change of
+/// the gates, is the state from which this step is simulated again.
 template <class Side>
 sixstep_status Session::advance_to_edge(const char* function, double to_s, const Side& side) {
   if (const sixstep_status status = usable(function); status != SIXSTEP_OK) return status;
@@ -221,7 +224,7 @@ sixstep_status Session::change(std::string_view toml, double* at_s) {
     return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
   const std::int64_t now = now_ps();
   Session tried(*this);  // a refused change leaves this session as it is
-  if (tried.ahead_)      // the run itself goes to this instant too
+  if (tried.ahead_)      // run_ must reach this instant too
     if (const sixstep_status status = tried.set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
   const Exchanging here(tried.exchange_);
   const base::Result<double> at = tried.run_->change(with->at.back());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session of the C interface: the library's session, what the caller controls it with, and the texts that it has
-// handed out. Functions return a status and leave their problems in `problems`.
+// A session of the C interface: the library's session, the answers with which the caller controls it, and the
+// texts that it has handed out. Functions return a status and store their problems in `problems`.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,16 +18,16 @@
 
 namespace c_face {
 
-/// Where a scenario comes from.
+/// The text of a scenario and its name.
 struct Source {
-  std::string name{};  ///< for messages; files that the text names are in its folder
+  std::string name{};  ///< name in messages; files that the text names are in its folder
   std::string toml{};
   std::string data_folder{};
   std::vector<std::pair<std::string, std::string>> settings{};
   sixstep_chip chip = SIXSTEP_CHIP_OF_SCENARIO;
 };
 
-/// What the caller set at an instant, for sixstep_save().
+/// A setting by the caller at an instant, stored for sixstep_save().
 struct Command {
   std::int64_t at_ps = 0;
   sixstep_answer answer{};
@@ -49,7 +49,7 @@ class Session {
   sixstep_status set_gates(std::uint32_t gates);
   sixstep_status convert(sixstep_counts& counts);
   sixstep_status finish();
-  /// Continues at what a saved session had set and reached.
+  /// Repeats the commands of a saved session up to the instant that it had reached.
   sixstep_status replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s);
 
   /// An independent session in the same state, without its problems and texts.
@@ -71,10 +71,10 @@ class Session {
 
   sixstep_status misuse(const char* function, const char* limit, const char* cure);
 
-  std::string described, written;  ///< texts handed out
+  std::string described, written;  ///< texts that the session has handed out
 
  private:
-  /// The run that is read: with gates, it is ahead of run_, which stands at the last change of the gates, so that
+  /// The run that is read. With gates it is ahead of run_, which is at the last change of the gates, so that
   /// reading ends no segment.
   study::Session& seen() { return ahead_ ? *ahead_ : *run_; }
   const study::Session& seen() const { return ahead_ ? *ahead_ : *run_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller as the controller: measurement, command, gates, counts.
+// The functions with which the caller acts as the controller: measurement, command, gates, counts.
 #include <string>
 #include <utility>
 
@@ -9,7 +9,8 @@ namespace c_face {
 
 namespace {
 
-/// Lags of the board's amplifiers and dividers, which only a controller of the scenario reads through.
+/// Problems: lags of the board's amplifiers and dividers. sixstep_convert() cannot apply them; only a
+/// controller's measurement has them.
 base::Problems lagging(const study::Scenario& s) {
   base::Problems out;
   const auto refuse = [&](bool lags, const char* key) {

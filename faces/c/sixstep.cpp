@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of sixstep.h. Each catches what the standard library throws when memory ends.
+// Implements the functions of sixstep.h. Each catches what the standard library throws if there is not enough
+// memory.
 #include "faces/c/sixstep.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace c_face {
 
 namespace {
 
-/// The status that `call` returns; SIXSTEP_NO_MEMORY if memory ends.
+/// Returns the status of `call`; SIXSTEP_NO_MEMORY if there is not enough memory.
 template <class Call>
 sixstep_status guarded(const Call& call) noexcept {
   try {
@@ -42,7 +43,7 @@ sixstep_status with(sixstep_session* session, const Call& call) noexcept {
   });
 }
 
-/// A text of the session; null if memory ends.
+/// Returns a text of the session; null if there is not enough memory.
 template <class Call>
 const char* text_of(sixstep_session* session, std::string& (*kept)(Session&), const Call& call) noexcept {
   if (session == nullptr || !session->is.is_open()) return "";
@@ -65,7 +66,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const char* const* 
   return out;
 }
 
-/// Makes a session, opens it with `open`, and hands it over even if it was refused.
+/// Makes a session, opens it with `open`, and returns it even if it was refused.
 template <class Open>
 sixstep_status made(sixstep_session** session, const Open& open) noexcept {
   if (session == nullptr) return SIXSTEP_MISUSE;
@@ -83,7 +84,7 @@ sixstep_status misplaced(Session& session, const char* place, const char* limit,
   return SIXSTEP_MISUSE;
 }
 
-/// Opens with options of this or an older program.
+/// Opens a session with the options of this or an older version of the struct.
 sixstep_status opened(Session& session, Source source, const sixstep_options* options) {
   sixstep_options is = SIXSTEP_OPTIONS;
   if (options != nullptr) {

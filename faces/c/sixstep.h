@@ -59,7 +59,7 @@ typedef enum {
 
 typedef struct sixstep_session sixstep_session;
 
-/* One problem. A text is empty where there is nothing to say. */
+/* One problem. A text is empty if it has nothing to state. */
 typedef struct {
   const char* place; /* key with file, line and column, or the function's argument: "drive.toml:3:1: pwm.period_s" */
   const char* value; /* the wrong value as it was given */
@@ -85,7 +85,8 @@ typedef enum {
 /* Begin with sixstep_options options = SIXSTEP_OPTIONS and set what differs. */
 typedef struct {
   size_t bytes;                /* sizeof(sixstep_options), by which a library knows a program's older struct */
-  const char* const* settings; /* null, or keys with values, "pwm.period_s=40us", ended by a null; stronger than the file */
+  const char* const* settings; /* null, or keys with values, "pwm.period_s=40us", ended by a null; they override
+                                  the file */
   const char* folder;          /* open_text: where files that the text names are; null: the working directory */
   const char* data;            /* null, or a folder that holds motors/NAME.toml. Motors of the library need none */
   sixstep_chip chip;
@@ -101,7 +102,7 @@ SIXSTEP_API void sixstep_free(sixstep_session* session);
 
 /* ---- Advance and read ---------------------------------------------------------------------------------------- */
 
-/* Advances to the instant to_s, in s from the start. An instant in the past reads that instant if it lies in the
+/* Advances to the instant to_s, in s from the start. If to_s is in the past, reads that instant if it lies in the
  * segment between the last two events, else the present one. SIXSTEP_OVER: the run ended at or before to_s. */
 SIXSTEP_API sixstep_status sixstep_advance(sixstep_session* session, double to_s);
 /* Advances to the next control tick after the present instant, before the controller acts on it. */
@@ -137,15 +138,15 @@ SIXSTEP_API const char* sixstep_describe(sixstep_session* session);
 
 /* ---- Change, copy, save -------------------------------------------------------------------------------------- */
 
-/* Changes values at the next control tick, as an [[at]] table of a scenario does. `toml` has its lines without
- * time_s: "load.torque_Nm = 0.05". *at_s, if not null, is the instant of the change. SIXSTEP_REFUSED: see
- * sixstep_problem_at(). */
+/* Changes values at the next control tick, as an [[at]] table of a scenario does. `toml` has the lines of such a
+ * table without time_s: "load.torque_Nm = 0.05". *at_s, if at_s is not null, becomes the instant of the change.
+ * SIXSTEP_REFUSED: see sixstep_problem_at(). */
 SIXSTEP_API sixstep_status sixstep_change(sixstep_session* session, const char* toml, double* at_s);
 /* An independent session in the same state. */
 SIXSTEP_API sixstep_status sixstep_copy(const sixstep_session* session, sixstep_session** copy);
-/* Writes the session to `bytes`, which has room for `room`, if it fits. Returns the number of bytes that it takes;
- * 0 if it cannot be saved. The bytes hold the scenario, all that was changed and set, and the instant:
- * sixstep_load() simulates the run again up to there, to the bit, also on another machine. */
+/* Writes the session to `bytes` if it fits into `room` bytes. Returns the number of bytes of the saved session; 0
+ * if the session cannot be saved. The bytes hold the scenario, all that was changed and set, and the instant:
+ * sixstep_load() simulates the run again up to this instant, to the bit, also on another machine. */
 SIXSTEP_API size_t sixstep_save(sixstep_session* session, void* bytes, size_t room);
 SIXSTEP_API sixstep_status sixstep_load(const void* bytes, size_t count, sixstep_session** session);
 /* The scenario as TOML with all changes so far; its run has the bits of this session, except where the
@@ -176,29 +177,29 @@ SIXSTEP_API uint64_t sixstep_digest(const sixstep_session* session);
  *   } while (sixstep_advance_to_tick(drive) == SIXSTEP_OK); */
 
 /* Measurement that the controller gets at the control tick of the present instant, through the scenario's sensors,
- * and the setpoint in the mode's unit. `setpoint` may be null. SIXSTEP_MISUSE: the session is not at a control tick:
- * it is there after sixstep_advance_to_tick(), and at t = 0 unless pwm.sample = "middle". */
+ * and the setpoint in the mode's unit. `setpoint` may be null. SIXSTEP_MISUSE: the session is not at a control
+ * tick. It is at one after sixstep_advance_to_tick(), and at t = 0 unless pwm.sample = "middle". */
 SIXSTEP_API sixstep_status sixstep_measure(sixstep_session* session, sixstep_measured* measured, double* setpoint);
-/* Answer to the next control tick and all later ones, until another is given. Before the first, all gates are off.
- * An answer that no timer can execute ends the run at that tick, as in a scenario. */
+/* Sets the answer at the next control tick and all later ticks, until another answer is set. Before the first
+ * answer, all gates are off. An answer that no timer can execute ends the run at that tick, as in a scenario. */
 SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixstep_answer* answer);
 
-/* SIXSTEP_CHIP_GATES: the gates from the present instant on, as bits 0..5: upper a, lower a, upper b, lower b, upper c,
- * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run: the next advance
- * returns SIXSTEP_OVER. Gates that are set twice at one instant: the last ones count. Instants of changes are
- * rounded to 1 ps. */
+/* SIXSTEP_CHIP_GATES: sets the gates from the present instant on, as bits 0..5: upper a, lower a, upper b, lower
+ * b, upper c, lower c. The caller must keep a dead time: both bits of a leg are a shoot-through, which ends the
+ * run, and the next advance returns SIXSTEP_OVER. If gates are set twice at one instant, the last ones apply.
+ * Instants of changes are rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
-/* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows
- * which. */
+/* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before. The signal
+ * "hall" then has the new code. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
-/* SIXSTEP_CHIP_GATES: advances to the next instant at which the terminal of leg 0, 1 or 2, less the mean of the three
- * terminals, changes from above level_V to at most level_V or back, or to to_s if none comes before: the edge of a
- * comparator for the back-EMF. Two changes within 1/16 of a control period can stay unseen. */
+/* SIXSTEP_CHIP_GATES: advances to the next edge of a comparator for the back-EMF, or to to_s if none comes before.
+ * At an edge, the terminal of leg 0, 1 or 2, less the mean of the three terminals, changes from above level_V to
+ * at most level_V or back. Two changes within 1/16 of a control period can remain undetected. */
 SIXSTEP_API sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s);
 
-/* Counts that the board's converters have at the present instant, with their offsets, gain errors and noise ([sensors]).
- * SIXSTEP_REFUSED: sensors.current_bandwidth_Hz, current_delay_s or bus_bandwidth_Hz, which only sixstep_measure() has.
- * A converter that the scenario does not have reads 0. */
+/* Counts that the board's converters have at the present instant, with their offsets, gain errors and noise
+ * ([sensors]). SIXSTEP_REFUSED: the scenario has sensors.current_bandwidth_Hz, current_delay_s or
+ * bus_bandwidth_Hz, which only sixstep_measure() can apply. A converter that the scenario does not have reads 0. */
 typedef struct {
   uint16_t current[3];  /* phases a, b, c; sensors.currents = "phases" */
   uint16_t terminal[3]; /* legs a, b, c, against the negative rail, with the bus's divider and converter */

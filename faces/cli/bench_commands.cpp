@@ -32,7 +32,7 @@
 namespace cli {
 namespace {
 
-/// Arguments of both verbs.
+/// Arguments of `motor identify` and of `motor emf`.
 struct BenchArguments {
   std::string path;
   text::BenchColumns columns;
@@ -49,7 +49,7 @@ struct EmfArguments : BenchArguments {
   std::optional<double> speed_rpm, tolerance_percent;
 };
 
-/// Adds a Problem if an option's number is out of its range.
+/// Adds a Problem if the number of an option is out of its range.
 void hold(base::Problems& problems, const char* option, const std::optional<double>& x, base::Range range,
           const char* cure) {
   if (x && !range.holds(*x)) problems.push_back({option, base::written(*x), base::limit_of(range), cure});
@@ -71,8 +71,8 @@ base::Problems check(BenchArguments& a) {
   return problems;
 }
 
-/// Names the library's members and the recording's headings as options. All other problems come from the
-/// recording.
+/// Replaces the library's members and the recording's headings by options. All other problems are those of
+/// the recording.
 base::Problems of_recording(base::Problems problems, const std::string& path) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"between", "--between"}, {"pole_pairs", "--pole-pairs"}, {"speed", "--speed"}};

@@ -56,7 +56,7 @@ base::Problems strangers(const RunArguments& a) {
 base::Result<std::vector<BodeFile>> opened(const OutputPaths& paths) {
   std::vector<BodeFile> out;
   for (const auto& [option, path] : paths.files()) {
-    if (option == "--csv" && path == "-") continue;  // it is printed, like the JSON
+    if (option == "--csv" && path == "-") continue;  // the CSV is printed, like the JSON
     base::Result<files::AtomicFile> file = files::AtomicFile::create({path, paths.force});
     if (!file) return file.problems();
     out.push_back({option, std::move(*file)});
@@ -82,7 +82,7 @@ base::Problems write(std::vector<BodeFile>& files, const std::string& name, cons
   return unwritten;
 }
 
-/// Names "--amplitude" and the keys of the file.
+/// Replaces the library's members by "--amplitude" and by the keys of the file.
 base::Problems told(base::Problems problems, const std::string& name) {
   for (base::Problem& p : problems) {
     p.where = name + ": " + p.where;
@@ -103,7 +103,7 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
     if (a.paths.of(option) == "-") print(content(option, job.name(), *s, a));
   const bool prints = a.paths.prints() || a.paths.of("--csv") == "-";
   if (!a.quiet) print(text::bode_text(job.name(), *s), prints ? stderr : stdout);
-  // A quiet run prints this only if it has no answer.
+  // A quiet run prints its notes only if the loop has not answered.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)
     print(text::visible(job.name()) + ": nothing was measured: no line has a coherence of 0.9\n", stderr);

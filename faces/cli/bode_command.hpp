@@ -5,8 +5,8 @@
 
 namespace cli {
 
-/// `sixstep run --bode SCENARIO`: the frequency response of its outermost loop, measured at the operating point
-/// where the scenario ends.
+/// `sixstep run --bode SCENARIO`: the frequency response of the drive's outermost loop, measured at the
+/// operating point where the scenario ends.
 Exit bode_command(const RunArguments& arguments);
 
 }  // namespace cli

@@ -41,7 +41,7 @@ study::Trace all_columns() {
   return trace;
 }
 
-/// Stores a row in a turning motor's units, because the drawn and the subtracted columns are the same for every
+/// Stores a row in a rotary motor's units, because the page draws and subtracts the same columns for every
 /// motor.
 void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& columns) {
   for (std::size_t n = 0; n < row.size(); ++n) trace.values[n].push_back(row[n] / columns[n].per_turning);
@@ -51,7 +51,7 @@ void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& 
 struct Compared {
   study::Scenario scenario;
   const loop::Core* core = nullptr;
-  std::size_t most_bytes = report::most_row_bytes;  ///< limit of the memory for events
+  std::size_t most_bytes = report::most_row_bytes;  ///< limit of the memory for events, bytes
   study::Trace grid = all_columns();
   std::optional<report::KeptRows> events;
   std::optional<study::Outcome> outcome;
@@ -85,7 +85,7 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
     Compared& run = runs.emplace_back(Compared{
         .scenario = job.scenario(), .core = job.core(), .most_bytes = report::most_row_bytes / jobs.size()});
     run.scenario.record = {.grid_s = report::common_grid_s(scenarios)};
-    // Columns without use in a mode are included, so that all runs have the same columns.
+    // Columns that have no meaning in a mode are included, so that all runs have the same columns.
     for (const study::Column& column : study::all_columns(run.scenario.sheet.kind))
       run.scenario.record.columns.push_back(column.name);
   }
@@ -101,7 +101,7 @@ struct Log {
   LogFound found;
 };
 
-/// Names the library's members as options.
+/// Replaces the library's members by options.
 base::Problems of_options(base::Problems problems) {
   for (base::Problem& p : problems)
     if (p.where == "columns") p.where = "--columns";
@@ -127,9 +127,9 @@ base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study
                            .found = {}});
 }
 
-/// Fits the shift of the log's clock by all its columns, because a board's clock starts after its own set-up.
-/// The range is twenty PWM periods, in steps of a twentieth of one; --shift replaces the fit. Problems:
-/// almost no row of the log is in the simulated time.
+/// Fits the shift between the log's clock and the run by all columns, because a board's clock starts after
+/// the board's set-up. The range is twenty PWM periods, in steps of a twentieth of one; --shift replaces the
+/// fit. Problems: almost no row of the log is in the simulated time.
 base::Problems lay_over(Log& log, const Compared& run) {
   const study::Trace simulated = run.events->trace();
   study::Trace& trace = log.read.trace;
@@ -154,7 +154,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
   return {};
 }
 
-/// Empty if no page is wanted.
+/// The page's file. Empty if no page is wanted.
 base::Result<std::optional<files::AtomicFile>> page_of_runs(const RunArguments& arguments) {
   const std::string& path = arguments.paths.of(page_option);
   if (path.empty()) return std::optional<files::AtomicFile>();

@@ -9,8 +9,8 @@ namespace cli {
 
 struct RunArguments;
 
-/// Whether the runs are compared: with a board's log; or if --html is the only output, for several files or
-/// for one file on a chip (lays_over).
+/// Whether runs are compared: with a board's log; or, if --html is the only output, several files with each
+/// other, or the results of one file on host and chip (lays_over).
 bool compares(const RunArguments& arguments);
 
 /// Whether --on names a map of a user's own firmware.
@@ -22,10 +22,10 @@ bool on_a_chip(const RunArguments& arguments);
 bool lays_over(const RunArguments& arguments);
 
 /// sixstep run A B .. --html FILE: runs all files and overlays them on one page. With --compare LOG it
-/// compares a board's log with the one run, in numbers and, if --html is given, on the page.
+/// compares a board's log with its only run, in numbers and, if --html is given, on the page.
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs);
 
-/// Problems of such a comparison: too many runs for a page, or more than one run with a log.
+/// Problems of a comparison: too many runs for a page, or more than one run with a log.
 base::Problems check_comparison(const RunArguments& arguments);
 
 }  // namespace cli

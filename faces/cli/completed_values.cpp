@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using Candidates = std::vector<Candidate>;
 
-/// Folders, and files with one extension ("": any), that begin as typed; hidden ones only after a typed dot.
+/// Folders, and files with one extension ("": any), that begin with the typed text. Hidden files are listed
+/// only after a typed dot.
 Candidates files(const std::string& current, std::string_view extension, bool folders_only = false) {
   const std::size_t cut = current.rfind('/');
   const std::string folder = cut == std::string::npos ? "" : current.substr(0, cut + 1);
@@ -36,7 +37,7 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
     if (text::visible(name) != name) continue;  // shells show candidates unescaped, one per line
-    // The parser would read a name that begins with - as an option.
+    // The path gets "./", because the parser would read a name that begins with - as an option.
     const std::string path = (name.front() == '-' && folder.empty() ? "./" : folder) + name;
     if (entry.is_directory(error))
       found.push_back({path + "/", ""});
@@ -70,7 +71,7 @@ Candidates keys(std::string_view behind, bool tables) {
   return found;
 }
 
-/// "key=" and, after the =, the words of a key or the values of a flag.
+/// Before the =, "key=" for each key; after the =, the words of the key or the values of a flag.
 Candidates settings(const std::string& current) {
   const std::size_t equals = current.find('=');
   if (equals == std::string::npos) return keys("=", false);
@@ -93,7 +94,8 @@ Candidates styles() {
   return found;
 }
 
-/// Driving or designing verbs have no mode with all gates off, and a duty needs no design.
+/// The modes that a verb accepts: verbs that drive or design have no mode with all gates off, and a duty
+/// needs no design.
 Candidates modes(const CLI::App& verb) {
   Candidates found = words(study::mode_choices);
   std::erase_if(found, [&](const Candidate& c) {
@@ -102,7 +104,7 @@ Candidates modes(const CLI::App& verb) {
   return found;
 }
 
-/// Emulated cores, and maps of firmware.
+/// Names of emulated cores, and of maps of firmware.
 Candidates cores(const std::string& current) {
   Candidates found;
   for (const loop::Core& core : loop::cores())
@@ -138,7 +140,7 @@ Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std:
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
   if (name == "--data") return files(current, "", true);
-  // CLI11 names the type of a number; every other text is an output file.
+  // CLI11 names the type of a number. Every other text without its own list is an output file.
   return option.get_type_name() == "TEXT" ? files(current, "") : Candidates{};
 }
 

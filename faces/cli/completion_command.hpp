@@ -10,8 +10,9 @@ namespace cli {
 /// `sixstep completion bash|zsh|fish`: a script by which the shell completes command lines.
 Verb declare_completion(CLI::App& app);
 
-/// The script calls `sixstep __complete WORD..`, which prints one candidate per line with its meaning after a
-/// tab. It is not a verb, so that the words after it are not parsed as options.
+/// The word after `sixstep` with which the script calls it: `sixstep __complete WORD..` prints one candidate
+/// per line, with the candidate's meaning after a tab. It is not a verb, so that the words after it are not
+/// parsed as options.
 inline constexpr char complete_word[] = "__complete";
 Exit answer_shell(const CLI::App& app, const std::vector<std::string>& words);
 

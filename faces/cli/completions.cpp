@@ -15,7 +15,8 @@ namespace {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// The option of a word with its "--", without the part after =; null: none of the verb's.
+/// The option that a word names, with its "--" and without the part after =; null if the verb does not have
+/// it.
 const CLI::Option* option_of(const CLI::App& verb, const std::string& word) {
   return word.starts_with("-") ? verb.get_option_no_throw(word.substr(0, word.find('='))) : nullptr;
 }
@@ -26,10 +27,10 @@ const CLI::App* inner_verb(const CLI::App& verb, const std::string& word) {
   return found.empty() ? nullptr : found.front();
 }
 
-/// The state after the words before the last one.
+/// The state of reading after all words except the last.
 struct Reading {
   const CLI::App* verb;
-  const CLI::Option* open = nullptr;  ///< the next word is its value
+  const CLI::Option* open = nullptr;  ///< option whose value is the next word
   std::size_t positionals = 0;
   std::set<const CLI::Option*> given;
 

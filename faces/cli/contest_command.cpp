@@ -104,7 +104,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
   return found;
 }
 
-/// Names members as options.
+/// Replaces the library's members by options.
 base::Problems in_contest_options(base::Problems problems) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"voltage_V", "--voltage"},
@@ -143,7 +143,8 @@ Exit exit_of_contest(const analysis::Contest& contest) {
   return any ? Exit::ok : Exit::failed;
 }
 
-/// A user's controller that cannot take part, for example one without a speed loop: its row has dashes only.
+/// A user's controller that cannot take part, for example because it has no speed loop: its row has only
+/// dashes.
 Exit own_without_run(const analysis::Contest& contest) {
   Exit exit = Exit::ok;
   for (std::size_t n = 0; n < contest.entries.size(); ++n) {
@@ -171,7 +172,7 @@ analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench be
                                    .stop = watch.token()});
 }
 
-/// Runs the drives with the store and the rows that it already has.
+/// Runs the drives within the tolerances, except those whose rows are already in the store.
 base::Problems over_the_tolerances(const ContestArguments& a, analysis::Contest& contest) {
   if (a.drives == 0) return {};
   base::Result<files::PlanStore> store = store_of(contest, {a.store, a.resume, a.force, a.command});

@@ -23,7 +23,7 @@ void declare_own(CLI::App& verb, OwnArguments& own);
 /// The library's rows, and one for each of the user's own controllers.
 struct Contestants {
   std::vector<analysis::Contestant> all;
-  std::deque<std::string> texts;  ///< texts of the own controllers, to which the rows point
+  std::deque<std::string> texts;  ///< texts of the user's controllers, to which the rows point
 };
 
 base::Result<Contestants> contestants_of(const OwnArguments& own);

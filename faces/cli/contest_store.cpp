@@ -15,8 +15,8 @@ namespace cli {
 
 base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing) {
   const study::Scenario& common = contest.bench.scenario;
-  // The inputs differ if a controller's rule computes other numbers now, or if a user's controller was
-  // recompiled.
+  // A digest of the inputs. It differs if a controller's rule now computes other numbers, or if a user's
+  // controller was recompiled.
   std::uint64_t inputs = files::text_digest(SIXSTEP_VERSION);
   for (const analysis::ContestRow& row : contest.rows)
     inputs = files::text_digest(base::written_hex((*row.nominal)->digest), inputs);

@@ -15,10 +15,11 @@ struct ContestStoring {
   std::string command;
 };
 
-/// The store for the drives of these entries. Problem: it contains another comparison.
+/// Opens the store for the drives of these entries. Problem: the store contains another comparison.
 base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing);
 
-/// Makes the drives that the store lacks, unless they are stopped, and then reads all drives from the store.
+/// Makes the drives that are not in the store, until all are made or the work is stopped. Then reads all
+/// drives from the store.
 base::Problems take_drives(analysis::Contest& contest, batch::ContestOrder order, files::PlanStore& store);
 
 }  // namespace cli

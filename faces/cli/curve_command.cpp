@@ -104,7 +104,7 @@ void read_chopping(const std::string& word, analysis::Bench& bench, base::Proble
                       near.empty() ? "soft is the default" : fmt::format("did you mean {}?", near)});
 }
 
-/// Refuses a chopping mode at full duty, where no switch is chopped.
+/// Refuses a chopping mode at full duty, because no switch is chopped.
 void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Problems& problems) {
   if (std::fabs(duty) != 1.0) return;
   for (const auto& [option, given] :
@@ -114,7 +114,7 @@ void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Pro
                           "give a --duty below 1, or leave it out"});
 }
 
-/// "--pwm-period" for pwm_period_s: an option's name has no unit suffix.
+/// The option of a member: "--pwm-period" for pwm_period_s, because an option's name has no unit suffix.
 std::string option_of(std::string member) {
   member.erase(std::min(member.rfind('_'), member.size()));
   std::replace(member.begin(), member.end(), '_', '-');

@@ -15,14 +15,15 @@ struct DesignArguments {
   std::string method = "pole-placement";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
       torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, capture_Hz, step;
-  std::optional<double> force_limit_N, load_mass_kg;  ///< linear motor: replace torque limit and load inertia
+  std::optional<double> force_limit_N, load_mass_kg;  ///< linear motor: in place of torque limit and load
+                                                      ///< inertia
   std::optional<int> delay_periods, edges;
-  bool quick = false;  ///< without the corners of the tolerances
+  bool quick = false;  ///< true: without the runs within the tolerances
   bool quiet = false, force = false;
   unsigned jobs = 0;
-  std::string json, toml, models, html;  ///< files; json "-": standard output
-  double angle_deg = 30.0;               ///< rotor angle of the models, electrical
-  std::string optimise, store;           ///< a plan, and the store of its runs
+  std::string json, toml, models, html;  ///< paths of the files; json "-": standard output
+  double angle_deg = 30.0;               ///< rotor angle for the exported models, electrical degrees
+  std::string optimise, store;           ///< path of a plan, and of the store of its runs
   bool resume = false;
   std::string data_dir;
   std::string command;  ///< the command line as it can be typed again

@@ -41,7 +41,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The requested sensor, as the scenario's keys describe it, sampled once per period of this design.
+/// The requested rotor sensor with the values of the scenario's keys. It is sampled once per period of this
+/// design.
 design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* scenario,
                               const design::DesignSpec& w, base::Problems& found) {
   design::RotorSensing rotor = w.rotor;
@@ -63,7 +64,7 @@ design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* s
   return rotor;
 }
 
-/// Options take precedence over the scenario's values or the board's defaults.
+/// The specification. Options take precedence over the scenario's values and over the board's defaults.
 design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
   // Modes that have a design; off and duty have none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
@@ -128,8 +129,8 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The simulated scenario with the board's other settings than the loops. A warning names the settings that
-/// are lost.
+/// The simulated scenario with the board's settings, except those of the loops. A warning names settings that
+/// could not be copied.
 analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board,
                                         bool writes_scenario) {
   study::Scenario scenario = s.scenario;
@@ -140,12 +141,13 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   const auto warn = [&s](std::string what, bool grave) {
     s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = design::Concern::board});
   };
-  // Advice is tried on the board's parts, without the limits of its drive.
+  // Advice is tried without the limits of the board's drive, only with the board's parts.
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with"))
         w.cure += ", in a simplified run without the limits of the board's drive";
-  // The verdict on a sensorless drive's loops does not cover its file, which lacks the commutation.
+  // The verdict applies to a sensorless drive's loops, but not to the written file, which lacks this drive's
+  // commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
     warn("the designed file keeps " + carried.kept + " of the board's scenario, so its run shows " +
@@ -193,7 +195,7 @@ base::Problems write(analysis::DesignStudy& s, const study::Scenario* board, con
   return found;
 }
 
-/// The scenario that --scenario names.
+/// The scenario that the option --scenario names.
 std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems& found) {
   if (a.scenario.empty()) return std::nullopt;
   const base::Result<study::Scenario> scenario = files::read_scenario(a.scenario, {.data_dir = a.data_dir});
@@ -204,7 +206,7 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
   return *scenario;
 }
 
-/// The named motor, else the scenario's.
+/// The subject with the named motor, else with the scenario's motor.
 base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
                                                  const std::optional<study::Scenario>& board,
                                                  base::Problems& found) {

@@ -19,14 +19,15 @@ constexpr const char* not_written = "leave it out: --json has all numbers";
 struct Use {
   const char* option;
   bool (*given)(const DesignArguments&);
-  std::string_view member;  ///< member of the spec; empty: every design of gains reads it
-  const char* in_field;     ///< the cure if a field-oriented drive does not use it; nullptr: it does
-  bool in_optimise;         ///< whether --optimise reads it
+  std::string_view member;  ///< member of the spec that the option sets; empty: every design of gains reads
+                            ///< the option
+  const char* in_field;     ///< cure if a field-oriented drive does not use the option; nullptr: it uses it
+  bool in_optimise;         ///< whether --optimise reads the option
 };
 
 using A = DesignArguments;
 
-/// All options except --force, --quiet, --jobs, --data, and those of --optimise alone.
+/// All options except --force, --quiet, --jobs, --data, and except those that only --optimise has.
 constexpr Use uses[] = {
     {"MOTOR", [](const A& a) { return !a.motor.empty(); }, "", "leave it out: the scenario names its motor",
      false},

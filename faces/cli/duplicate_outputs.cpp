@@ -15,7 +15,7 @@ base::Problems duplicate_outputs(const std::vector<std::pair<std::string, std::s
   for (const auto& [option, path] : outputs) {
     std::error_code none;
     if (path.empty() || path == "-" || fs::is_other(path, none) || fs::is_character_file(path, none))
-      continue;  // several outputs may go to /dev/null
+      continue;  // several outputs may be written to /dev/null
     const fs::path whole = fs::weakly_canonical(fs::absolute(path, none), none);
     const auto [other, is_new] = seen.emplace(none ? path : whole.string(), option);
     if (!is_new)

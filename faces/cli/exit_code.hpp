@@ -7,16 +7,16 @@
 
 namespace cli {
 
-/// The program's exit code; for several runs the gravest.
+/// The program's exit code; for several runs that of the gravest result.
 enum class Exit : int {
   ok = 0,         ///< all requirements hold
   failed = 1,     ///< a requirement failed
   bad_input = 2,  ///< also a file that cannot be read or written
   fault = 3,      ///< a fault stopped a run, or the drive in it
   internal = 4,   ///< a mistake of the program
-  // Signals, as shells count them: 128 and the signal's number.
+  // Exit codes after signals, as in shells: 128 plus the signal's number.
   hung_up = 129,      ///< SIGHUP: the terminal was closed
-  interrupted = 130,  ///< SIGINT: by the user
+  interrupted = 130,  ///< SIGINT: the user pressed Ctrl-C
   quit = 131,         ///< SIGQUIT
   reader_gone = 141,  ///< SIGPIPE: the reader closed the pipe
   terminated = 143,   ///< SIGTERM
@@ -28,7 +28,7 @@ struct ExitMeaning {
   std::string_view meaning;
 };
 
-/// Texts for help and manual.
+/// The meaning of each exit code, for help and manual.
 inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::ok, "all requirements hold"},
     {Exit::failed, "a requirement failed"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waits until one of the files that were read is saved (sixstep run --watch).
+// Waits until one of the files that sixstep has read is saved again (sixstep run --watch).
 #pragma once
 #include <string>
 #include <vector>
@@ -7,12 +7,13 @@
 namespace cli {
 
 /// The state of the files when they were read. Time, size and identity of each file are compared ten times a
-/// second. This works on every disk, on shared folders, and with editors that write another file and rename it.
+/// second. This works on every disk, on shared folders, and with editors that write another file and rename
+/// it.
 class FileWatch {
  public:
   explicit FileWatch(std::vector<std::string> paths);
 
-  /// Returns true once a file differs and no file has changed for a moment; false after Ctrl-C.
+  /// Returns true when a file differs and no file has changed for a moment; false after Ctrl-C.
   bool wait_for_a_change() const;
 
  private:

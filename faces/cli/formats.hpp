@@ -16,20 +16,21 @@ struct Format {
   std::string_view meaning;  ///< help text of the option
   files::OpenSink open;
   std::string_view in_folder;  ///< suffix of the scenario's name in --out DIR; empty: not written there
-  /// The text that - as the file's name prints; null: - is a file name.
+  /// Makes the text that is printed if the file's name is "-"; null: "-" is an ordinary name.
   std::string (*printed)(const files::RunStory&) = nullptr;
-  /// A message before the run about the parts that will not fit into the format; null: everything fits.
+  /// Makes a message before the run about the parts that will not fit into the format; null: everything fits.
   std::string (*foretold)(const study::Scenario&) = nullptr;
 };
 
 std::span<const Format> formats();
 
-/// The format for people: it can also compare several runs, and the index of --out links to it.
+/// The option of the format for people. This format can also compare several runs, and the index of --out
+/// links to it.
 inline constexpr std::string_view page_option = "--html";
-/// The format that needs a chip to run.
+/// The option of the format that needs a chip in the run.
 inline constexpr std::string_view uart_option = "--uart";
 
-/// "--csv, --mat, .."
+/// The options of all formats as text: "--csv, --mat, ..".
 std::string all_options();
 
 }  // namespace cli

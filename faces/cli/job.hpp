@@ -23,34 +23,35 @@ class Job {
     return outputs_.open(paths, scenario_, origin_);
   }
 
-  /// Sets the core that also runs the drive; null: only the host. Problems: a drive that no core can run.
+  /// Sets the core that also runs the drive; null: only the host runs it. Problems: no core can run this
+  /// drive.
   base::Problems take_core(const loop::Core* core);
   const loop::Core* core() const { return core_; }
-  /// Sets `where`, which is appended to the name of one of two runs of a file.
+  /// Sets a word that is appended to the name if a file is run both on the host and on a chip.
   void tell_where(std::string where) { where_ = std::move(where); }
 
-  /// Runs and publishes the outputs. `reached` is called repeatedly with the simulated time.
+  /// Runs the scenario and publishes the outputs. `reached` is called repeatedly with the simulated time in
+  /// s.
   void run(const std::function<void(double t_s)>& reached);
 
   Exit exit_code() const;
-  std::string name() const;  ///< the file's stem, and the name of the core
+  std::string name() const;  ///< stem of the file's name, and the core's name
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   bool begun() const { return outcome_ || !problems_.empty(); }
-  /// Whether it ran to its end or to a fault.
+  /// Whether the run reached its end or a fault.
   bool finished() const { return outcome_ && !interrupted_ && !broken_; }
-  /// The path of its page, or of the partial page of an interrupted run; empty: none.
+  /// The path of the run's page, or of the partial page of an interrupted run; empty if there is none.
   const std::string& page() const { return outputs_.page(); }
   const base::Problems& problems() const { return problems_; }
-  /// Messages if an output does not hold the whole run: an estimate before the run, the fact after it. Empty
-  /// otherwise.
+  /// A message if an output will not hold, or after the run does not hold, the whole run. Empty otherwise.
   std::string foretold() const;
   std::string left_out() const;
   /// The message about an interrupted run: the time, and the files with its results. Empty otherwise.
   std::string cut_short() const;
 
  private:
-  /// Prefixes each problem with the scenario file's name.
+  /// Adds the scenario file's name in front of each problem.
   base::Problems told(base::Problems problems) const;
   void fail(const base::Problems& problems);
 
@@ -63,8 +64,8 @@ class Job {
   const loop::Core* core_ = nullptr;
   std::string where_;
   bool interrupted_ = false;
-  bool broken_ = false;       // an output could not be written any more
-  bool reader_gone_ = false;  // the reader closed a pipe
+  bool broken_ = false;       // whether writing an output failed
+  bool reader_gone_ = false;  // whether the reader of a pipe closed it
 };
 
 }  // namespace cli

@@ -15,12 +15,12 @@
 namespace cli {
 namespace {
 
-/// Escapes text for roff: hyphens and backslashes, no line that begins as a command, and no line longer than
-/// usual in such pages.
+/// Escapes text for roff: hyphens and backslashes. No line begins like a command, and no line is longer than
+/// usual in manual pages.
 std::string roff(std::string_view text) {
   constexpr std::size_t longest_line = 78;
   std::string out;
-  std::size_t begin = 0;  // begin of the line
+  std::size_t begin = 0;  // beginning of the line
   for (std::size_t n = 0; n < text.size(); ++n) {
     const char c = text[n];
     const std::size_t word = std::min(text.find(' ', n + 1), text.size()) - n;
@@ -44,7 +44,7 @@ std::string roff(std::string_view text) {
 std::string bold(std::string_view text) { return fmt::format("\\fB{}\\fR", roff(text)); }
 std::string italic(std::string_view text) { return fmt::format("\\fI{}\\fR", roff(text)); }
 
-/// A term and its meaning.
+/// An entry with a term and its meaning.
 std::string entry(const std::string& term, std::string_view meaning) {
   return fmt::format(".TP\n{}\n{}\n", term, roff(meaning));
 }
@@ -80,7 +80,7 @@ std::string synopsis(const std::string& path, const CLI::App& verb) {
 
 using Verbs = std::vector<std::pair<std::string, const CLI::App*>>;
 
-/// Adds every command line: the verbs and their subcommands.
+/// Adds the command lines of all verbs and their subcommands.
 void add_verbs(const std::string& path, const CLI::App& app, Verbs& out) {
   const auto inner = app.get_subcommands([](const CLI::App*) { return true; });
   if (inner.empty()) out.emplace_back(path, &app);
@@ -98,7 +98,7 @@ std::string commands(const CLI::App& app, const Verbs& verbs) {
   return text;
 }
 
-/// A file's keys and tables at the root.
+/// The keys and tables at the root of a file.
 std::string keys_of_file(const std::vector<text::KeyEntry>& keys) {
   std::string text;
   for (const text::KeyEntry* key : text::keys_in(keys, "")) {

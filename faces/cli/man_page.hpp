@@ -9,7 +9,7 @@ class App;
 
 namespace cli {
 
-/// roff, man(7) macros, for section 1.
+/// Returns the page as roff with man(7) macros, for section 1.
 std::string man_page(const CLI::App& app);
 
 }  // namespace cli

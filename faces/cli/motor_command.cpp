@@ -24,7 +24,7 @@ namespace {
 
 struct MotorArguments {
   std::string name;      ///< a path or a built-in name
-  std::string data_dir;  ///< holds motors/
+  std::string data_dir;  ///< folder that contains motors/
   std::string style = "maxon";
   bool json = false;
 };
@@ -34,7 +34,7 @@ struct Checked {
   design::SheetCheck check;
 };
 
-/// Empty if the sheet cannot be read or judged; the problems have been printed.
+/// The sheet and its check. Empty if the sheet cannot be read or checked; the problems have been printed.
 std::optional<Checked> checked(const MotorArguments& a) {
   base::Result<design::Sheet> sheet = files::read_sheet(a.name, a.data_dir);
   if (!sheet) {
@@ -49,7 +49,7 @@ std::optional<Checked> checked(const MotorArguments& a) {
   return Checked{std::move(*sheet), std::move(*check)};
 }
 
-/// One line per motor compiled in.
+/// Prints one line per motor compiled in.
 Exit list_motors(const MotorArguments& a) {
   std::size_t width = 0;
   std::vector<text::NamedSheet> motors;

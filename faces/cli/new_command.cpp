@@ -37,7 +37,7 @@ struct NewArguments {
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
   analysis::FirstScenarioSpec spec;
-  // A first scenario drives something, so off is not among the modes.
+  // The modes of a first scenario. `off` is not among them, because the motor should move.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
   choose("--mode", a.mode, modes, spec.mode, found);
@@ -54,7 +54,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
 }
 
 /// Writes the schema into the scenario's folder, where the scenario's first line refers to it. An existing
-/// schema stays unchanged; a message reports a difference.
+/// schema is not changed; a message reports if it differs.
 base::Result<std::string> write_schema(const std::string& path) {
   if (taken(path).empty()) {
     const base::Problems problems = write_new(path, text::scenario_schema());

@@ -14,10 +14,11 @@ std::string toml_path(const std::string& name);
 /// A Problem if a file of that name exists.
 base::Problems taken(const std::string& path);
 
-/// Writes the whole file; never replaces an existing one.
+/// Writes a new file completely; never replaces an existing one.
 base::Problems write_new(const std::string& path, const std::string& text);
 
-/// The motor's path as a scenario at `toml` has to name it. The name of a motor compiled in is unchanged.
+/// The motor's path in the form in which a scenario at `toml` must name it. The name of a motor compiled in
+/// is unchanged.
 std::string motor_beside(const std::string& motor, const std::string& toml);
 
 }  // namespace cli

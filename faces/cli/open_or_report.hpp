@@ -9,7 +9,7 @@
 
 namespace cli {
 
-/// Stores the file, or adds its problems.
+/// Stores the file in `into`, or adds its problems.
 template <class File>
 void open_or_report(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
   if (file)

@@ -23,7 +23,7 @@
 namespace cli {
 namespace {
 
-/// The column of the plan's figure.
+/// The column of the figure that the plan minimises.
 base::Result<std::size_t> figure_of(const OptimiseArguments& a, const ReadPlan& plan) {
   if (plan.minimise.empty())
     return base::Problem{a.plan + ":", "", "does not name the figure to be minimised",

@@ -8,15 +8,15 @@
 namespace cli {
 
 struct OptimiseArguments {
-  std::string plan;   ///< a file with `minimise`
-  std::string store;  ///< stores every evaluation; empty: none
+  std::string plan;   ///< path of a plan with `minimise`
+  std::string store;  ///< store for every evaluation; empty: none
   bool resume = false, force = false, quiet = false;
   std::string toml, json, data_dir, command;
   unsigned jobs = 0;
 };
 
-/// `sixstep design --optimise PLAN`: the point of its ranges with the least value of a figure at which every
-/// drive holds, and the requirements that limit it.
+/// `sixstep design --optimise PLAN`: finds in the plan's ranges the point with the least value of a figure at
+/// which every drive meets every requirement, and names the requirements that limit the figure.
 Exit optimise_command(const OptimiseArguments& arguments);
 
 }  // namespace cli

@@ -25,8 +25,8 @@ files::Sink stdout_sink(const Format& format) {
   return sink;
 }
 
-/// A message about a period that is shorter than on any board and makes the run slow: each period takes 0.3
-/// us to 3 us of computing time.
+/// A message about a control period that is shorter than on any board and makes the run slow: each period
+/// takes 0.3 us to 3 us of computing time.
 std::string length_foretold(const study::Scenario& s) {
   constexpr double short_s = 1e-6, many = 1e7, one_s = 1e-6;
   const double periods = s.duration_s / s.pwm.period_s;
@@ -39,7 +39,7 @@ std::string length_foretold(const study::Scenario& s) {
                                       : fmt::format("some {:.2g} hours", minutes / 60.0));
 }
 
-/// One function that calls all those that are not empty; empty if all are.
+/// One function that calls all functions that are not empty; empty if all are empty.
 template <class... Arguments>
 std::function<void(Arguments...)> one_of_all(std::vector<std::function<void(Arguments...)>> all) {
   std::erase_if(all, [](const auto& function) { return !function; });

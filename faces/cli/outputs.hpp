@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manages the outputs of one run in every requested format: opened before it begins, filled during it,
-// published at its end.
+// Manages the outputs of one run in every requested format: they are opened before the run, filled during it,
+// and published at its end.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,37 +16,38 @@ namespace cli {
 base::Problems make_folder(const std::string& out);
 
 struct OutputPaths {
-  std::vector<std::string> of_formats = std::vector<std::string>(formats().size());  ///< empty: not wanted
-  bool force = false;                                                                ///< replace any file
+  /// path per format; empty: not wanted
+  std::vector<std::string> of_formats = std::vector<std::string>(formats().size());
+  bool force = false;  ///< true: replace any existing file
 
   const std::string& of(std::string_view option) const;
-  /// Each wanted output with its option, without standard output.
+  /// Each wanted output file with its option; standard output is not included.
   std::vector<std::pair<std::string, std::string>> files() const;
-  /// Whether a format is printed to standard output, which then has nothing else.
+  /// Whether a format is printed to standard output, to which nothing else is then printed.
   bool prints() const;
   bool any() const { return prints() || !files().empty(); }
 };
 
 class Outputs {
  public:
-  /// Problems: nothing was written, and the run must not start.
+  /// Opens the outputs. Problems: nothing was written, and the run must not start.
   base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
                       const files::TraceOrigin& origin);
 
   void listen(study::Listeners& listeners) const;
 
-  /// The parts of the run that will not fit into an output, and, after publish(), those that did not.
+  /// The parts of the run that will not fit into an output; after publish(), the parts that did not.
   static std::string foretold(const OutputPaths& paths, const study::Scenario& scenario);
   const std::string& left_out() const { return left_out_; }
 
-  /// An output cannot be written any more: the disk is full, or the reader closed a pipe.
+  /// Whether writing an output failed, because the disk is full or the reader closed a pipe.
   bool failed() const;
 
-  /// Publishes the outputs. An interrupted run leaves NAME.partial.EXT of each, and prints nothing to
-  /// standard output.
+  /// Publishes the outputs. After an interrupted run, each output is NAME.partial.EXT, and nothing is printed
+  /// to standard output.
   base::Problems publish(const files::RunStory& story, bool whole);
 
-  /// The final path of the HTML page; empty: none.
+  /// The final path of the HTML page; empty if there is none.
   const std::string& page() const { return page_; }
 
   /// Names of an interrupted run's files.

@@ -54,7 +54,7 @@ batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::Plan
           .jobs = a.jobs};
 }
 
-/// Problems if this program computes other values for a stored run than the store has.
+/// Runs a stored run again. Problems: this program computes other values than the store has.
 base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store) {
   std::optional<analysis::RunRecord> before;
   base::Problems problems = store.each([&](const analysis::RunRecord& record) {
@@ -69,7 +69,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
            .cure = "finish it with that version, or begin anew with --force"}};
 }
 
-/// A plan whose runs are complete: its store's rows and their results. It must not move.
+/// A plan whose runs are complete: the rows of its store, and their results. It must not move.
 class MadePlan {
  public:
   MadePlan(const ReadPlan& plan, files::PlanStore store)
@@ -87,7 +87,7 @@ class MadePlan {
   const text::PlanStory& story() const { return story_; }
   /// The reasons why rows could not be read.
   const base::Problems& problems() const { return problems_; }
-  /// Message about runs in the store beyond those of the plan; empty: none.
+  /// A message about runs in the store that are not part of the plan; empty if there are none.
   std::string beyond() const {
     if (beyond_ == 0) return "";
     return fmt::format("{}: holds {} run{} beyond the {} of this plan; request more to see them\n",
@@ -110,7 +110,8 @@ class MadePlan {
     const analysis::Plan& p = plan_.scenarios->plan();
     beyond_ = 0;
     const base::Problems unread = store_.each([&](const analysis::RunRecord& record) {
-      if (record->number >= analysis::runs_of(p)) return void(++beyond_);  // from a sitting with more runs
+      // the row belongs to an earlier call with more runs
+      if (record->number >= analysis::runs_of(p)) return void(++beyond_);
       analysis::RunValues values = *record;
       values.point = analysis::point_of_run(p, record->number);
       if (const auto whole = analysis::RunRecord::of(plan_.columns, std::move(values)))
@@ -136,7 +137,7 @@ class MadePlan {
       plan_.scenarios->made_of().sheet_tolerances ? analysis::tolerances_not_drawn(plan_.nominal) : ""};
 };
 
-/// Makes the runs that the store lacks, until all are made or an interrupt arrives.
+/// Makes the runs that are not in the store, until all are made or an interrupt arrives.
 base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& plan) {
   base::Result<files::PlanStore> store = store_of(a, plan, text::plan_identity(plan.scenarios->plan()));
   if (!store) return store;
@@ -172,7 +173,8 @@ void tell(const RunArguments& a, const MadePlan& made) {
   if (made.cut_short()) stop_is_told();
 }
 
-/// Also reports to the build server, because a suite without cases would look successful.
+/// Also adds the problems to the build server's verdicts, because a suite without cases would look
+/// successful.
 Exit refused_plan(const std::string& name, const base::Problems& problems,
                   std::vector<text::JunitSuite>& suites) {
   suites.push_back(text::junit_suite(name, problems));
@@ -200,7 +202,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   return problems.empty() ? made.exit() : graver(made.exit(), Exit::bad_input);
 }
 
-/// Shows two plans on one page.
+/// Writes two plans on one page.
 Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
                    std::vector<text::JunitSuite>& suites) {
   base::Result<files::AtomicFile> file = files::AtomicFile::create({a.paths.of(page_option), a.paths.force});

@@ -19,8 +19,8 @@ namespace {
 using std::chrono::duration;
 using std::chrono::steady_clock;
 
-/// Bytes of a row in the store: number, words, digest and checksum; and per column eight bytes for the number
-/// plus SQLite's overhead.
+/// Bytes of a row in the store: run number, words, digest and checksum. Each column adds eight bytes for the
+/// number and SQLite's overhead.
 constexpr double row_bytes = 79, column_bytes = 9;
 
 std::string time_text(double s) {
@@ -43,11 +43,11 @@ std::string axis_text(const analysis::Axis& axis, const std::string& unit, bool 
               : fmt::format("{}: {}{}", axis.key, ends, spaced);
 }
 
-/// A few runs spread over the plan, for about a second; time of one run on one core.
+/// A few runs spread over the plan, which take about a second, and the time of one run on one core.
 struct Sample {
   std::size_t runs = 0;
   double each_s = 0.0;
-  std::string refused;  ///< the first that could not start
+  std::string refused;  ///< problem of the first run that could not start
 };
 
 Sample sample_of(const batch::PlanRuns& runs) {
@@ -56,7 +56,7 @@ Sample sample_of(const batch::PlanRuns& runs) {
   Sample sample;
   double spent_s = 0.0;
   for (std::size_t k = 0; k < std::min<std::size_t>(all, 16) && spent_s < 2.0 && !interrupted(); ++k) {
-    // Golden section: evenly spread for any number of runs.
+    // Multiples of the golden section are spread evenly for any number of runs.
     const auto n =
         static_cast<std::size_t>(static_cast<double>(k) * 0.6180339887498949 * static_cast<double>(all)) %
         all;

@@ -5,7 +5,7 @@
 
 namespace cli {
 
-/// Estimates a plan without running it: number of runs, time (from a few of them), size of the store.
+/// Prints estimates for a plan: the number of runs, their time (from a few runs), and the size of the store.
 Exit estimate(const RunArguments& arguments, const ReadPlan& plan);
 
 }  // namespace cli

@@ -79,7 +79,7 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
-    // If an interrupt arrives now, the page may lack reports of the worst runs.
+    // After an interrupt at this instant, the page may lack reports of the worst runs.
     const bool in_place = whole && !interrupted();
     const base::Problems unwritten = in_place ? open.file.commit() : open.file.commit_partial();
     append(problems, unwritten);

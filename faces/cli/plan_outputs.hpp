@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manages the output files of a plan: opened before its first run, published after its last.
+// Manages the output files of a plan: they are opened before its first run and published after its last.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,11 +14,12 @@ namespace cli {
 /// Rows and page of a plan, in all requested formats.
 class PlanOutputs {
  public:
-  /// Problems: nothing was written, and no run must start. `arguments` must outlive this object.
+  /// Opens the files. Problems: nothing was written, and no run must start. `arguments` must outlive this
+  /// object.
   base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
-  /// Publishes the files, under partial names if the plan was interrupted.
+  /// Publishes the files; if the plan was interrupted, under partial names.
   base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);
-  /// The partial names, after publish().
+  /// The partial names of files, after publish().
   const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:

@@ -20,10 +20,10 @@
 namespace cli {
 namespace {
 
-/// The cluster of this process. A process has only one MPI.
+/// The cluster of this process. A process can initialise MPI only once.
 struct Ranks {
   batch::Cluster cluster;
-  bool whole = true;  ///< no process ended without notice
+  bool whole = true;  ///< false: a process ended without notice
 };
 
 Ranks& ranks() {
@@ -31,8 +31,8 @@ Ranks& ranks() {
   return all;
 }
 
-// Messages between the processes, as bytes. Only the leader opens files; the others request named texts from
-// it.
+// Messages between the processes, as bytes. Only the leader opens files; the other processes request named
+// texts from the leader.
 
 std::string bytes_of(const text::PlannedText& of) {
   batch::ByteWriter w;
@@ -89,7 +89,7 @@ std::string answer(const text::Resolve& resolve, const std::string& question) {
   return bytes_of(resolve({r.choice<text::Naming::Kind>(4), r.text(), r.text()}));
 }
 
-/// The function that turns a number into a run, in a process that has only the leader's messages.
+/// The function that turns a number into a run, in a process that receives everything from the leader.
 decltype(batch::PlanRuns::scenario) planned_scenario(const std::string& made_of, const analysis::Plan& plan,
                                                      batch::Ask ask) {
   text::PlannedText of = planned_text(made_of);
@@ -113,7 +113,7 @@ Exit among_ranks(const std::function<Exit()>& program) {
     return Exit::bad_input;
   }
   batch::Cluster& cluster = ranks().cluster = std::move(*joined);
-  // mpirun gives the first process a terminal of its own, independent of the output's destination.
+  // No colours, because mpirun gives the first process a terminal of its own, wherever the output goes.
   if (cluster.size > 1) ::setenv("NO_COLOR", "1", 1);
   Exit exit = Exit::ok;
   if (cluster.rank == 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs sixstep as one of several processes that mpirun started: the first is the program, the others make the
-// runs that it sends them.
+// Runs sixstep as one of several processes that mpirun started. The first process runs the program; the
+// others make the runs that it sends them.
 #pragma once
 #include <functional>
 
@@ -9,8 +9,8 @@
 
 namespace cli {
 
-/// Returns the program's exit code in all processes. Only the first one calls `program`, reads, prints and
-/// writes.
+/// Returns the program's exit code in all processes. Only the first process calls `program`, reads, prints
+/// and writes.
 Exit among_ranks(const std::function<Exit()>& program);
 
 /// Threads that make runs, summed over all processes; `jobs` as in batch::PlanRuns.

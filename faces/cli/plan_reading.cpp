@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only regular files are examined, because a pipe can be read only once.
+/// Whether the file is a plan. Only regular files are examined, because a pipe can be read only once.
 bool is_plan_file(const std::string& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return false;
@@ -40,7 +40,7 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
       }
       continue;
     }
-    // Replaces only axes of the file: two options for one key are a problem.
+    // An option replaces only axes of the file: two options for one key are a problem.
     const auto end = plan.axes.begin() + static_cast<std::ptrdiff_t>(of_file);
     const auto same = std::find_if(plan.axes.begin(), end,
                                    [&](const analysis::Axis& other) { return other.key == axis->key; });
@@ -70,7 +70,7 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   return problems;
 }
 
-/// Names "--vary pwm.period_s" instead of the check's vary[0]; for a scenario, "--vary" for a missing list.
+/// Replaces vary[0] by "--vary pwm.period_s" in problems; if a list is missing for a scenario, by "--vary".
 void in_words_of(const RunArguments& a, const std::string& file, const analysis::Plan& plan,
                  base::Problems& problems) {
   for (base::Problem& problem : problems) {
@@ -81,7 +81,7 @@ void in_words_of(const RunArguments& a, const std::string& file, const analysis:
   }
 }
 
-/// The plan, or for a scenario a plan with a single run.
+/// The plan of the file; for a scenario, a plan with a single run.
 base::Result<text::PlanFile> plan_of(const std::string& file) {
   if (!is_plan_file(file)) {
     text::PlanFile alone;
@@ -129,7 +129,7 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   if (!problems.empty()) return problems;
   base::Result<text::PlanFile> of_file = plan_of(file);
   if (!of_file) return of_file.problems();
-  const files::ReadLog log;  // logs the inputs of the runs; other parts of the plan may change
+  const files::ReadLog log;  // logs the inputs of the runs only, because other parts of the plan may change
   base::Result<std::string> text = files::read_text(of_file->scenario);
   if (!text) return text.problems();
   analysis::Plan& plan = of_file->plan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the arguments of `sixstep run`, or a plan file, as runs to be made.
+// Reads the arguments of `sixstep run`, or a plan file, as a list of runs to make.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -14,9 +14,9 @@
 namespace cli {
 
 struct ReadPlan {
-  std::string name;  ///< the file's stem
+  std::string name;  ///< stem of the file's name
   std::string title, notes;
-  std::string minimise;  ///< the figure to be minimised; empty: none
+  std::string minimise;  ///< figure to minimise; empty: none
   std::size_t evaluations = 0;
   std::unique_ptr<text::PlannedScenarios> scenarios;
   study::Scenario nominal;
@@ -27,14 +27,14 @@ struct ReadPlan {
 /// Whether many runs are requested: by an option, or because the file is a plan.
 bool plans(const RunArguments& arguments, const std::string& file);
 
-/// `file` is a scenario, or a plan that names one.
+/// Reads the plan. `file` is a scenario, or a plan that names one.
 base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments);
 
-/// The origin of one run of the plan; its command is the plan's.
+/// The origin of one run of the plan, with the command of the plan.
 files::TraceOrigin origin_of_run(const ReadPlan& plan, std::uint64_t number);
 
-/// The store of the runs: --store, or one in the folder of --out; empty: one that is removed at the program's
-/// end.
+/// The path of the store: --store, or a file in the folder of --out. Empty: a store that is removed at the
+/// program's end.
 std::string store_path(const RunArguments& arguments, const std::string& name);
 
 }  // namespace cli

@@ -12,8 +12,8 @@
 
 namespace cli {
 
-/// A command line to which a run's number is appended: "sixstep run a.toml --vary pwm.period_s=20us:100us:9
-/// --only".
+/// A command line to which a run's number must be appended: "sixstep run a.toml --vary
+/// pwm.period_s=20us:100us:9 --only".
 std::string repeating_command(const RunArguments& arguments, const ReadPlan& plan);
 
 /// The input of a plan's page; `reports` as in WorstReports::files.
@@ -21,11 +21,11 @@ report::PagePlan page_of(const RunArguments& arguments, const ReadPlan& plan, co
                          std::map<std::size_t, std::string> reports);
 
 struct WorstReports {
-  std::map<std::size_t, std::string> files;  ///< paths by the run's number, relative to the page
+  std::map<std::size_t, std::string> files;  ///< paths of reports by the run's number, relative to the page
   base::Problems problems;
 };
 
-/// Repeats the worst few runs and writes a complete report of each into the folder of --out.
+/// Repeats the worst runs and writes a complete report of each into the folder of --out.
 WorstReports write_worst_reports(const RunArguments& arguments, const ReadPlan& plan,
                                  const text::PlanStory& story);
 

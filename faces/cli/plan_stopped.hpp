@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Handles runs of a plan in which a user's controller ended the program. A file in the store's folder lists
-// them, so that --resume does not fail at the same run again.
+// these runs, so that --resume does not fail at the same run again.
 #pragma once
 #include <set>
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace cli {
 
-/// Starts to note such runs in the store's folder. Unless the plan `goes_on`, earlier notes are deleted.
+/// Starts to note such runs in the store's folder. If the plan is not continued (`goes_on`), earlier notes
+/// are deleted.
 void note_stopped_runs(const files::PlanStore& store, bool goes_on);
-/// Stores the runs noted in earlier sittings as rows: stopped by a fault, with the reason. Returns their
-/// numbers, because the rows may not be in the file yet.
+/// Stores the runs noted by earlier calls of the program as rows: stopped by a fault, with the reason.
+/// Returns their numbers, because the rows may not be in the file yet.
 std::set<std::size_t> take_stopped_runs(const ReadPlan& plan, files::PlanStore& store);
-/// Deletes the notes; call it when the rows are in the store.
+/// Deletes the notes. Call it when the rows are in the store.
 void forget_stopped_runs(const files::PlanStore& store);
 
 }  // namespace cli

@@ -8,20 +8,20 @@
 
 namespace cli {
 
-/// Opens the store by --store, --resume and --force. `identity` is the text that must not change between two
-/// sittings.
+/// Opens the store according to --store, --resume and --force. `identity` is the text that must be the same
+/// whenever the store is continued.
 base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
                                         std::string identity);
 
-/// The message after an interrupt that the store keeps the rows, and how to continue; empty without a store.
+/// The message after an interrupt: the store keeps the rows, and how to continue. Empty without a store.
 std::string kept_in(const std::string& store);
-/// kept_in(), and the files with partial names; empty if no file remains.
+/// kept_in(), followed by the files with partial names; empty if no file remains.
 std::string left_behind(const std::vector<std::string>& partial_files, const std::string& store);
 
 /// The unit of a scenario's key; empty if it has none.
 std::string unit_of(const std::string& key);
 
-/// A new store, or an existing one to continue; its Problems name these options.
+/// Opens a new store, or an existing one to continue it. Its Problems name the options --resume and --force.
 base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bool force,
                                         files::StoredPlan plan);
 

@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds first_after{500}, then_every{100};
 constexpr std::size_t longest_bar = 30;
 
-/// "0:05", "12:40", "3:00:12".
+/// A duration as text: "0:05", "12:40", "3:00:12".
 std::string clock_text(double seconds) {
   constexpr double most = 359'999;
   const auto s = static_cast<long>(std::clamp(seconds + 0.5, 0.0, most));
@@ -53,7 +53,7 @@ Progress::Progress(Work work, bool quiet) : work_(std::move(work)), at_s_(work_.
   });
 }
 
-Progress::~Progress() = default;  // the thread receives a stop request and clears its line
+Progress::~Progress() = default;  // ends the thread, which then clears its line
 
 void Progress::finished(std::size_t run) {
   reached(run, work_.seconds[run]);
@@ -81,8 +81,8 @@ std::string Progress::line(std::size_t width) const {
   std::string text = fmt::format("{:3.0f} %  ", 100 * fraction);
   if (done > before) text += clock_text(elapsed * (total - done) / (done - before)) + " left  ";
   text += what;
-  // The last column stays free, because a terminal would otherwise begin the next line. Few different bar
-  // lengths avoid flicker.
+  // The last column stays free, because a terminal would otherwise begin the next line. The bar has only few
+  // lengths, which avoids flicker.
   const std::size_t room = width > text.size() + 4 ? (width - text.size() - 4) / 10 * 10 : 0;
   if (room > 0) text = bar(fraction, std::min(room, longest_bar)) + text;
   return text.substr(0, width - 1);

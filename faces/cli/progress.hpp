@@ -10,15 +10,15 @@
 
 namespace cli {
 
-/// The work: runs with their simulated time, or equal pieces.
+/// The work whose progress is shown: runs with their simulated time, or equal pieces.
 struct Work {
   std::vector<double> seconds;
   std::size_t pieces = 0;
   const char* of = "drives";  ///< name of the pieces
-  std::size_t before = 0;     ///< pieces finished before the work began
+  std::size_t before = 0;     ///< number of pieces that were finished before the work began
 };
 
-/// Appears only on a terminal, after half a second, and removes its line at the end.
+/// Shows the line only on a terminal and after half a second, and removes it at the end.
 class Progress {
  public:
   Progress(Work work, bool quiet);

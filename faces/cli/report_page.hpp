@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Connects the command line to the report; no other file does.
+// The only file of the command line that uses the report.
 #pragma once
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ namespace cli {
 struct ReportSource {
   const study::Scenario& scenario;
   const study::Outcome& outcome;
-  const study::Trace& events;  ///< every event, both sides of each jump
+  const study::Trace& events;  ///< every event, with both sides of each jump
   const std::string& text;     ///< text of the scenario's file
   const std::string& command;  ///< the command that makes this report again
 };
@@ -29,9 +29,9 @@ std::string report_index(const std::vector<report::IndexEntry>& entries, const s
 struct ComparedSource {
   std::string name;
   const study::Scenario& scenario;
-  const study::Outcome* outcome;  ///< null: a board's log
+  const study::Outcome* outcome;  ///< null for a board's log
   const study::Trace& events;
-  const study::Trace& grid;  ///< the same instants for all runs
+  const study::Trace& grid;  ///< rows at the same instants for all runs
 };
 
 /// The difference between a board's log and its simulation.
@@ -40,11 +40,11 @@ struct LogFound {
   double shift_s = 0.0;
 };
 
-/// `log`: results for a log, which is then the last run.
+/// The page of a comparison. `log`: comparison with a log, which is then the last run.
 std::string comparison_page(const std::vector<ComparedSource>& runs, const LogFound& log,
                             const std::string& command);
 
-/// One plan, or two over each other.
+/// The page of one plan, or of two plans drawn over each other.
 std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command);
 
 /// Numbers of the plan's runs to inspect first.

@@ -42,7 +42,7 @@ OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   return paths;
 }
 
-/// Files about all runs; written last.
+/// Files about all runs, which are written last.
 struct Lists {
   std::optional<files::AtomicFile> index, junit;
 };
@@ -79,8 +79,8 @@ void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
   });
 }
 
-/// Writes the index of all runs; after an interrupt that of the finished runs, under its partial name, with a
-/// message.
+/// Writes the index of all runs. After an interrupt it writes an index of the finished runs under its partial
+/// name, with a message.
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
                            files::AtomicFile& index) {
   std::vector<report::IndexEntry> entries;
@@ -117,7 +117,7 @@ std::string verdicts_xml(const std::vector<Job>& jobs) {
   std::vector<text::JunitSuite> suites;
   suites.reserve(jobs.size());
   for (const Job& job : jobs)
-    // A run that an output stopped did not reach its end, even if it has results.
+    // A run that was stopped because of an output did not reach its end, even if it has results.
     suites.push_back(job.outcome() && job.problems().empty() ? text::junit_suite(job.name(), *job.outcome())
                                                              : text::junit_suite(job.name(), job.problems()));
   return text::junit_xml(suites);
@@ -191,7 +191,7 @@ Exit run_command(const RunArguments& arguments) {
   return run_jobs(arguments, read);
 }
 
-/// "NAME.csv, NAME.json, .."
+/// The files in the folder of --out, as text: "NAME.csv, NAME.json, ..".
 std::string names_in_folder() {
   std::string text;
   for (const Format& format : formats())
@@ -241,7 +241,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "number of drives of the series that [[spread]] describes");
   runs->excludes(watch)->check(integer_in(1, 1'000'000'000));
-  // A minus would be read as a large number.
+  // Checked as a signed number, because a minus would otherwise be read as a large number.
   const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
   run.add_option("--seed", a.seed, "seed of the series of drives; without it 1")->check(whole);
   run.add_option("--drive", a.drive, "only drive N of the series, with all its outputs")

@@ -19,14 +19,16 @@ struct PlanArguments {
   bool tolerances = false;  ///< drives also differ within the sheet's tolerances
   std::string store;
   bool resume = false, dry_run = false;
-  std::optional<std::uint64_t> only;  ///< number of the single run to make, like any other scenario
+  std::optional<std::uint64_t> only;  ///< number of the single run of the plan to make, as if it were a
+                                      ///< scenario
 };
 
-/// Arguments of a board's log, sent over its serial line during a run, or of another recording.
+/// Arguments of a board's log, which the board sent over its serial line, or of another recording.
 struct LogArguments {
-  std::string path;                  ///< empty: none
-  std::optional<double> shift_s;     ///< added to its times; empty: fitted
-  std::vector<std::string> columns;  ///< "speed=erpm*2*pi/60/7"; empty: by the headings
+  std::string path;                  ///< path of the log; empty: none
+  std::optional<double> shift_s;     ///< time added to the log's times, s; empty: fitted
+  std::vector<std::string> columns;  ///< formulas such as "speed=erpm*2*pi/60/7"; empty: columns by their
+                                     ///< headings
   std::optional<double> interval_s;  ///< interval of the log's rows, if no column is a time
 };
 
@@ -34,18 +36,18 @@ struct RunArguments {
   std::vector<std::string> files;
   std::string out;                ///< folder for the outputs of each file, and for index.html of scenarios
   OutputPaths paths;              ///< output paths, for a single file only
-  std::vector<std::string> sets;  ///< "key=value"
+  std::vector<std::string> sets;  ///< settings of the scenario: "key=value"
   std::string data_dir;
   bool quiet = false;
   bool watch = false;
-  unsigned jobs = 0;     ///< 0: one per core
+  unsigned jobs = 0;     ///< number of threads; 0: one per core
   std::size_t runs = 0;  ///< number of drives of a series; 0: only the nominal run
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> drive;  ///< the only drive of the series that is run
   PlanArguments plan;
   bool bode = false;                ///< measure the loop's frequency response instead of a run
-  std::optional<double> amplitude;  ///< amplitude of the multisine, in the mode's unit
-  std::string junit;                ///< verdicts for build servers
+  std::optional<double> amplitude;  ///< amplitude of the multisine, in the mode's unit; empty: the default
+  std::string junit;                ///< file with verdicts for build servers
   std::string on;       ///< core that runs the drive, in parallel with the host or instead of it; empty: none
   LogArguments log;     ///< log to compare with the run
   std::string command;  ///< the command line as it can be typed again

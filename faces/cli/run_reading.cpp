@@ -46,7 +46,7 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
   return Job(std::move(*scenario), std::move(origin));
 }
 
-/// One run of a plan alone, with all outputs of a scenario.
+/// The job of one run of a plan, with all outputs that a scenario has.
 std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArguments& arguments,
                                       JobsRead& into) {
   const files::ReadLog log;
@@ -100,7 +100,7 @@ struct NamedCore {
   const loop::Core* value;
 };
 
-/// Null: only the host.
+/// The core of --on; null if only the host runs the drive.
 const loop::Core* core_of(const RunArguments& arguments, JobsRead& read) {
   const loop::Core* core = nullptr;
   if (names_own_firmware(arguments)) {

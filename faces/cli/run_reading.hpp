@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes jobs of the arguments of `sixstep run`, or reports everything that is wrong with them.
+// Makes jobs from the arguments of `sixstep run`, or reports everything that is wrong with these.
 #pragma once
 #include <string>
 #include <vector>

@@ -9,7 +9,7 @@
 
 namespace cli {
 
-/// Takes each word as "--set table.key=value"; any other form is a Problem.
+/// Reads each word as "--set table.key=value"; a word of any other form is a Problem.
 files::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
                                 base::Problems& problems);
 

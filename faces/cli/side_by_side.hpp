@@ -5,7 +5,8 @@
 
 namespace cli {
 
-/// Runs pieces of one work on up to `jobs` threads (0: one per core) and shows the progress: "7 of 41 points".
+/// Runs the pieces of a work on up to `jobs` threads (0: one per core) and shows the progress: "7 of 41
+/// points".
 analysis::ForEach side_by_side(unsigned jobs, bool quiet, const char* what);
 
 }  // namespace cli

@@ -6,7 +6,8 @@
 
 namespace cli {
 
-/// The option --store of every verb that keeps rows. It must be a file, because a store is read again.
+/// Adds the option --store of every verb that keeps rows. Its value must be a file, because a store is read
+/// again.
 CLI::Option* take_store(CLI::App& verb, std::string& path, const std::string& meaning);
 
 }  // namespace cli

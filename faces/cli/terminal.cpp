@@ -18,19 +18,20 @@
 namespace cli {
 namespace {
 
-int unprinted = 0;  // errno of the failed standard output
+int unprinted = 0;  // errno of the failed write to standard output; 0: none failed
 
 }  // namespace
 
 void print(std::string_view text, std::FILE* to) {
   if (to == stdout && unheard()) return;
-  // The loop writes all in one call if the kernel allows it: a reader that needs only the first line then
-  // does not close the pipe in between.
+  // The loop writes everything in one call if the kernel allows it. A reader that needs only the first line
+  // then does not close the pipe during the writing.
   while (!text.empty()) {
     const ssize_t taken = ::write(::fileno(to), text.data(), text.size());
     if (taken >= 0) {
       text.remove_prefix(static_cast<std::size_t>(taken));
-    } else if (errno == EAGAIN) {  // the reader has made the pipe non-blocking: wait here
+    } else if (errno == EAGAIN) {  // the reader has made the pipe non-blocking, so that the program waits
+                                   // here
       pollfd ready{::fileno(to), POLLOUT, 0};
       ::poll(&ready, 1, -1);
     } else if (errno != EINTR) {
@@ -79,8 +80,9 @@ std::size_t terminal_width(std::FILE* stream) {
 void take_write_errors() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // open() returns the lowest free number: without these, one of the run's files would receive the printed
-  // text. Opened in the wrong direction, they refuse reads or writes like a closed stream.
+  // Opens missing standard streams. open() returns the lowest free number: without this, one of the run's
+  // files would receive the printed text. The streams are opened in the wrong direction, so that they refuse
+  // reads or writes like a closed stream.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }

@@ -23,13 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct UnitArguments {
-  std::string file;  ///< the scenario
+  std::string file;  ///< path of the scenario
   std::string out, fmi = "2", data_dir, command;
   std::vector<std::string> sets;
   bool force = false;
 };
 
-/// A file of sources/, at the path by which the others include it.
+/// A file of sources/, with the path by which the other files include it.
 struct UnitSource {
   std::string path, text;
 };
@@ -57,7 +57,8 @@ std::vector<UnitSource> unit_sources_of(int fmi) {
   return own;
 }
 
-/// The shared object of a user's own controller goes into the unit, which then names it by its file's name.
+/// The shared object of a user's own controller goes into the unit. The unit's scenario then names it without
+/// a folder.
 base::Result<std::optional<files::ZipEntry>> own_controller_of(const UnitArguments& a,
                                                                study::Scenario& scenario) {
   std::string& name = scenario.control.own.controller;
@@ -95,7 +96,8 @@ struct UnitParts {
   std::optional<files::ZipEntry> controller;
 };
 
-/// modelDescription.xml comes first and unpacked: by its beginning the program knows its own units again.
+/// modelDescription.xml comes first and uncompressed, because the program recognises its own units by its
+/// beginning.
 std::string archive_of(const UnitParts& parts, int fmi) {
   const std::string folder = fmi == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
   std::vector<files::ZipEntry> entries = {

@@ -22,7 +22,7 @@ namespace {
 
 using base::Problem;
 
-/// The innermost verb that was read, and the words that lead to it.
+/// The innermost verb that was read, and the words up to it.
 struct Called {
   CLI::App* verb;
   std::string path = "sixstep";
@@ -50,7 +50,8 @@ std::vector<std::string> options_of(const CLI::App& verb) {
   return names;
 }
 
-/// Short words differ in one or two letters by a typing error; nearest() requires more similarity.
+/// The verb that differs from the word in one or two letters, as by a typing error; nearest() requires more
+/// similarity, which short words do not have.
 std::string nearest_verb(const std::string& word, const std::vector<std::string>& verbs) {
   for (int distance = 1; distance <= 2; ++distance)
     for (const std::string& verb : verbs)
@@ -58,7 +59,7 @@ std::string nearest_verb(const std::string& word, const std::vector<std::string>
   return "";
 }
 
-/// A key of the scenario that was written as an option: "--duration".
+/// The --set that a user meant who wrote a key of the scenario as an option: "--duration".
 std::string setting_meant(const CLI::App& verb, const std::string& word) {
   if (!verb.get_option_no_throw("--set")) return "";
   std::vector<std::string> keys;
@@ -85,8 +86,8 @@ Problem unknown_word(const Called& called, const std::string& word) {
           .cure = near.empty() ? called.path + " --help lists them" : fmt::format("did you mean {}?", near)};
 }
 
-// The error's details come from the parsed options: the exception contains only its kind and the library's
-// own text.
+// The error's details come from the parsed options, because the exception contains only its kind and the
+// library's own text.
 
 std::string meaning(const Called& called, const CLI::Option* option) {
   return option ? "it means: " + option->get_description() : called.help();
@@ -118,7 +119,7 @@ bool reads(const std::string& word) {
   return CLI::detail::lexical_cast(word, number);
 }
 
-/// Reports a value that is no number, by the option's type.
+/// Reports a value that is not a number although the option requires one.
 std::optional<Problem> no_number(const Called& called) {
   for (const CLI::Option* option : called.verb->get_options()) {
     if (option->count() == 0) continue;
@@ -134,7 +135,7 @@ std::optional<Problem> no_number(const Called& called) {
   return {};
 }
 
-/// Reports a value out of range, by the limits of integer_in().
+/// Reports a value that is out of the limits of integer_in().
 std::optional<Problem> out_of_range(const Called& called) {
   for (CLI::Option* option : called.verb->get_options())
     for (std::string word : option->results()) {
@@ -142,7 +143,7 @@ std::optional<Problem> out_of_range(const Called& called) {
       try {
         limit = (*option->get_validator(0))(word);
       } catch (const CLI::OptionNotFound&) {
-        break;  // any value is allowed
+        break;  // the option allows any value
       }
       if (!limit.empty())
         return Problem{.where = option->get_name(), .value = word, .limit = limit, .cure = called.help()};
@@ -162,7 +163,7 @@ std::optional<Problem> excluded(const Called& called) {
 
 Problem problem_of(const Called& called, const CLI::ParseError& error, const std::string& last_word) {
   const std::vector<std::string> left = called.verb->remaining(true);
-  // An unknown word explains the missing argument.
+  // An unknown word is reported, because it explains why an argument is missing.
   if (!left.empty()) return unknown_word(called, left.front());
   if (!verbs_of(*called.verb).empty())
     return {.where = called.path,

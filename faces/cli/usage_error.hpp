@@ -11,8 +11,8 @@ class ParseError;
 
 namespace cli {
 
-/// Handles a command line that calls no verb: prints the requested help or version; otherwise reports the error
-/// in the form of all other messages, with the nearest word for an unknown one.
+/// Handles a command line that calls no verb. It prints the requested help or version, or otherwise the error
+/// in the form of all other messages, with the nearest known word for an unknown one.
 Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string& last_word);
 
 }  // namespace cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares a verb of the command line. Its options and its function are in a separate file; main.cpp lists
-// the verbs.
+// Declares a verb of the command line. The verb's options and its function are in a separate file; main.cpp
+// lists the verbs.
 #pragma once
 #include <functional>
 #include <memory>
@@ -18,11 +18,12 @@ namespace cli {
 
 struct Verb {
   const CLI::App* app;  ///< converts to true if the verb's word was given
-  /// Called with the command line in a form that a shell reads back.
+  /// The verb's function. Its argument is the command line in a form that a shell reads back.
   std::function<Exit(const std::string& command)> call;
 };
 
-/// Calls `verb` with the arguments into which the options were written, and stores the command line in them.
+/// A function that stores the command line in the arguments and calls `verb` with them. The parser has
+/// written the options into these arguments.
 template <class Arguments>
 std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
                                                 std::shared_ptr<Arguments> arguments) {
@@ -32,7 +33,7 @@ std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
   };
 }
 
-// Options shared by several verbs:
+// Options that several verbs have:
 void take_data(CLI::App& verb, std::string& folder);             ///< --data
 void take_sets(CLI::App& verb, std::vector<std::string>& sets);  ///< --set
 void take_force(CLI::App& verb, bool& force);                    ///< --force

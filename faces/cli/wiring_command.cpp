@@ -57,7 +57,7 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The bench with straight wires; the user crosses them in the file or with --set.
+/// The bench with straight wires. The user crosses wires in the file or with --set.
 std::string scenario_of(const analysis::WiringStudy& s, const std::string& path) {
   study::Scenario scenario = analysis::straight_run(s);
   scenario.motor = motor_beside(scenario.motor, path);

@@ -9,8 +9,8 @@
 
 namespace cli {
 
-/// Converts the option's text into `unit`. A text that is no number with a fitting unit is unchanged, and the
-/// option's own check refuses it.
+/// Makes an option convert its text into `unit`. A text that is no number with a fitting unit is unchanged,
+/// and the option's own check refuses it.
 CLI::Option* take_unit(CLI::Option* option, std::string unit);
 
 }  // namespace cli

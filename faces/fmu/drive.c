@@ -87,7 +87,7 @@ drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop
   return DRIVE_OK;
 }
 
-/* A run that ends earlier than the scenario's would have another scenario for no gain: only a longer one is asked for. */
+/* Only a longer run is requested: a shorter one would be another scenario, without advantage. */
 static drive_result lengthen(drive* self) {
   char setting[64] = "duration_s=";
   const char* settings[2] = {setting, NULL};
@@ -175,7 +175,7 @@ drive_result drive_step(drive* self, const char* function, double point, double 
   drive_state* s = &self->state;
   double next;
   if (!(size > 0) || !isfinite(size)) return drive_fail(self, function, "the step size must be above 0");
-  /* A picosecond is the library's resolution; importers that add steps up are further away in the end. */
+  /* A picosecond is the library's resolution. Importers that add up steps deviate by more than that. */
   if (!(fabs(point - s->now_s) <= 1e-9 * (1 + fabs(s->now_s))))
     return drive_fail(self, function, "the communication point must be the end of the step before");
   if (change_inputs(self, function) != DRIVE_OK) return DRIVE_ERROR;

@@ -31,11 +31,11 @@ enum { DRIVE_MESSAGE = 1024 }; /* room for a message */
 typedef enum { DRIVE_NONE, DRIVE_REAL, DRIVE_INTEGER } drive_kind;
 
 typedef struct {
-  char token[64]; /* of modelDescription.xml */
+  char token[64]; /* token of modelDescription.xml */
   drive_kind kinds[DRIVE_SIGNALS];
-  double factors[DRIVE_SIGNALS]; /* unit of sixstep.h to that of the variable */
+  double factors[DRIVE_SIGNALS]; /* factors from the unit of sixstep.h to that of the variable */
   int inputs;
-  char keys[DRIVE_INPUTS][64]; /* of an [[at]]: "load.torque_Nm" */
+  char keys[DRIVE_INPUTS][64]; /* key of an [[at]] table: "load.torque_Nm" */
   double starts[DRIVE_INPUTS];
 } drive_variables;
 
@@ -44,11 +44,11 @@ typedef struct drive_state {
   drive_phase phase;
   double start_s; /* the communication point at which the run is at t = 0 */
   double now_s;   /* the present communication point */
-  double stop_s;  /* NaN: none was named */
+  double stop_s;  /* NaN: no stop time is set */
   double wanted[DRIVE_INPUTS], applied[DRIVE_INPUTS];
   char digest[17];           /* empty until the run is terminated */
   sixstep_session* session;  /* null until the initialization */
-  struct drive_state* next;  /* saved ones of an instance */
+  struct drive_state* next;  /* list of the instance's saved states */
 } drive_state;
 
 /* `log` gets each message; category: "logStatusError", "logStatusDiscard" or "logEvents". */
@@ -56,7 +56,7 @@ typedef struct drive {
   drive_variables variables;
   drive_state state;
   drive_state* saved;
-  char scenario[4096]; /* path */
+  char scenario[4096]; /* path of the scenario */
   void (*log)(struct drive* self, drive_result status, const char* category, const char* message);
 } drive;
 
@@ -70,7 +70,7 @@ int drive_allowed(drive* self, const char* function, unsigned phases);
 drive_result drive_read(drive* self, const char* location, const char* token);
 /* Frees sessions and saved states. */
 void drive_clear(drive* self);
-/* As after drive_read(). */
+/* Resets the instance to its state after drive_read(). */
 void drive_reset(drive* self);
 
 drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop_s);
@@ -87,7 +87,7 @@ drive_result drive_set(drive* self, const char* function, unsigned reference, do
 drive_result drive_save(drive* self, const char* function, void** at);
 drive_result drive_restore(drive* self, const char* function, const void* from);
 drive_result drive_forget(drive* self, const char* function, void** at);
-/* Bytes of a saved state; 0: it is none. Writes them if they fit in `room`. */
+/* Number of bytes of a saved state; 0: `of` is no saved state. Writes them if they fit in `room`. */
 size_t drive_bytes(drive* self, const void* of, unsigned char* bytes, size_t room);
 drive_result drive_from_bytes(drive* self, const char* function, const unsigned char* bytes, size_t count, void** at);
 

@@ -10,7 +10,8 @@ static int hex_digit(char c) {
   return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/* The path of a file URI ("file:///a%20b", "file:/a", "file://localhost/a"), or of a plain path. 0: it does not fit. */
+/* The path of a file URI ("file:///a%20b", "file:/a", "file://localhost/a"), or of a plain path. Returns 0 if it
+   does not fit. */
 static int path_of(const char* location, char* path, size_t room) {
   size_t out = 0;
   const int is_uri = strncmp(location, "file:", 5) == 0;
@@ -42,8 +43,8 @@ static double double_of(unsigned long long bits) {
   return value;
 }
 
-/* A line of variables.txt: "token T", "real 15 BITS", "integer 24 BITS", "input 1000 BITS KEY". Numbers are the bits of
- * doubles, which no locale changes. 0: it is none of these. */
+/* Reads a line of variables.txt: "token T", "real 15 BITS", "integer 24 BITS", "input 1000 BITS KEY". Numbers are
+ * the bits of doubles, which no locale changes. Returns 0 if the line is none of these. */
 static int read_line(const char* line, drive_variables* v) {
   char word[16], key[64];
   unsigned reference;
@@ -151,12 +152,12 @@ drive_result drive_forget(drive* self, const char* function, void** at) {
   return DRIVE_OK;
 }
 
-/* Begin of the bytes; those of the session follow. */
+/* Beginning of a saved state's bytes; the session's bytes follow. */
 typedef struct {
   char magic[16];
   char token[64];
   drive_state state; /* its pointers are written as null */
-  uint64_t session;  /* number of bytes */
+  uint64_t session;  /* number of the session's bytes */
 } head;
 
 static const char magic[16] = "sixstep unit 1";

@@ -14,10 +14,10 @@
 #define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE)
 
 typedef struct {
-  drive unit; /* first: a drive's log finds its instance */
+  drive unit; /* first member: a drive's log gets its instance from the drive's address */
   char* name;
   fmi2CallbackFunctions callbacks;
-  int events;         /* changes of inputs are logged */
+  int events;         /* whether changes of inputs are logged */
   fmi2Status stepped; /* result of the last step */
 } instance;
 
@@ -190,7 +190,7 @@ fmi2Status FMI2(SetReal)(fmi2Component c, const fmi2ValueReference r[], size_t c
   return fmi2OK;
 }
 
-/* No variable has these types, or none of them can be set. */
+/* For types that no variable has, or that no variable can be set with. */
 static fmi2Status none(fmi2Component c, const char* function, unsigned phases, size_t count) {
   if (!may(c, function, phases)) return fmi2Error;
   return count == 0 ? fmi2OK : fail(c, function, "the unit has no such variable");

@@ -8,10 +8,10 @@
 #include "faces/fmu/fmi3_instance.h"
 
 typedef struct {
-  drive unit; /* first: a drive's log finds its instance */
+  drive unit; /* first member: a drive's log gets its instance from the drive's address */
   fmi3LogMessageCallback log;
   fmi3InstanceEnvironment environment;
-  int events; /* changes of inputs are logged */
+  int events; /* whether changes of inputs are logged */
 } instance;
 
 static const char* const categories[] = {"logStatusError", "logStatusDiscard", "logEvents"};
@@ -104,7 +104,7 @@ FMI3_FUNCTION(Reset, (fmi3Instance c)) {
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */
 
-/* Every variable is a scalar: as many values as references. */
+/* Every variable is a scalar, so that there are as many values as references. */
 static int has_arrays(fmi3Instance c, const char* function, unsigned phases, const void* references, size_t count,
                       const void* values, size_t room) {
   if (!fmi3_may(c, function, phases)) return 0;

@@ -3,7 +3,7 @@
  * clocks, derivatives. modelDescription.xml says so. Each returns fmi3Error with a message. */
 #include "faces/fmu/fmi3_instance.h"
 
-/* A type that no variable has, or none that can be set. No references are no error. */
+/* For a type that no variable has, or no variable that can be set. An empty list of references is no error. */
 static fmi3Status none(fmi3Instance c, const char* function, unsigned phases, size_t count) {
   if (!fmi3_may(c, function, phases)) return fmi3Error;
   return count == 0 ? fmi3OK : fmi3_fail(c, function, "the unit has no such variable");
@@ -51,7 +51,7 @@ FMI3_FUNCTION(SetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t n,
   return none(c, "fmi3SetClock", SETTABLE, n);
 }
 
-/* A function whose arguments are not looked at. */
+/* A function whose arguments are not used. */
 #define REFUSED(name, arguments, used, why)                   \
   FMI3_FUNCTION(name, arguments) {                            \
     used;                                                     \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a unit uses of fmt, compiled into it: the shared library of fmt is not on every machine.
+// Compiles the parts of fmt that a unit uses into the unit, because the shared library of fmt is not on every
+// machine.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

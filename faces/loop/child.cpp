@@ -18,7 +18,8 @@ namespace loop {
 
 namespace {
 
-/// All arguments of exec, prepared before the fork: after it, another thread's lock may be held for ever.
+/// All arguments of exec, prepared before the fork. After the fork, memory cannot be allocated, because
+/// another thread's lock may be held without end.
 struct Prepared {
   std::string program;
   std::vector<std::string> environment;
@@ -36,7 +37,7 @@ struct Prepared {
   }
 };
 
-/// Between fork and exec only system calls are allowed.
+/// Replaces the child process by the program. Between fork and exec only system calls are allowed.
 [[noreturn]] void become(const Prepared& prepared, const Command& command,
                          const std::vector<Given>& out_of_the_way, pid_t parent) {
   ::setpgid(0, 0);
@@ -79,7 +80,8 @@ base::Problem not_here(const std::string& program) {
 base::Result<Child> Child::start(const Command& command) {
   const Prepared prepared(command);
   if (prepared.program.empty()) return not_here(command.words.front());
-  // Temporary numbers above all requested ones, so that no descriptor is overwritten before it is copied.
+  // Descriptors are first copied to temporary numbers above all requested ones, so that none is overwritten
+  // before it is copied.
   std::vector<Given> out_of_the_way;
   for (const Given& given : command.given)
     out_of_the_way.push_back({::fcntl(given.ours, F_DUPFD_CLOEXEC, 64), given.theirs});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a program as a process that never outlives this one, however this one ends.
+// Runs a program as a process that never outlives this process, however this process ends.
 #pragma once
 #include <sys/types.h>
 
@@ -13,35 +13,36 @@
 
 namespace loop {
 
-/// The program's path on PATH; empty: not found.
+/// The program's path according to PATH; empty: not found.
 std::string on_path(const std::string& program);
-/// The Problem that the program is not on PATH, with the package that has it.
+/// The Problem of a program that is not on PATH, with the package that contains it.
 base::Problem not_here(const std::string& program);
 
-/// A descriptor here, and its number in the program.
+/// A descriptor of this process, and the number that it gets in the program.
 struct Given {
   int ours, theirs;
 };
 
 struct Command {
-  std::vector<std::string> words;  ///< the first is searched on PATH
+  std::vector<std::string> words;  ///< the command; its first word is searched on PATH
   std::vector<Given> given;        ///< standard streams that are not listed go to /dev/null
-  std::string temporary;           ///< its TMPDIR; empty: unchanged
-  bool outlives = false;           ///< ends by itself, not with this process
+  std::string temporary;           ///< TMPDIR of the program; empty: unchanged
+  bool outlives = false;           ///< true: the program ends by itself, not with this process
 };
 
 class Child {
  public:
-  /// Problems: no such program, or no more processes. Ctrl-C at the terminal does not reach it.
+  /// Starts the program. Problems: it does not exist, or the system has no more processes. Ctrl-C at the
+  /// terminal does not reach it.
   static base::Result<Child> start(const Command& command);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;
-  /// Kills it.
+  /// Kills the process.
   ~Child();
 
-  /// Its exit status; 128 and more: a signal. Empty: still running.
+  /// The exit status of the process; 128 and more: a signal. Empty: the process is still running.
   std::optional<int> ended_within(std::chrono::milliseconds time);
-  /// Waits until it ends by itself.
+  /// Waits until the process ends by itself.
   void wait();
 
  private:

@@ -19,10 +19,10 @@ class Chip {
   /// Loads the image; the chip is in reset. Problems: the emulator is missing or does not start.
   static base::Result<std::unique_ptr<Chip>> start(const Core& core, const std::string& image);
 
-  /// Valid as long as this object.
+  /// The port is valid as long as this object.
   rig::ChipPort port();
   double clock_Hz() const { return greeting_.clock_Hz; }
-  /// The times of its interrupts so far; empty if the chip has ended.
+  /// The times of the chip's interrupts so far; empty if the chip has ended.
   rig::ChipTimes times();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closes a file descriptor exactly once, and makes a pipe of two of them.
+// Closes a file descriptor exactly once, and makes a pipe of two descriptors.
 #pragma once
 #include <fcntl.h>
 #include <unistd.h>
@@ -29,12 +29,12 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// A pipe. A started program inherits neither end unless explicitly given.
+/// A pipe. A started program inherits neither end unless the end is given explicitly.
 struct Pipe {
   Descriptor read, write;
 };
 
-/// Empty ends if the system has no more descriptors.
+/// Makes a pipe. The ends are empty if the system has no more descriptors.
 inline Pipe made_pipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return {};

@@ -19,7 +19,7 @@ class Emulator {
   /// Loads the image and waits until its program runs. Problems: the emulator is missing or does not start.
   static base::Result<std::unique_ptr<Emulator>> start(const Core& core, const std::string& image);
 
-  /// Valid as long as this object.
+  /// The port is valid as long as this object.
   rig::CorePort port();
   std::uint64_t calls() const { return calls_; }
 

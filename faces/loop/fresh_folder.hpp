@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a temporary folder for one run. A shell removes it when the run ends, even if the program is killed.
+// Makes a temporary folder for one run. A shell process removes the folder when the run ends, even if the
+// program is killed.
 #pragma once
 #include <string>
 
@@ -10,7 +11,7 @@ namespace loop {
 
 class FreshFolder {
  public:
-  /// Problems: it cannot be made.
+  /// Makes the folder. Problems: it cannot be made.
   static base::Result<FreshFolder> make();
   FreshFolder(FreshFolder&&) noexcept = default;
   /// Removes the folder with its content.
@@ -24,7 +25,7 @@ class FreshFolder {
 
   std::string path_;
   Child cleaner_;
-  Descriptor held_;  ///< write end of the pipe that the shell reads; it closes with this program
+  Descriptor held_;  ///< write end of the pipe that the shell reads; it closes when this program ends
 };
 
 }  // namespace loop

@@ -25,8 +25,8 @@ fs::path sources_folder() {
   if (const char* const said = std::getenv("SIXSTEP_SOURCES"); said != nullptr) return said;
   const fs::path folder = program_folder();
   if (folder.empty()) return {};
-  // A build folder has a file with the path of its sources. The program itself contains no path of the machine
-  // that built it.
+  // A build folder has a file with the path of its sources, so that the program itself contains no path of
+  // the machine that built it.
   if (std::ifstream noted(folder / "sixstep-sources"); noted) {
     std::string root;
     std::getline(noted, root);

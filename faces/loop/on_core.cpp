@@ -17,7 +17,7 @@ namespace loop {
 
 namespace {
 
-/// A core in parallel with the host, or a chip in place of the drive.
+/// A running core in parallel with the host, or a running chip in place of the drive.
 using Running = std::variant<std::unique_ptr<Emulator>, std::unique_ptr<Chip>>;
 
 template <class Of>
@@ -27,7 +27,7 @@ base::Result<Running> started(const Core& core, const std::string& image) {
   return Running(std::move(*made));
 }
 
-/// The serial line's file, in the folder of its run with the image.
+/// The file for the output of the serial line, in the folder of the run's image.
 std::string serial_file(const FreshFolder& folder) { return folder.path() + "/serial.log"; }
 
 base::Result<Running> started_chip(Core core, const std::string& image, const FreshFolder& folder) {
@@ -42,7 +42,7 @@ base::Result<Running> loaded(const Core& core, const study::Scenario& scenario, 
   return core.by_registers ? started_chip(core, *image, folder) : started<Emulator>(core, *image);
 }
 
-/// The complete lines of the serial line.
+/// The complete lines of the serial line's output.
 std::string sent_by(const FreshFolder& folder) {
   std::ifstream in(serial_file(folder), std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

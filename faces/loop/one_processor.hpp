@@ -11,7 +11,7 @@ namespace loop {
 
 class OneProcessor {
  public:
-  /// Takes another processor each time, among those that the thread may use.
+  /// Takes the next processor in turn, among those that the thread may use.
   OneProcessor() {
     static std::atomic<unsigned> turn{0};
     if (::sched_getaffinity(0, sizeof before_, &before_) != 0) return;
@@ -27,7 +27,7 @@ class OneProcessor {
   }
   OneProcessor(const OneProcessor&) = delete;
   OneProcessor& operator=(const OneProcessor&) = delete;
-  /// Call it in the same thread.
+  /// Must be destroyed in the thread that constructed it.
   ~OneProcessor() {
     if (kept_) ::sched_setaffinity(0, sizeof before_, &before_);
   }

@@ -9,18 +9,18 @@ namespace loop {
 
 namespace {
 
-/// Time limits of an answer and of the start; a program that exceeds them hangs. An emulator on a busy
-/// machine starts within the second limit.
+/// Time limits of an answer and of the start. A program that exceeds them counts as hanging. An emulator on a
+/// busy machine starts within the second limit.
 constexpr int answer_limit_ms = 5000, start_limit_ms = 30000;
 
-/// The pipes' descriptor numbers in the program.
+/// Descriptor numbers of the pipes in the other program.
 constexpr int calls_there = 3, answers_there = 4;
 
 }  // namespace
 
 base::Result<Talk> Talk::begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                std::size_t bytes) {
-  // The child alone holds the other ends, so that each side detects the end of the other.
+  // Only the child has the other ends, so that each side detects the end of the other.
   Pipe calls = made_pipe(), answers = made_pipe();
   if (!calls.read || !answers.read)
     return base::Problem{emulator.front(), "", "cannot be reached: this program has too many open files",

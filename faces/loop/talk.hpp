@@ -13,12 +13,12 @@
 
 namespace loop {
 
-/// The program must ignore SIGPIPE, as `sixstep` does, because the end of the other program is reported as a
-/// CoreTrouble.
+/// A connection to another program. This program must ignore SIGPIPE, as `sixstep` does, because the end of
+/// the other program is reported as a CoreTrouble.
 class Talk {
  public:
-  /// Starts the emulator with an image and waits for the program's greeting, half a minute at most. Problems: no
-  /// such program, too many open files, or no greeting.
+  /// Starts the emulator with an image, and waits at most half a minute for the image's greeting. Problems:
+  /// no such program, too many open files, or no greeting.
   static base::Result<Talk> begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                   std::size_t bytes);
 
@@ -26,7 +26,7 @@ class Talk {
   rig::CoreTrouble say(const void* from, std::size_t bytes);
   /// Reads all bytes; each part must arrive within `limit_ms`.
   rig::CoreTrouble hear(void* to, std::size_t bytes, int limit_ms);
-  /// Sends a call and reads the answer within five seconds; a program that needs longer hangs.
+  /// Sends a call and reads the answer within five seconds. A program that needs longer counts as hanging.
   rig::CoreTrouble ask(const void* call, std::size_t call_bytes, void* answer, std::size_t answer_bytes);
 
  private:
@@ -37,7 +37,7 @@ class Talk {
   Descriptor to_, from_;
 };
 
-/// The Problem that the greeting did not arrive, because of `trouble`.
+/// The Problem of a greeting that did not arrive, because of `trouble`.
 base::Problem no_greeting(const std::string& program, rig::CoreTrouble trouble);
 
 }  // namespace loop

@@ -17,14 +17,14 @@
 namespace files {
 namespace {
 
-/// The store is one file while no program writes, and only one program can open it. Transactions are not
-/// forced to the disk: only a power failure loses the last ones, and the store stays intact.
+/// Nobody else can open the store, and it is one file while nobody writes. Transactions are not forced to the
+/// disk: a power failure loses only the last ones, and the store stays intact.
 constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 
 }  // namespace
 
-/// Rows wait for the writer thread, which writes all waiting rows in one transaction: few if runs are long, many
-/// if they are short. A kill can only lose rows that are not counted yet.
+/// Rows wait for the writer thread, which writes all waiting rows in one transaction. These are few if runs
+/// are long, and many if runs are short. A kill can only lose rows that are not counted yet.
 struct PlanStore::Inside {
   static constexpr std::size_t most_waiting = 4096;
 
@@ -95,7 +95,7 @@ struct PlanStore::Inside {
     if (insert->failed()) return {db.problem()};
     return {};
   }
-  /// The present row of a SELECT, if its checksum is right.
+  /// The present row of a SELECT. A Problem if its checksum is wrong.
   base::Result<analysis::RunRecord> row_at(const Statement& select) {
     std::vector<Cell> cells;
     cells.reserve(cells_in_row(*plan.columns));
@@ -133,14 +133,14 @@ struct PlanStore::Inside {
   std::vector<bool> there;
   std::size_t count = 0;
   base::Problems problems;
-  std::jthread writer;  // last member: it ends before those that it uses
+  std::jthread writer;  // last member, so that it ends before the members that it uses
 };
 
 namespace {
 
 enum class Standing { nothing, store, other };
 
-/// Recognised by SQLite's header, so that a store being written is recognised too.
+/// A store is recognised by SQLite's header, which exists even while another program writes the store.
 Standing standing_at(const std::string& path) {
   std::error_code error;
   if (path.empty() || !std::filesystem::exists(path, error)) return Standing::nothing;
@@ -152,8 +152,9 @@ Standing standing_at(const std::string& path) {
   return begin.starts_with("SQLite format 3") && id == store_mark ? Standing::store : Standing::other;
 }
 
-/// Tables are made in one transaction: a program killed in it leaves a file that is empty after SQLite's
-/// recovery. (A damaged one still has its pages.)
+/// Whether the file is the rest of a program that was killed while it created a store. All tables are made in
+/// one transaction, so that such a file is empty after SQLite's recovery. A damaged store still has its
+/// pages.
 bool was_killed_at_birth(const std::string& path) {
   base::Result<Database> db = Database::open(path);
   base::Result<Statement> pages =
@@ -161,7 +162,8 @@ bool was_killed_at_birth(const std::string& path) {
   return pages && pages->step() && pages->whole(0) == 0;
 }
 
-/// SQLite's check of every page: whether rows exist and are in order. The checksums cover their content.
+/// SQLite's check of every page: whether rows exist and are in order. The content of rows is covered by the
+/// checksums.
 base::Problems check_pages(Database& db) {
   base::Result<Statement> check = db.prepare("PRAGMA quick_check(1)");
   if (!check) return check.problems();
@@ -233,7 +235,7 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return refuse(
         "holds runs of a scenario that was changed since: " + before.scenario + " or a file that it names",
         "name another store, or overwrite this one (force)");
-  // Messages name the columns as in the plan, not as in the file.
+  // In messages, columns have their names in the plan, not those in the file.
   store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;
   return store;

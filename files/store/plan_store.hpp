@@ -17,9 +17,10 @@
 
 namespace files {
 
-/// The description of a store. The first three members and the columns must not change between two sittings.
+/// The description of a store. The first three members and the columns must be the same whenever the store is
+/// continued.
 struct StoredPlan {
-  std::string sixstep{};  ///< version that made all of its rows; empty: the running version
+  std::string sixstep{};  ///< version that made all rows of the store; empty: the running version
   std::string plan;       ///< the plan in one line (text::plan_identity)
   std::string
       inputs;  ///< digest of all files read for the scenario and of the values that the command line set
@@ -30,12 +31,12 @@ struct StoredPlan {
 
 class PlanStore {
  public:
-  /// Creates a store. `path` must not exist, unless `force` is set and it is a store. An empty path makes an
-  /// unnamed store that is removed at the program's end.
+  /// Creates a store. `path` must not exist, unless `force` is set and the file is a store. An empty path
+  /// makes an unnamed store that is removed at the program's end.
   static base::Result<PlanStore> create(const std::string& path, StoredPlan plan, bool force);
-  /// Opens a store to continue it. Problems: it is damaged, or of another plan or version.
+  /// Opens a store to continue it. Problems: the store is damaged, or it belongs to another plan or version.
   static base::Result<PlanStore> resume(const std::string& path, StoredPlan plan);
-  /// Opens a store to read it. Problems: it is damaged; every row is compared with its checksum.
+  /// Opens a store to read it, and compares every row with its checksum. Problems: the store is damaged.
   static base::Result<PlanStore> read(const std::string& path);
 
   PlanStore(PlanStore&&) noexcept;
@@ -44,20 +45,20 @@ class PlanStore {
 
   const StoredPlan& plan() const;
   const std::string& path() const;
-  /// Rows in the file.
+  /// Number of rows in the file.
   std::size_t rows() const;
   bool has(std::size_t number) const;
 
-  /// Queues a row, from any thread; it is in the file a moment later, and rows() then counts it. A row with
-  /// other columns is not written, and the store has failed.
+  /// Queues a row, from any thread. The row is in the file a moment later, and rows() then counts it. A row
+  /// with other columns is not written, and the store counts as failed.
   void add(analysis::RunRecord&& record);
-  /// A row could not be written, and no further ones will be.
+  /// Whether a row could not be written; then no further rows are written.
   bool failed() const;
-  /// Waits until all rows are in the file. Problems: the reason why one is not.
+  /// Waits until all rows are in the file. Problems: the reason why a row is not.
   base::Problems finish();
 
   /// Visits the rows in the order of the runs' numbers. Problems: why a row could not be read. A row's
-  /// `point` has numbers as given, and words without their quotes.
+  /// `point` has numbers as given, and words without quotes.
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wraps SQLite's handles as values that close themselves and report failures as Problems. SQLite was chosen
-// because it has one file, transactions that survive any kill, and a query language that is available
-// everywhere.
+// for three reasons: a database is one file, its transactions survive any kill, and its query language is
+// available everywhere.
 #pragma once
 #include <sqlite3.h>
 
@@ -17,10 +17,10 @@
 
 namespace files {
 
-/// A value of SQLite: null, whole number, number, text. (BLOBs are not used.)
+/// A value of SQLite: null, whole number, number, or text. BLOBs are not used.
 using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// A statement that is executed repeatedly. As in SQLite, parameters count from 1, columns from 0.
+/// A statement that is executed repeatedly. As in SQLite, parameters are counted from 1, columns from 0.
 class Statement {
  public:
   explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}
@@ -29,7 +29,7 @@ class Statement {
   void bind(int place, std::string_view text) {
     sqlite3_bind_text(statement_.get(), place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
   }
-  /// NaN becomes NULL; infinity is stored.
+  /// Binds a number. NaN becomes NULL; infinity is stored.
   void bind(int place, double x) { sqlite3_bind_double(statement_.get(), place, x); }
   void bind_cell(int place, const Cell& cell) {
     sqlite3_bind_null(statement_.get(), place);
@@ -38,7 +38,7 @@ class Statement {
     if (const auto* text = std::get_if<std::string>(&cell)) bind(place, std::string_view(*text));
   }
 
-  /// True while there is a row. After the last row the statement can be bound and run again.
+  /// Advances to the next row; false if there is none. The statement can then be bound and run again.
   bool step() {
     code_ = sqlite3_step(statement_.get());
     if (code_ == SQLITE_ROW) return true;
@@ -83,15 +83,15 @@ class Statement {
 
 class Database {
  public:
-  /// An empty path means an unnamed file that is removed when it is closed.
+  /// Opens a database. An empty path means an unnamed file that is removed when it is closed.
   static base::Result<Database> open(const std::string& path);
 
-  /// Any number of statements without results.
+  /// Executes any number of statements that have no results.
   base::Problems run(const std::string& sql);
   base::Result<Statement> prepare(const std::string& sql);
 
   const std::string& path() const { return path_; }
-  /// The Problem that the database cannot be read or written, with SQLite's reason.
+  /// The Problem of a database that cannot be read or written, with SQLite's reason.
   base::Problem problem() const;
 
  private:
@@ -102,10 +102,10 @@ class Database {
   std::string path_;
 };
 
-/// The Problem that a store does not hold the data written into it; `how` is a clause.
+/// The Problem of a store that does not hold the data written into it; `how` is a clause.
 base::Problem damaged(const std::string& path, const std::string& how);
 
-/// "a name" for SQL, with its quotes.
+/// A name for SQL, including the quotes: "a name".
 std::string sql_name(std::string_view name);
 
 }  // namespace files

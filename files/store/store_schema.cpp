@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view checksum_word = "checksum", version_word = "sixstep";
 
-/// Columns of the table `run` after its fixed ones: k0, k1, .. s0, .. f0, ..
+/// Columns of the table `run` after the columns that every store has: k0, k1, .. s0, .. f0, ..
 std::vector<std::string> own_columns(const analysis::PlanColumns& c) {
   std::vector<std::string> names;
   for (std::size_t n = 0; n < c.keys.size(); ++n) names.push_back(fmt::format("k{}", n));
@@ -27,7 +27,7 @@ std::vector<std::string> own_columns(const analysis::PlanColumns& c) {
   return names;
 }
 
-/// Members and their names in the table `about`.
+/// A member of StoredPlan, and its name in the table `about`.
 using Word = std::pair<std::string_view, std::string*>;
 std::vector<Word> words_of(StoredPlan& plan) {
   return {{version_word, &plan.sixstep}, {"plan", &plan.plan},
@@ -36,7 +36,7 @@ std::vector<Word> words_of(StoredPlan& plan) {
           {"command", &plan.command},    {"scenario_text", &plan.scenario_text}};
 }
 
-/// A row of `columns`: column, kind, name, unit, required, min, max.
+/// A row of the table `columns`: column, kind, name, unit, required, min, max.
 using ColumnRow = std::vector<Cell>;
 std::vector<ColumnRow> column_rows(const analysis::PlanColumns& c) {
   const std::vector<std::string> own = own_columns(c);
@@ -53,7 +53,8 @@ std::vector<ColumnRow> column_rows(const analysis::PlanColumns& c) {
   return rows;
 }
 
-/// The checksum excludes the version, which has its own message (PlanStore::resume).
+/// The checksum does not cover the version, because a different version has its own message
+/// (PlanStore::resume).
 std::uint64_t checksum_of_plan(StoredPlan plan) {
   std::vector<Cell> cells;
   for (const auto& [word, value] : words_of(plan))
@@ -67,7 +68,7 @@ void put(Statement& insert, const std::vector<Cell>& cells) {
   insert.step();
 }
 
-/// All rows of a query. Problems: the query failed.
+/// All rows of a query. Problems: the reason why the query failed.
 base::Result<std::vector<std::vector<Cell>>> rows_of(Database& db, const std::string& sql) {
   base::Result<Statement> select = db.prepare(sql);
   if (!select) return select.problems();
@@ -116,7 +117,7 @@ analysis::PlanColumns columns_from(const std::vector<ColumnRow>& rows) {
   return columns;
 }
 
-/// Whether each of the statements made one of the store's tables; further tables are allowed.
+/// Whether the store has each table that the statements create. Further tables are allowed.
 bool has_tables(const std::vector<std::vector<Cell>>& tables, const StoredPlan& plan) {
   std::set<std::string> there;
   for (const std::vector<Cell>& row : tables) there.insert(text_of(row[0]));

@@ -18,16 +18,16 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t fixed_cells = 6;
 
-/// Replaces NaN and the sign of zero, which SQLite cannot store.
+/// The cell of a number. SQLite cannot store NaN, which becomes null, nor the sign of zero, which is removed.
 Cell number_cell(double x) { return x == x ? Cell(x + 0.0) : Cell(); }
 
-/// A number as a number, "soft" without its quotes.
+/// The cell of a value: a number as a number, a word without its quotes.
 Cell value_cell(const std::string& written) {
   if (const std::optional<double> x = text::number_alone(written)) return number_cell(*x);
   return text::visible(analysis::bare(written));
 }
 
-/// A line each; a line's end inside a remark is made visible.
+/// The remarks, one per line. A line end inside a remark is made visible.
 std::string remarks_cell(const std::vector<std::string>& remarks) {
   std::string text;
   for (const std::string& remark : remarks) text += text::visible(remark) + "\n";
@@ -42,7 +42,7 @@ std::vector<std::string> remarks_of(std::string_view cell) {
   return remarks;
 }
 
-/// Reads cells one after another, as long as each has the expected kind.
+/// Reads cells one after another. After a cell of another kind than expected, it reads nothing more.
 class CellReader {
  public:
   explicit CellReader(const std::vector<Cell>& cells) : cells_(cells) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a row to the cells of a store and computes the checksum that finds damaged cells.
+// Converts a row to the cells of a store, and computes the checksum that detects damaged cells.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,17 +10,18 @@
 
 namespace files {
 
-/// 64 bits over values, their kinds and their order. Not cryptographic: it detects accidental changes only.
+/// A checksum of 64 bits over the values, their kinds and their order. It is not cryptographic, and detects
+/// accidental changes only.
 std::uint64_t checksum_of(const std::vector<Cell>& cells, std::uint64_t before);
 
-/// A stored row: run, end, passed, problem, remarks, digest, keys, values of the spread, figures. NaN becomes null, -0
-/// becomes 0, control characters in texts are made visible (text/escape/escape.hpp).
+/// The cells of a row: run, end, passed, problem, remarks, digest, keys, values of the spread, figures. NaN
+/// becomes null, -0 becomes 0, and control characters in texts are made visible (text/escape/escape.hpp).
 std::vector<Cell> cells_of(const analysis::RunRecord& record);
 
 /// The number of cells in a row with these columns.
 std::size_t cells_in_row(const analysis::PlanColumns& columns);
 
-/// The row of these cells. Problem: cells_of() cannot produce them; `limit` states the difference as a
+/// The row with these cells. Problem: cells_of() cannot have made them; `limit` states the difference as a
 /// clause.
 base::Result<analysis::RunRecord> record_of_cells(const std::vector<Cell>& cells,
                                                   const analysis::TableColumns& columns);

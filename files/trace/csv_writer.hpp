@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a trace as text: comment lines that begin with #, one line of column names, then rows of numbers
-// that read back bit for bit.
+// Writes a trace as text: comment lines that begin with #, one line of column names, then rows of numbers.
+// Reading a number gives the same bits again.
 #pragma once
 #include <span>
 #include <string>
@@ -13,7 +13,7 @@ namespace files {
 
 class CsvWriter {
  public:
-  /// Each comment is one line.
+  /// Creates the file. Each comment is one line.
   static base::Result<CsvWriter> create(const Destination& to, std::span<const study::Column> columns,
                                         std::span<const std::string> comments = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Follows "HDF5 File Format Specification Version 3.0" of The HDF Group: superblock version 0 (II.A), groups by
-// a B-tree of names (III.A1, III.B to III.D), object headers version 1 (IV.A1.a). They are the oldest versions,
-// which every reader supports, and those of MATLAB.
+// Follows "HDF5 File Format Specification Version 3.0" of The HDF Group: superblock version 0 (II.A), groups
+// by a B-tree of names (III.A1, III.B to III.D), object headers version 1 (IV.A1.a). These are the oldest
+// versions, which every reader supports, and the versions that MATLAB writes.
 #include "files/trace/mat73.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace {
 
 using Address = std::uint64_t;
 constexpr Address nowhere = ~Address{0};
-constexpr std::size_t user_block = 512;  // in front of address 0
+constexpr std::size_t user_block = 512;  // bytes before HDF5's address 0
 
-// Types of messages, and MATLAB's code for text as characters.
+// Types of messages in an object header, and MATLAB's code for text as characters.
 enum : std::uint16_t {
   is_dataspace = 1,
   is_datatype = 3,
@@ -25,7 +25,7 @@ enum : std::uint16_t {
 };
 constexpr std::int32_t decode_as_text = 2;
 
-// Datatypes: class and version, bits, size, and the places of the number's parts (IV.A2.d).
+// Datatypes. Each has class and version, bits, size, and the places of the number's parts (IV.A2.d).
 std::string float64() {
   std::string d("\x11\x20\x3f\x00", 4);
   put_bytes(d, std::uint32_t{8}, std::uint16_t{0}, std::uint16_t{64}, std::uint8_t{52}, std::uint8_t{11},
@@ -49,7 +49,7 @@ std::string words_of_any_length() {
   return d + fixed_words(1);
 }
 
-/// Empty: a single value.
+/// A dataspace with these sizes; without sizes a single value.
 std::string dataspace(std::initializer_list<std::uint64_t> sizes) {
   std::string d;
   put_bytes(d, std::uint8_t{1}, static_cast<std::uint8_t>(sizes.size()), std::uint16_t{0}, std::uint32_t{0});
@@ -85,10 +85,11 @@ struct Named {
   Address at = 0;
 };
 
-/// Appends objects to a file; the addresses of the columns' numbers are inserted at the end.
+/// Appends objects to a file. The addresses of the columns' numbers are inserted at the end, when they are
+/// known.
 class Objects {
  public:
-  /// `most_names`: of a group; one node of its B-tree has room for all of them.
+  /// `most_names`: largest number of names in a group, for which one node of its B-tree has room.
   explicit Objects(std::size_t most_names) : half_a_node_((std::max<std::size_t>(most_names, 8) + 1) / 2) {
     bytes_.resize(superblock_bytes);
   }
@@ -98,7 +99,7 @@ class Objects {
   Address group(std::vector<Named> members, const std::string& attributes);
   Address struct_of(const MatFields& fields);
 
-  /// The complete bytes, with the root group's address in the superblock.
+  /// Returns the complete bytes, with the root group's address in the superblock.
   std::string ended(Address root, std::size_t rows);
 
  private:
@@ -117,7 +118,7 @@ class Objects {
 
   std::string bytes_;
   std::size_t half_a_node_;
-  std::vector<std::size_t> columns_;  ///< places where their addresses are inserted
+  std::vector<std::size_t> columns_;  ///< places at which the addresses of the columns' numbers are inserted
 };
 
 Address Objects::object(std::size_t messages, const std::string& all) {
@@ -127,7 +128,7 @@ Address Objects::object(std::size_t messages, const std::string& all) {
   return add(head + all);
 }
 
-/// Four messages: type, size, no fill value, and the address of its contiguous bytes, which comes last.
+/// A dataset has four messages: type, size, no fill value, and last the address of its contiguous bytes.
 std::string Objects::dataset(const std::string& type, const std::string& space, Address at,
                              std::size_t bytes) {
   std::string layout("\x03\x01", 2);
@@ -136,7 +137,7 @@ std::string Objects::dataset(const std::string& type, const std::string& space, 
          message(is_fill, std::string("\x02\x02\x02\x00", 4)) + message(is_layout, layout);
 }
 
-/// MATLAB's sizes are in reverse order. An empty text is stored as its sizes.
+/// MATLAB's sizes are in reverse order. Of an empty text, only its sizes are stored.
 Address Objects::text(const std::string& words) {
   const std::vector<std::uint16_t> units = mat_units(words);
   std::string bytes, decode;
@@ -162,12 +163,13 @@ Address Objects::column(std::size_t rows) {
   const std::string said = class_attribute("double");
   const std::string set = dataset(float64(), dataspace({1, rows}), nowhere, rows * sizeof(double));
   const Address at = object(5, said + set);
-  // The layout's message is last: eight bytes of header, two of version and class, then the address.
+  // The message with the layout is last: eight bytes of header, two of version and class, then the address.
   columns_.push_back(bytes_.size() - 24 + 2);
   return at;
 }
 
-/// A heap of the names, a table of names and addresses sorted by name, and a tree with one node above it.
+/// A group has a heap with the names, a table of names and addresses sorted by name, and a tree with one node
+/// above the table.
 Address Objects::group(std::vector<Named> members, const std::string& attributes) {
   std::sort(members.begin(), members.end(), [](const Named& a, const Named& b) { return a.name < b.name; });
   std::string names(8, '\0'), table("SNOD\x01\x00", 6);
@@ -193,7 +195,7 @@ Address Objects::group(std::vector<Named> members, const std::string& attributes
   return object(1 + said, message(is_names, both) + attributes);
 }
 
-/// The fields' names in their order: each as its length and its place in a separate heap.
+/// The fields' names in their order. Each is stored as its length and its place in a separate heap.
 Address Objects::names_of(const MatFields& fields) {
   constexpr std::size_t least = 4096;
   std::string heap("GCOL\x01\x00\x00\x00", 8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the parts that the writers of both MAT versions share.
+// Holds the parts that the writers of both MAT versions use.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,11 +11,11 @@ namespace files {
 /// A struct whose fields are texts, in their order.
 using MatFields = std::vector<std::pair<std::string, std::string>>;
 
-/// Text as 16-bit units. MATLAB counts such units, other readers count characters. A character beyond U+FFFF
-/// would make the sizes ambiguous and becomes the replacement character.
+/// Text as units of 16 bits. MATLAB counts such units, other readers count characters. A character beyond
+/// U+FFFF, for which the counts differ, becomes the replacement character.
 std::vector<std::uint16_t> mat_units(const std::string& text);
 
-/// Bytes of a number in this machine's order, which both versions allow.
+/// Appends the bytes of numbers in this machine's byte order, which both versions allow.
 template <class... Number>
 void put_bytes(std::string& into, Number... numbers) {
   (into.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);

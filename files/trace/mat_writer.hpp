@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a trace as a MAT file: each column as a vector with its name, `units` and `meanings` by column,
-// `sixstep` with its origin. Rows wait on the disk (ColumnSpool), so memory does not grow with the run.
+// Writes a trace as a MAT file: each column as a vector with its name, the structs `units` and `meanings` by
+// column, and `sixstep` with the trace's origin. Rows wait on the disk (ColumnSpool), so that memory does not
+// grow with the run.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -18,7 +19,8 @@ namespace files {
 
 class MatWriter {
  public:
-  /// A variable of version 5 must stay below 2 GiB, because many readers take its sizes as signed.
+  /// Largest number of rows in version 5: a variable must stay below 2 GiB, because many readers take its
+  /// sizes as signed.
   static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
 
   static base::Result<MatWriter> create(const Destination& to, std::span<const study::Column> columns,
@@ -28,7 +30,7 @@ class MatWriter {
   void row(std::span<const double> numbers);
   bool failed() const { return too_long_ || error_ != 0 || spool_.failed() || file_.failed(); }
 
-  /// `digest`: the run's, known only at its end.
+  /// `digest` is the run's digest, which is known only at the run's end.
   base::Problems commit(std::uint64_t digest);
   base::Problems commit_partial(std::uint64_t digest);
 
@@ -37,7 +39,7 @@ class MatWriter {
             std::size_t most_rows_of_v5);
   void reserve();
   std::vector<std::pair<std::string, MatFields>> structs(std::uint64_t digest) const;
-  /// Starts the file anew. After a failure nothing of it is kept.
+  /// Writes the file from its beginning. After a failure nothing of it is kept.
   bool assemble(std::uint64_t digest);
   base::Problems save_what_fits(std::uint64_t digest);
 

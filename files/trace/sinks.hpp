@@ -7,15 +7,15 @@ namespace files {
 
 base::Result<Sink> csv_sink(const Destination& to, const study::Scenario& scenario,
                             const TraceOrigin& origin);
-/// MAT 5.
+/// A MAT file of version 5.
 base::Result<Sink> mat_sink(const Destination& to, const study::Scenario& scenario,
                             const TraceOrigin& origin);
-/// MAT 7.3, which is HDF5.
+/// A MAT file of version 7.3, which is HDF5.
 base::Result<Sink> mat73_sink(const Destination& to, const study::Scenario& scenario,
                               const TraceOrigin& origin);
 base::Result<Sink> vcd_sink(const Destination& to, const study::Scenario& scenario,
                             const TraceOrigin& origin);
-/// Verdicts and figures, no trace.
+/// Verdicts and figures as JSON, without a trace.
 base::Result<Sink> json_sink(const Destination& to, const study::Scenario& scenario,
                              const TraceOrigin& origin);
 

@@ -10,11 +10,11 @@
 namespace files {
 
 struct TraceOrigin {
-  std::string scenario;      ///< the file's name
+  std::string scenario;      ///< name of the scenario's file
   std::uint64_t digest = 0;  ///< digest of all files read and of the values that the command line set
   std::string title, motor;
-  std::string command;  ///< makes the trace again
-  std::string text;     ///< the scenario file's, as it was read
+  std::string command;  ///< command that makes the trace again
+  std::string text;     ///< text of the scenario's file as it was read
 };
 
 /// Three lines without a line break in them: program and version, scenario with digest, command.

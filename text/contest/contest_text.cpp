@@ -40,7 +40,7 @@ std::string controller_name(const Contest& c, std::size_t row) {
   return std::string(c.entries[row].who->name);
 }
 
-/// Selects the figures of a row: the nominal drive's, or the worst of all; null if it has none.
+/// Selects the figures of a row: those of the nominal drive, or the worst of all drives; null if it has none.
 using FiguresOf = const ContestValues* (*)(const ContestRow& row);
 const ContestValues* nominal_of(const ContestRow& row) { return &row.values; }
 const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.worst : nullptr; }

@@ -10,10 +10,12 @@
 
 namespace text {
 
-/// The core whose costs the table shows, in float; docs/reference/core-costs.md has all cores.
+/// The core whose costs the table shows, for controllers in float; docs/reference/core-costs.md has all
+/// cores.
 inline constexpr std::string_view contest_core = "Cortex-M4F";
 
-/// "8.22 mN m", "34.6 %"; "never" for an event that does not occur, "-" without a value.
+/// A figure's value for the table, such as "8.22 mN m" or "34.6 %"; "never" if its event does not occur, "-"
+/// without a value.
 std::string contest_value(double x, const analysis::ContestFigure& figure);
 
 /// Sentences that fixed rules make from the numbers: which controller wins in which figure, and the answer to
@@ -21,7 +23,7 @@ std::string contest_value(double x, const analysis::ContestFigure& figure);
 std::vector<std::string> contest_words(const analysis::Contest& contest);
 
 /// One line with the reason for each controller that is impossible with this motor or board, or that does not
-/// hold the course.
+/// follow the course.
 std::vector<std::string> contest_notes(const analysis::Contest& contest);
 
 /// A printed table: column heads, then a row for each controller that runs. "*" marks the least value of a
@@ -37,16 +39,16 @@ std::vector<ContestTable> contest_tables(const analysis::Contest& contest);
 /// Explains the marks and heads of the tables, one line each.
 std::vector<std::string> contest_legend(const analysis::Contest& contest);
 
-/// "20 controllers", or "16 of 20 controllers" if some cannot run.
+/// The number of compared controllers: "20 controllers", or "16 of 20 controllers" if some cannot run.
 std::string compared_controllers(const analysis::Contest& contest);
 
-/// The common conditions, the tables (nominal and worst) and the sentences.
+/// The whole comparison: common conditions, tables (nominal and worst) and sentences.
 std::string contest_text(const analysis::Contest& contest);
 
-/// One line per controller and drive, "nominal" or "worst".
+/// The comparison as CSV. One line per controller and drive, "nominal" or "worst".
 std::string contest_csv(const analysis::Contest& contest);
 
-/// All results, with the keys of each controller.
+/// The comparison as JSON: all results, with the keys of each controller.
 std::string contest_json(const analysis::Contest& contest);
 
 }  // namespace text

@@ -28,7 +28,7 @@ std::string larger(double a, double b, const analysis::ContestFigure& figure) {
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
 }
 
-/// The two rows with the least values, among those that may win and have the figure.
+/// The two rows with the least values, among the rows that may win and have the figure.
 struct Ranked {
   std::optional<std::size_t> first, second;
 };
@@ -51,7 +51,7 @@ bool are_alike(double a, double b) {
   return std::fabs(b - a) <= alike * std::fmin(std::fabs(a), std::fabs(b));
 }
 
-/// All rows that may win and are equal to the least within `alike`.
+/// All rows that may win and whose figure equals the least one within `alike`.
 std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double least) {
   std::vector<std::size_t> who;
   for (std::size_t n = 0; n < c.rows.size(); ++n)
@@ -61,7 +61,7 @@ std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double le
   return who;
 }
 
-/// "a", "a and b", "a; b and c": names have commas.
+/// "a", "a and b", "a; b and c". Semicolons, because names contain commas.
 std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   std::vector<std::string_view> names;
   names.reserve(who.size());
@@ -72,7 +72,8 @@ std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   return fmt::format("{} and {}", fmt::join(names, "; "), last);
 }
 
-/// "a; b and c share"; of more than four, the others are named where they are fewer: "all but d and e share".
+/// The rows that share a figure: "a; b and c share". If more than four share it and fewer do not, these are
+/// named: "all but d and e share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
   std::vector<std::size_t> others;
@@ -83,7 +84,7 @@ std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   return others.empty() ? all + " share" : fmt::format("{}, but for {}, share", all, names_of(c, others));
 }
 
-/// Whether only one of several rows that may win has the figure, because the others never settle.
+/// Whether only one of several rows that may win has a value of the figure, because the others never settle.
 bool is_alone(const Contest& c, std::size_t figure) {
   std::size_t have = 0, never = 0;
   for (std::size_t n = 0; n < c.rows.size(); ++n) {
@@ -98,7 +99,8 @@ bool is_alone(const Contest& c, std::size_t figure) {
 /// clearly leads, and why.
 std::vector<std::string> winners(const Contest& c) {
   std::vector<std::vector<std::string>> wins(c.rows.size());
-  std::map<std::vector<std::size_t>, std::vector<std::string>> even;  // by the controllers that share them
+  std::map<std::vector<std::size_t>, std::vector<std::string>> even;  // figures by the controllers that share
+                                                                      // them
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))
@@ -140,7 +142,7 @@ const char* answer(int ripple, int loss) {
                   : "six-step: less heat, at the same ripple";
 }
 
-/// The best six-step row of each figure against the field-oriented one.
+/// Compares the best six-step row of each figure with the field-oriented row.
 std::vector<std::string> six_step_or_field(const Contest& c) {
   std::optional<std::size_t> field;
   for (std::size_t n = 0; n < c.rows.size(); ++n)

@@ -11,11 +11,12 @@
 namespace text {
 
 struct OwnCost {
-  std::string controller;  ///< the name that it gives itself
+  std::string controller;  ///< the name that the controller gives itself
   CoreCost cost;           ///< cost on the core of the comparison's table
 };
 
-/// Problems: `json` is no such file, or lacks the comparison's core. The caller adds the Problem's place.
+/// Problems: `json` is no such file, or does not contain the comparison's core. The caller adds the Problem's
+/// place.
 base::Result<OwnCost> own_cost_of(std::string_view json);
 
 }  // namespace text

@@ -17,15 +17,16 @@ bool is_ascii_word(unsigned char c) {
 }
 
 /// Whether a character may act on a program: controls (C0, DEL, C1), line ends, controls of bidirectional
-/// text, and characters without width, which can make two different names look equal. The two joiners are
-/// allowed, because scripts need them.
+/// text, and characters without width, which can make two different names look equal. The two joiners
+/// (U+200C, U+200D) are allowed, because some scripts need them.
 bool acts(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || c == 0x180E || c == 0x200B || c == 0x200E ||
          c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
          (c >= 0xFFF9 && c <= 0xFFFB);
 }
 
-/// A tab, a line end, or the carriage return before it.
+/// Whether the character at `at` is kept with Lines::kept: a tab, a line end, or the carriage return before a
+/// line end.
 bool keeps_lines(std::string_view text, std::size_t at) {
   return text[at] == '\n' || text[at] == '\t' || text.substr(at, 2) == "\r\n";
 }
@@ -43,7 +44,8 @@ char32_t next_character(std::string_view text, std::size_t& at) {
     if ((byte(at + n) & 0xC0U) != 0x80U) return replacement;
     character = character << 6U | (byte(at + n) & 0x3FU);
   }
-  // No character: written with more bytes than needed, half of a surrogate pair, or beyond the last code point.
+  // Bytes that encode no character: more bytes than needed, half of a surrogate pair, or a number beyond the
+  // last code point.
   constexpr char32_t least[] = {0, 0x80, 0x800, 0x10000};
   if (character < least[more] || (character >= 0xD800 && character < 0xE000) || character > 0x10FFFF)
     return replacement;
@@ -57,7 +59,7 @@ std::string visible(std::string_view text, Lines lines) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t begin = at;
     while (at < text.size() && text[at] >= ' ' && text[at] < 0x7F) ++at;
-    if (at > begin) {  // nearly all data of a page
+    if (at > begin) {  // plain characters are copied together, because nearly all data of a page is plain
       out += text.substr(begin, at - begin);
       continue;
     }
@@ -77,7 +79,7 @@ std::string shell_word(std::string_view word) {
   const auto plain = [&](unsigned char c) {
     return is_ascii_word(c) || harmless.find(static_cast<char>(c)) != std::string_view::npos;
   };
-  // zsh expands a word that begins with =.
+  // A word that begins with = needs quotes, because zsh expands it.
   if (!word.empty() && word.front() != '=' && std::all_of(word.begin(), word.end(), plain))
     return std::string(word);
   std::string out;
@@ -90,7 +92,7 @@ std::string shell_word(std::string_view word) {
     if (c == '\'' || c == '\\')
       out.append(1, '\\').append(1, c);
     else if (byte < 0x20 || byte >= 0x7F)
-      out += fmt::format("\\{:03o}", byte);  // \x would include the digits behind it
+      out += fmt::format("\\{:03o}", byte);  // octal, because \x would include hexadecimal digits that follow
     else
       out += c;
   }

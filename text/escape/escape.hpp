@@ -1,40 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 // Escapes foreign names and texts for output, with one function per target. A title, a label, a key or a file
-// name may hold any bytes, and none of them may act on the program that shows, reads or runs it. The program's
-// own numbers and words need no escaping.
+// name may hold any bytes, and none of them may act on the program that displays, reads or runs the output.
+// The program's own numbers and words need no escaping.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace text {
 
-/// Returns the character at `at` and moves `at` to the next one. Each byte that is not UTF-8 becomes U+FFFD.
+/// Returns the character at `at` and advances `at` to the next one. Each byte that is not UTF-8 becomes
+/// U+FFFD.
 char32_t next_character(std::string_view text, std::size_t& at);
 
 enum class Lines { shown, kept };
 
 /// Returns the text for a terminal, a log or a comment line. A character that would move the cursor, colour,
 /// hide, reorder or end a line becomes an escape such as \u001b. A byte that is not UTF-8 becomes U+FFFD.
-/// Lines::kept keeps line ends and tabs. Inside strings of JSON and TOML the escapes still mean the original
-/// character.
+/// Lines::kept keeps line ends and tabs. Within strings of JSON and TOML, such an escape still means the
+/// original character.
 std::string visible(std::string_view text, Lines lines = Lines::shown);
 
 /// One word of a command line that a shell reads back: quoted if needed, and visible().
 std::string shell_word(std::string_view word);
 
-/// Text or an attribute of HTML and XML; visible() too, because XML 1.0 cannot hold every character.
+/// Returns text or an attribute's value for HTML and XML. It is visible() too, because XML 1.0 cannot hold
+/// every character.
 std::string markup_text(std::string_view text, Lines lines = Lines::shown);
 
-/// A file's name as a relative URL: no colon begins a scheme, no # or ? ends the name.
+/// Returns a file's name as a relative URL, in which no colon begins a scheme and no # or ? ends the name.
 std::string url_of_name(std::string_view name);
 
-/// A // line of C++: no character ends the line, and no last backslash or its trigraph continues it.
+/// Returns text for a // line of C++: no character ends the line, and no backslash or trigraph at its end
+/// continues it.
 std::string comment_text(std::string_view text);
 
-/// A comment of a VCD file: visible(), and no word ends it.
+/// Returns text for a comment of a VCD file: visible(), without the word that would end the comment.
 std::string vcd_text(std::string_view text);
 
-/// A string of TOML, with its quotes.
+/// Returns a string of TOML, including its quotes.
 std::string toml_text(std::string_view text);
 
 }  // namespace text

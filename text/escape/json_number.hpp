@@ -9,7 +9,7 @@
 
 namespace text {
 
-/// null if the number is infinite or NaN.
+/// The number; null if it is infinite or NaN.
 inline nlohmann::ordered_json finite(double x) {
   return x - x == 0.0 ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }

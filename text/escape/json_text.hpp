@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints JSON. Its strings may hold any bytes: invalid UTF-8 is replaced instead of thrown, control characters
-// are escaped.
+// Prints JSON whose strings may hold any bytes: invalid UTF-8 is replaced and raises no exception, and
+// control characters are escaped.
 #pragma once
 #include <nlohmann/json.hpp>
 

@@ -31,7 +31,7 @@ std::string verdict(const study::Verdict& v) {
   return fmt::format("{}: {} required, {:.6g}{} measured", v.figure, required, v.measured, unit);
 }
 
-/// "; offset 0.1 A"; empty for 0.
+/// A flaw of a sensor for the comment, such as "; offset 0.1 A"; empty for 0.
 std::string flaw(std::string_view name, double x, std::string_view unit) {
   return x != 0 ? fmt::format("; {} {:.6g}{}{}", name, x, unit.empty() ? "" : " ", unit) : "";
 }
@@ -110,7 +110,7 @@ std::string rotor(const study::Sensors& s) {
       s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
 }
 
-/// Phases at legs a b c, probes at pins H1 H2 H3.
+/// The wiring in words: phases at legs a b c, probes at pins H1 H2 H3.
 std::string wires(const study::Scenario& s) {
   std::string text = fmt::format("phases {} at legs a b c, Hall lines {} at H1 H2 H3",
                                  sixstep::base::word(study::phase_order_choices, s.bridge.phases),
@@ -139,7 +139,7 @@ std::string heat(const study::Heat& h) {
                      h.ambient_degC);
 }
 
-/// The run's assumptions. The run proves nothing for a board that differs in them.
+/// The assumptions of the run. It proves nothing for a board that differs from them.
 std::string assumptions(const ClearanceText& t) {
   const study::Scenario& s = t.scenario;
   std::string text = "// Assumptions of that run:\n";

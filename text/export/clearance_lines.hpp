@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the part of an exported header's comment that describes its run: requirements, measured values and
-// assumptions; or why the drive is not cleared, and why the header was written nevertheless.
+// assumptions. If the drive is not cleared, it says why, and why the header was written nevertheless.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,8 +13,8 @@ namespace text {
 
 struct ClearanceText {
   const study::Scenario& scenario;    ///< scenario of the run
-  const study::Clearance* clearance;  ///< null: it was not run
-  std::string_view despite;           ///< the reason for writing it although it is not cleared
+  const study::Clearance* clearance;  ///< null: the scenario was not run
+  std::string_view despite;           ///< the reason for writing the header although the drive is not cleared
   bool other_scale = false;           ///< fixed point: header and run have different full scales
 };
 

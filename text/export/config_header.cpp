@@ -62,9 +62,9 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
                   "in the middle of the period; else at its start");
 }
 
-/// Constants for the board's own code. A drive that times edges gets the clock of that timer: another clock
-/// would scale every speed, and so the over-speed limit, by the ratio of the clocks. A lean drive also gets
-/// its converters and the setpoint's range.
+/// Constants for the board's own code. A drive that times edges gets the clock of its capture timer: with
+/// another clock, every speed would be scaled by the ratio of the clocks, and so would the over-speed limit.
+/// A lean drive also gets its converters and the setpoint's range.
 std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
   using study::RotorSensing;
   const study::Sensors& sensors = w.scenario.sensors;
@@ -82,7 +82,7 @@ std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
                   sixstep::base::six_digits(range) + " in the mode's unit, at each end of a potentiometer");
 }
 
-/// Text of a function that makes a constant, and of the constant.
+/// The text of a function that makes a constant, and of the constant itself.
 std::string made(std::string_view type, std::string_view name, const std::string& lines) {
   return fmt::format(
       "constexpr sixstep::control::{0}<Scalar> make_{1}() {{\n  using namespace sixstep::control;\n"
@@ -91,7 +91,7 @@ std::string made(std::string_view type, std::string_view name, const std::string
       type, name, lines);
 }
 
-/// A drive has room for a profile only on request (profiled_position.hpp).
+/// A drive has memory for a profile only if the configuration requests it (profiled_position.hpp).
 std::string position_profile(const study::Compiled& c) {
   const control::DriveConfig<double>& drive = c.product ? c.product->drive
                                               : c.field ? c.field->drive
@@ -112,7 +112,7 @@ std::string includes(const ConfigHeader& w, const study::Compiled& c) {
                                       : "drive");
 }
 
-/// The drive in the target's arithmetic, and the product around it if the scenario has one.
+/// The drive in the target's arithmetic, and the product drive around it if the scenario has one.
 template <class Scalar>
 struct Kept {
   control::DriveConfig<Scalar> drive{};
@@ -166,7 +166,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 
-/// The stated range, completed by the scenario's own.
+/// The stated operating range; members that are not stated come from the scenario's own range.
 design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange own = study::operating_range(w.scenario, c);
   const auto stated = [](double x, double otherwise) { return x > 0 ? x : otherwise; };
@@ -175,8 +175,8 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
           stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
-/// Problems of a stated range that the scenario itself exceeds: the proof would not apply to the drive of the
-/// run.
+/// Problems of a stated range that the scenario itself exceeds: the proof would then not apply to the drive
+/// of the run.
 base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange least = study::least_range(w.scenario, c);
   base::Problems problems;
@@ -283,7 +283,7 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
                          "set it to duty, current, speed or position"};
-  // The header would configure the library's drive, but the run used the user's controller.
+  // A header would configure the library's drive, but the run used the user's controller.
   if (w.scenario.control.drive == study::FirmwareKind::own)
     return base::Problem{"control.drive", "\"own\"",
                          "has its constants in its own source; a header configures the library's drives only",
@@ -295,7 +295,7 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
   return study::in_arithmetic(arithmetic, [&]<class Scalar>() -> base::Result<std::string> {
     if constexpr (std::is_floating_point_v<Scalar>)
       return floating_header<Scalar>(w, *c, word);
-    else  // "q15" is sixstep::control::Q15
+    else  // the word "q15" stands for sixstep::control::Q15
       return fixed_header<Scalar>(w, *c, fmt::format("sixstep::control::Q{}", word.substr(1)));
   });
 }

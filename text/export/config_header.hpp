@@ -17,19 +17,19 @@ struct ConfigHeader {
   const study::Scenario& scenario;
   std::optional<study::Arithmetic> arithmetic;  ///< empty: arithmetic of the scenario
   /// Fixed point: the operating range for which the drive is proved. A member that is 0 comes from
-  /// study::operating_range. If none is given, the bits are those of the scenario's run, control.full_scale
-  /// included.
+  /// study::operating_range. If no member is given, the constants have the same bits as in the scenario's
+  /// run, including those of control.full_scale.
   design::OperatingRange range;
   std::string name_space;      ///< C++ namespace of the declarations
   bool single_header = false;  ///< includes sixstep_control.hpp, not sixstep/control/
   std::string command;         ///< the command that makes this header again
   /// Results of the run, which the header's comment states; null: the comment says that there are none.
   const study::Clearance* clearance = nullptr;
-  std::string despite;  ///< the reason for writing it although it is not cleared
+  std::string despite;  ///< the reason for writing the header although the drive is not cleared
 };
 
-/// The header's text. Problems: the scenario has no drive (mode off), or a value does not fit the fixed-point
-/// format (named as design::scaled does).
+/// Returns the header's text. Problems: the scenario has no drive (mode off), or a value does not fit the
+/// fixed-point format (the Problem names it as design::scaled does).
 base::Result<std::string> config_header(const ConfigHeader& wanted);
 
 }  // namespace text

@@ -23,14 +23,14 @@
 
 namespace text {
 
-/// 0x1.2p+2, the same in every locale and for every compiler.
+/// A number in the form 0x1.2p+2, which is the same in every locale and for every compiler.
 inline std::string hex_float(double x) {
   char digits[40];
   const auto end = std::to_chars(digits, digits + sizeof digits, std::fabs(x), std::chars_format::hex);
   return (std::signbit(x) ? "-0x" : "0x") + std::string(digits, end.ptr);
 }
 
-/// Gains, divisors and sums are plain numbers in floating point: one overload for all of them.
+/// Gains, divisors and sums are plain numbers in floating point, so that this overload serves all of them.
 inline std::string literal(double x) { return hex_float(x); }
 inline std::string literal(float x) { return hex_float(static_cast<double>(x)) + "f"; }
 template <class Storage, int FractionBits>
@@ -167,7 +167,7 @@ class ConfigText {
   using Field = sixstep::design::Field;
   using Base = sixstep::design::Base;
 
-  /// The bases of floating point are 1.
+  /// In floating point all bases are 1.
   ConfigText(sixstep::control::Mode mode, const sixstep::design::Bases& bases,
              std::vector<std::string_view> unused = {})
       : mode_(mode), b_(bases), unused_(std::move(unused)) {}
@@ -212,7 +212,7 @@ class ConfigText {
   void raw_gain(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, value(base) * digit());
   }
-  /// A gain whose input counts in the last bits of the format.
+  /// Writes a gain whose input is counted in the last bit of the format.
   void gain_of_raw(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, 1.0 / (value(base) * digit()));
   }
@@ -239,7 +239,8 @@ class ConfigText {
  private:
   static constexpr bool fixed = !std::is_floating_point_v<Scalar>;
 
-  /// The last bit of a fixed format: gains of counts have their output in it (adc.hpp, hall_speed.hpp).
+  /// The value of the last bit of a fixed-point format. Gains of counts have their output in this unit
+  /// (adc.hpp, hall_speed.hpp).
   static double digit() {
     if constexpr (fixed)
       return static_cast<double>(Scalar::from_raw(1));
@@ -261,7 +262,8 @@ class ConfigText {
       comment += (comment.empty() ? "" : "; ") + std::string("not used by this drive");
     text_ += comment.empty() ? code + "\n" : fmt::format("{:<72}  // {}\n", code, comment);
   }
-  /// `held`: the value that the format holds, in SI; the comment shows it if it differs in six digits.
+  /// `held` is the value in SI that the format holds. The comment states it if it differs from the designed
+  /// value in six digits.
   void number(const Field& f, const std::string& value, double designed, double held, std::string_view unit) {
     std::string comment = fmt::format("{:.9g}", designed);
     if (!unit.empty()) comment += fmt::format(" {}", unit);
@@ -295,7 +297,7 @@ std::vector<std::string_view> unused_fields(const Config&) {
   return {};
 }
 
-/// A sensorless drive without its loops.
+/// The assignments of a sensorless drive, without those of its loops.
 template <class Scalar>
 std::string sensorless_lines(sixstep::control::Mode mode,
                              const sixstep::control::PulsedDriveConfig<double>& designed,

@@ -17,7 +17,7 @@ namespace {
 
 namespace control = sixstep::control;
 
-/// The reference drive's name in the tables.
+/// The name of the reference drive in the tables.
 std::string_view kind(const study::Compiled& c) {
   if (c.product) return "product";
   if (c.field) return "field";
@@ -55,7 +55,7 @@ std::vector<Words> rows(std::string_view table) {
   return all;
 }
 
-/// The row that begins with `key`: core, drive, arithmetic; for a count also its entry.
+/// The row that begins with the words of `key`: core, drive, arithmetic; for a count also the entry function.
 const Words* row_of(const std::vector<Words>& all, const Words& key) {
   for (const Words& row : all)
     if (row.size() > key.size() && std::equal(key.begin(), key.end(), row.begin())) return &row;
@@ -110,7 +110,7 @@ std::string too_short_for_images(double period_s) {
   if (period_s >= atmega_least_period_s) return {};
   const std::string period = fmt::format("a control period of {:.4g} us is shorter than", 1e6 * period_s);
   const std::string atmega = fmt::format("{:.0f} us", 1e6 * atmega_least_period_s);
-  // Rounded up, because less would not do.
+  // Rounded up, because a shorter period is too short.
   const auto stm32 = [](double least_s) {
     return fmt::format("{} us", sixstep::base::shortened(1e6 * least_s, 3, sixstep::base::Towards::up));
   };

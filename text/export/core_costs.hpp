@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// States in a header's comment the time and memory that its drive needs on a chip. The numbers are counts of the
-// reference drive of the same kind, per core and arithmetic (data/cores/, tools/check_target.sh).
+// Writes into a header's comment the time and memory that its drive needs on a chip. The numbers are counts
+// of the reference drive of the same kind, per core and arithmetic (data/cores/, tools/check_target.sh).
 #pragma once
 #include <optional>
 #include <string>
@@ -19,19 +19,19 @@ struct CoreCost {
 /// Cost of a reference drive ("speed") on a core ("Cortex-M4F") in an arithmetic ("float"); empty: not counted.
 std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive, std::string_view arithmetic);
 
-/// Least control period of the images (faces/firmware/example/), s. With a shorter period the STM32F303's
-/// image does not compile. The ATmega2560's keeps the 100 us of data/scenarios/thesis/avr/ and misses periods
-/// below it, because its tick takes 80 to 104 us. "the STM32F303's image needs pwm.sample = \"start\"" for a
-/// product drive with another value; else empty.
+/// Least control period in s of the images (faces/firmware/example/). With a shorter period the STM32F303's
+/// image does not compile. The ATmega2560's image keeps the 100 us of data/scenarios/thesis/avr/ and misses
+/// periods below them, because its tick takes 80 to 104 us. The function returns "the STM32F303's image needs
+/// pwm.sample = \"start\"" for a product drive with another value; else it is empty.
 std::string other_than_stm32_image(const study::Scenario& scenario);
 
-/// From stm32_sure_period_s on no answer of the STM32F303's image can be late
+/// With a period of stm32_sure_period_s or more, no answer of the STM32F303's image can be late
 /// (docs/howto/compare-a-log.md).
 inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s = 5006 / 72e6,
                         atmega_least_period_s = 100e-6;
 
 /// Names the images for which this control period is or may be too short, as a sentence without its full
-/// stop; empty if none.
+/// stop; empty if there are none.
 std::string too_short_for_images(double period_s);
 
 /// Both, for a header's comment and the terminal: conditions of the images, a sentence each without its full stop.

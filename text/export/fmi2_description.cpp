@@ -45,7 +45,7 @@ std::string fmi2_variable(const FmiVariable& v) {
       v.role == FmiRole::output ? " initial=\"calculated\"" : "", markup_text(v.description), fmi2_typed(v));
 }
 
-/// No output follows an input at once: a change waits for a control tick.
+/// No output depends directly on an input, because a change waits for a control tick.
 std::string fmi2_structure(const UnitModel& m) {
   std::string unknowns;
   for (std::size_t n = 0; n < m.variables.size(); ++n)

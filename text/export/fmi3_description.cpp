@@ -41,7 +41,7 @@ std::string fmi3_variable(const FmiVariable& v) {
   return out + "/>\n";
 }
 
-/// No output follows an input at once: a change waits for a control tick.
+/// No output depends directly on an input, because a change waits for a control tick.
 std::string fmi3_structure(const UnitModel& m) {
   std::string outputs, unknowns;
   for (const FmiVariable& v : m.variables) {

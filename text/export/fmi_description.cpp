@@ -14,14 +14,14 @@
 namespace text {
 namespace {
 
-/// FNV-1a with 64 bits; the seed makes another function of it.
+/// FNV-1a hash with 64 bits. Another seed gives an independent hash.
 std::uint64_t fmi_hash(std::string_view text, std::uint64_t seed) {
   std::uint64_t hash = 0xcbf29ce484222325U ^ seed;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   return hash;
 }
 
-/// A GUID of all that decides what the unit does.
+/// A GUID computed from everything that determines the unit's behaviour.
 std::string fmi_token(const UnitTexts& unit, FmiVersion version) {
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", SIXSTEP_VERSION, static_cast<int>(version),
                                       unit.scenario, unit.motor, unit.identifier);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// modelDescription.xml of a scenario as a functional mock-up unit for co-simulation, and the texts of its resources.
+// Writes modelDescription.xml of a scenario as a functional mock-up unit for co-simulation, and the texts of
+// the unit's resources.
 #pragma once
 #include <string>
 #include <string_view>
@@ -15,23 +16,24 @@ namespace text {
 enum class FmiVersion { fmi2, fmi3 };
 
 struct UnitTexts {
-  std::string identifier;   ///< of the binary and in C: "drive"
-  std::string description;  ///< modelDescription.xml
-  std::string variables;    ///< resources/variables.txt, for faces/fmu/drive_files.c
-  std::string scenario;     ///< resources/scenario.toml; it names motor.toml
-  std::string motor;        ///< resources/motor.toml
-  std::string build;        ///< FMI 3: sources/buildDescription.xml
+  std::string identifier;   ///< name of the binary and of its C functions: "drive"
+  std::string description;  ///< text of modelDescription.xml
+  std::string variables;    ///< text of resources/variables.txt, which faces/fmu/drive_files.c reads
+  std::string scenario;     ///< text of resources/scenario.toml, which names motor.toml
+  std::string motor;        ///< text of resources/motor.toml
+  std::string build;        ///< FMI 3: text of sources/buildDescription.xml
 };
 
-/// `name`: of the model, such as the scenario's file without its suffix. `sources`: files of sources/ to compile.
-/// Requirements and comparisons are left out, as a unit has no verdict. Problems: the scenario cannot be run.
+/// Makes the texts. `name`: name of the model, such as the scenario's file without its suffix. `sources`:
+/// files of sources/ to compile. Requirements and comparisons are left out, because a unit has no verdict.
+/// Problems: the scenario cannot be run.
 base::Result<UnitTexts> unit_texts(const study::Scenario& scenario, std::string_view name, FmiVersion version,
                                    const std::vector<std::string>& sources);
 
-/// A name of C that begins with a letter.
+/// Converts a name to an identifier of C that begins with a letter.
 std::string c_identifier(std::string_view name);
 
-/// What the writers of both versions share.
+/// The data that the writers of both versions use.
 struct UnitModel {
   const study::Scenario& scenario;
   std::string name, identifier, token;

@@ -42,7 +42,8 @@ bool is_code(ColumnId id) {
          (id >= ColumnId::encoder_A && id <= ColumnId::absolute_code);
 }
 
-/// Constant between two events: gates, and everything that the controller sets at its samples.
+/// Whether a signal is constant between two events: gates, and everything that the controller sets at its
+/// samples.
 bool is_held_signal(ColumnId id) {
   using enum ColumnId;
   return is_code(id) || id == duty || id == i_ref || id == speed_ref || id == position_ref ||
@@ -68,7 +69,7 @@ void add_outputs(const study::Scenario& s, std::vector<FmiVariable>& all) {
   }
 }
 
-/// Whether a session takes a change at its begin.
+/// Whether a session accepts a change at its beginning.
 template <class Set>
 bool takes(const study::Session& open, const Set& set) {
   study::Session tried = open;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The variables of a scenario as a functional mock-up unit (FMI): its inputs, and every signal that applies.
+// Lists the variables of a scenario as a functional mock-up unit (FMI): its inputs, and every signal that
+// applies.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,30 +16,30 @@ enum class FmiRole { time, input, output };
 
 struct FmiVariable {
   std::string name;
-  unsigned reference = 0;  ///< a signal has its index in study::all_columns(), as in faces/fmu/drive.h
+  unsigned reference = 0;  ///< for a signal, its index in study::all_columns(), as in faces/fmu/drive.h
   FmiKind kind = FmiKind::real;
   FmiRole role = FmiRole::output;
   bool continuous = true;
   std::string unit{}, description{};
-  double start = 0.0;   ///< of an input
+  double start = 0.0;   ///< start value of an input
   std::string key{};    ///< input: the key of [[at]] that it sets
-  double factor = 1.0;  ///< output: from the rotary motor's unit to this one
+  double factor = 1.0;  ///< output: factor from the rotary motor's unit to this unit
 };
 
-/// First the time, then signals, inputs and the digest. A quantity is an input if [[at]] may change it in this scenario.
-/// Problems: those of opening the scenario.
+/// The variables: time, signals, inputs, digest. A quantity is an input if [[at]] may change it in this
+/// scenario. Problems: those of opening the scenario.
 base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scenario);
 
 /// A unit in FMI: its exponents of the SI's base units, and a display unit.
 struct FmiUnit {
   std::string_view name;
   int kg = 0, m = 0, s = 0, A = 0, K = 0, rad = 0;
-  double factor = 1.0, offset = 0.0;  ///< to the base unit
-  std::string_view display = "";      ///< empty: none
+  double factor = 1.0, offset = 0.0;  ///< conversion to the base unit
+  std::string_view display = "";      ///< display unit; empty: none
   double display_factor = 1.0;
 };
 
-/// Null: the unit is not in the table.
+/// The unit of this name; null if it is not in the table.
 const FmiUnit* fmi_unit(std::string_view name);
 
 }  // namespace text

@@ -17,7 +17,7 @@ std::string comment(std::string_view label, std::string_view text) {
   return fmt::format("// {:<10}{}\n", label, comment_text(text));
 }
 
-/// The closed loop's poles with these gains: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
+/// The closed loop's poles with these gains, from z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
 std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
   const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
   const double square = half * half - product, root = std::sqrt(std::fabs(square));
@@ -27,14 +27,14 @@ std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant&
                            sixstep::base::six_digits(-half - root));
 }
 
-/// The same gains as other tools give them (control.current.kp, ki_per_s).
+/// The same gains in the form of other tools (control.current.kp, ki_per_s).
 std::string as_kp_and_ki(const study::LoopGains& g, const char* unit, double period_s) {
   const bool current = g.loop.starts_with("current");
   return fmt::format("; K_p = d1 = {} {}, K_i = (d1 + d0)/T_s = {} {}", sixstep::base::six_digits(g.d1), unit,
                      sixstep::base::six_digits((g.d1 + g.d0) / period_s), current ? "V/(A s)" : "per rad");
 }
 
-/// One line: the gains and their source.
+/// One line with the gains and their source.
 std::string derivation(const study::LoopGains& g, double period_s) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
   const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
@@ -55,7 +55,7 @@ std::string derivation(const study::LoopGains& g, double period_s) {
                             sixstep::base::six_digits(p.gains.d0));
 }
 
-/// The functions that the board calls.
+/// The calls that the board makes, as comment lines.
 std::string entries(const study::Compiled& c) {
   if (c.sensorless)
     return "// Call pulsed_drive_step in each tick, with the currents, the terminals' and the bus's counts and the timer. Call\n"

@@ -32,7 +32,7 @@ bool is_free_name(std::string_view name) {
   if (name.empty() || !is_letter(name[0])) return false;
   if (!std::all_of(name.begin(), name.end(), [](char x) { return is_letter(x) || is_digit(x); }))
     return false;
-  // Reserved for compilers and libraries.
+  // Names reserved for compilers and libraries.
   const bool reserved = name.find("__") != std::string_view::npos ||
                         (name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z');
   return !reserved &&

@@ -5,8 +5,8 @@
 
 namespace text {
 
-/// Whether the text is a list of names separated by "::". No name may be a C++ keyword, a macro that compilers
-/// define, or one that would hide a name which the header uses: std and sixstep.
+/// Whether the text is a list of names separated by "::". A name may not be a C++ keyword or a macro that
+/// compilers define. It may not hide a name that the header uses: std or sixstep.
 bool is_name_space(std::string_view text);
 
 }  // namespace text

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_input = 7;
 
-/// The members as in the file.
+/// The members of a map as the file has them.
 struct MapFile {
   std::string chip, elf;
   std::vector<std::string> hall{"PK0", "PK1", "PK2"}, upper{"PB5", "PB6", "PB7"}, lower{"PA0", "PA1", "PA2"};
@@ -37,7 +37,7 @@ void describe(base::Visitor& v, MapFile& w) {
            .required = true});
 }
 
-/// P, a port from A to L except I, and a bit.
+/// Whether the text names a pin: P, a port from A to L except I, and a bit from 0 to 7.
 bool is_pin(const std::string& pin) {
   return pin.size() == 3 && pin[0] == 'P' && pin[1] >= 'A' && pin[1] <= 'L' && pin[1] != 'I' &&
          pin[2] >= '0' && pin[2] <= '7';

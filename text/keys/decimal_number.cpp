@@ -16,15 +16,16 @@ std::size_t end_of_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-/// A number as written: its sign, its digits without the point, and the power of ten of the last digit.
+/// A number as written: its sign, its digits without the point, and the power of ten that the last digit
+/// counts.
 struct Decimal {
   bool negative = false;
   std::string digits;
   long power = 0;
-  std::size_t size = 0;  ///< length of its text
+  std::size_t size = 0;  ///< length of the number's text
 };
 
-/// The exponent whose e is at `at`, and its end; 0 and `at` if no digit follows.
+/// The exponent whose letter e is at `at`, and the place after it; 0 and `at` if no digit follows the e.
 std::pair<long, std::size_t> exponent(std::string_view text, std::size_t at) {
   constexpr long far = 1'000'000'000;
   if (at >= text.size() || (text[at] != 'e' && text[at] != 'E')) return {0, at};
@@ -52,7 +53,7 @@ Decimal decimal_in(std::string_view text) {
 }
 
 double magnitude([[maybe_unused]] std::string_view text, const Decimal& w) {
-#ifdef __cpp_lib_to_chars  // many times as fast
+#ifdef __cpp_lib_to_chars  // many times as fast as nearest_double()
   double x = 0.0;
   if (std::from_chars(text.data(), text.data() + w.size, x).ec == std::errc()) return std::fabs(x);
 #endif

@@ -10,15 +10,16 @@ namespace text {
 struct DecimalNumber {
   enum class Kind { number, none, out_of_range } kind = Kind::none;
   double value = 0.0;    ///< if kind is number
-  std::size_t size = 0;  ///< characters read, also if out of range
+  std::size_t size = 0;  ///< number of characters read, even if the number is out of range
 };
 
-/// Reads the longest beginning of the text that is a number: an optional minus, digits with at most one point,
-/// an optional exponent. Rounded once; of two equally near doubles the even one. A number that would be
-/// infinite, or 0 although it has a digit other than 0, is out of range.
+/// Reads the longest beginning of the text that is a number: an optional minus, digits with at most one
+/// point, and an optional exponent. The value is rounded once; of two equally near doubles it is the even
+/// one. A number is out of range if it would be infinite, or if it would be 0 although it has a digit other
+/// than 0.
 DecimalNumber decimal_number(std::string_view text);
 
-/// The number if the whole text is one.
+/// The number if the whole text is one; else empty.
 std::optional<double> number_alone(std::string_view text);
 
 }  // namespace text

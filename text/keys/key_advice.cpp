@@ -13,7 +13,8 @@
 namespace text {
 namespace {
 
-// Pieces of unit suffixes, valid or not. The unit of a key begins after its last other piece.
+// Pieces of unit suffixes, valid or not. The unit of a key begins after the last piece that is not among
+// these.
 constexpr std::array unit_pieces = {
     "V",     "mV",   "kV",   "A",    "mA",      "uA",  "s",   "ms", "us", "ns",   "min", "h",    "ohm",
     "mohm",  "kohm", "H",    "mH",   "uH",      "F",   "uF",  "nF", "mF", "Hz",   "kHz", "MHz",  "rad",
@@ -85,8 +86,8 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   int best = static_cast<int>(std::max<std::size_t>(word.size() / 3, 1)) + 1;
   std::string found;
   for (const std::string& candidate : known) {
-    // This difference in length already exceeds the limit, so that no letter needs comparison, e.g. for a
-    // word of ten million letters.
+    // The difference in length alone already exceeds the limit, so that no letter needs to be compared, for
+    // example in a word of ten million letters.
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer - std::min(word.size(), candidate.size()) >= static_cast<std::size_t>(best)) continue;
     const int distance = edit_distance(word, candidate);
@@ -108,7 +109,7 @@ std::string nearest_word(std::string_view word, std::span<const std::string> kno
   std::vector<std::string> bare;
   for (const std::string& candidate : known) bare.emplace_back(without_unit(candidate));
   if (const std::string near = nearest(without_unit(word), bare); !near.empty()) return *meant(near);
-  // "maximum" for max, "eff" for efficiency
+  // Finds abbreviations: "maximum" for max, "eff" for efficiency.
   const auto begun = std::find_if(bare.begin(), bare.end(), [&](std::string_view candidate) {
     return std::min(word.size(), candidate.size()) >= 3 &&
            (word.starts_with(candidate) || candidate.starts_with(word));
@@ -125,7 +126,8 @@ std::string_view without_unit(std::string_view key) {
 }
 
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known, std::string_view advice) {
-  const std::string* same = nullptr;  // equal except for the unit; the most similar of several
+  const std::string* same = nullptr;  // a known key that is equal except for the unit; of several, the most
+                                      // similar
   for (const std::string& candidate : known)
     if (without_unit(candidate) == without_unit(key) && !unit_suffix(candidate).empty() &&
         (same == nullptr || edit_distance(candidate, key) < edit_distance(*same, key)))

@@ -15,10 +15,11 @@ namespace text {
 
 using base::limit_of;
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+/// Least number of insertions, deletions, replacements and swaps of neighbours that turn one word into the
+/// other.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest known word, if at most a third of it differs; else empty.
+/// The nearest known word, if at most a third of the letters differ; else empty.
 std::string nearest(std::string_view word, std::span<const std::string> known);
 
 /// Like nearest(), but among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means
@@ -31,17 +32,18 @@ std::string_view without_unit(std::string_view key);
 /// The unit suffix alone: "_rad_s" of "no_load_speed_rad_s".
 std::string_view unit_suffix(std::string_view key);
 
-/// Returns ": 1 mV = 0.001 V" for two suffixes that are different units of one kind; else empty. The text for
-/// an rms unit says that the frame states rms.
+/// Returns a text such as ": 1 mV = 0.001 V" for two suffixes that are different units of one kind; else
+/// empty. If a unit is an rms unit, the text says that the frame states rms.
 std::string conversion_text(std::string_view from_suffix, std::string_view to_suffix);
 
-/// Limit and cure for an unknown key; `where` and `value` stay empty. If a key differs from a known one only
-/// in its unit, the cure is the right unit; for a word of a motor's sheet it is the key of that meaning. For
-/// a key unlike all known ones the cure is `advice`; without `advice` it is the list of known keys.
+/// Limit and cure for an unknown key; `where` and `value` stay empty. The cure depends on the key:
+/// - it differs from a known key only in its unit: the right unit;
+/// - it is a word of a motor's sheet: the key with that meaning;
+/// - it is unlike all known keys: `advice`, or without `advice` the list of known keys.
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known,
                           std::string_view advice = {});
 
-/// "a", "b" or "c", each in quotes.
+/// The words as alternatives, each in quotes: "a", "b" or "c".
 std::string quoted_alternatives(const std::vector<std::string>& words);
 
 /// Shortest text that reads back as the same number.

@@ -117,9 +117,9 @@ bool is_numeric(KeyType type) {
          type == KeyType::quantity;
 }
 
-/// Whether `path` has this spelling, in the same table as the key.
+/// Whether `path` is the key in this spelling, in the same table.
 bool is_spelled(const KeyEntry& key, const base::Spelling& spelling, std::string_view path) {
-  const std::size_t table = key.path.rfind('.') + 1;  // 0 at the root
+  const std::size_t table = key.path.rfind('.') + 1;  // 0 for a key of the root table
   return path.size() == table + spelling.key.size() && path.ends_with(spelling.key) &&
          path.starts_with(std::string_view(key.path).substr(0, table));
 }

@@ -18,18 +18,18 @@ struct KeyEntry {
   std::string path;  ///< "supply.voltage_V"; keys of lists as "require.metric"
   KeyType type = KeyType::number;
   base::About about;
-  bool optional = false;                                       ///< may be omitted; it then has no value
-  std::string default_value{};                                 ///< as TOML; empty where there is none
-  std::vector<std::pair<std::string, std::string>> choices{};  ///< word and meaning
+  bool optional = false;        ///< true: the key may be omitted, and then has no value
+  std::string default_value{};  ///< as TOML; empty if there is no default
+  std::vector<std::pair<std::string, std::string>> choices{};  ///< the words with their meanings
   struct LinearChoice {
     std::string turning, word, meaning;
   };
   std::vector<LinearChoice> linear_choices{};  ///< words that a linear motor's file has in place of some
                                                ///< choices
-  std::string meaning{};                       ///< for a linear motor; empty: about.meaning
+  std::string meaning{};                       ///< meaning for a linear motor; empty: about.meaning
 };
 
-// Made once, because a plan reads a file for each of its points.
+// All keys of a scenario. The list is made only once, because a plan reads a file for each of its points.
 const std::vector<KeyEntry>& scenario_keys();
 const std::vector<KeyEntry>& sheet_keys();
 const std::vector<KeyEntry>& plan_keys();

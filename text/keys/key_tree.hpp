@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the flat list of keys as the tables of a file.
+// Arranges the flat list of keys in the tables of a file.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,7 +16,7 @@ std::vector<const KeyEntry*> keys_in(const std::vector<KeyEntry>& keys, std::str
 /// The last word of the path: "period_s" of "pwm.period_s".
 std::string_view name_of(const KeyEntry& entry);
 
-/// The meaning in the words of this kind of motor.
+/// The meaning of a key, in the words of the entry's kind of motor.
 inline std::string_view meaning_of(const KeyEntry& entry) {
   return entry.meaning.empty() ? entry.about.meaning : std::string_view(entry.meaning);
 }

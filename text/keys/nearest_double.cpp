@@ -13,7 +13,7 @@
 namespace text {
 namespace {
 
-/// A whole number of any size: words of 32 bits, the lowest first, without leading zeros.
+/// A non-negative whole number of any size: words of 32 bits, the lowest first, without leading zeros.
 class Natural {
  public:
   explicit Natural(std::uint32_t word) : words_(word == 0 ? 0 : 1, word) {}
@@ -40,7 +40,7 @@ class Natural {
     words_.insert(words_.begin(), static_cast<std::size_t>(bits / 32), 0);
   }
 
-  /// Subtracts a number that is not greater.
+  /// Subtracts a number that is at most as large.
   void subtract(const Natural& other) {
     std::int64_t borrow = 0;
     for (std::size_t n = 0; n < words_.size(); ++n) {
@@ -70,9 +70,9 @@ constexpr int mantissa_bits = std::numeric_limits<double>::digits;
 constexpr int least_power =
     std::numeric_limits<double>::min_exponent - mantissa_bits;  // power of two of the smallest double
 
-/// over / under as the nearest double.
+/// The double nearest to over / under.
 double quotient(Natural over, Natural under) {
-  // The mantissa is the whole part of over / (under 2^power), below 2^53.
+  // The mantissa is the integer part of over / (under 2^power), and below 2^53.
   int power = std::max(over.bits() - under.bits() - mantissa_bits, least_power);
   (power < 0 ? over : under).shift_left(std::abs(power));
   Natural bound = under;
@@ -82,7 +82,7 @@ double quotient(Natural over, Natural under) {
     bound.shift_left(1);
     ++power;
   }
-  // Long division: one bit, then over and mantissa times two.
+  // Long division: each step gives one bit, then doubles `over` and the mantissa.
   std::uint64_t mantissa = 0;
   for (int bit = 0; bit < mantissa_bits; ++bit) {
     over.shift_left(1);
@@ -97,8 +97,8 @@ double quotient(Natural over, Natural under) {
   return std::ldexp(static_cast<double>(mantissa), power);
 }
 
-/// No double, and no midpoint between two, has more than 767 digits. Further digits matter only if any of
-/// them is not 0.
+/// No double, and no midpoint between two doubles, has more than 767 significant digits. Further digits
+/// matter only if any of them is not 0.
 constexpr std::size_t most_digits = 800;
 
 /// Removes leading and trailing zeros.

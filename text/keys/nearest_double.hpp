@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts decimals to doubles with integer arithmetic only, for standard libraries whose from_chars has no
+// Converts decimals to doubles with integer arithmetic only, for standard libraries without from_chars for
 // double.
 #pragma once
 #include <string>
 
 namespace text {
 
-/// The double nearest to digits * 10^power; of two equally near ones the even one; 0 or infinity outside the
-/// range of double.
+/// The double nearest to digits * 10^power. Of two equally near doubles it is the even one. 0 or infinity
+/// outside the range of double.
 double nearest_double(std::string digits, long power);
 
 }  // namespace text

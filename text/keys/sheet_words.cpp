@@ -11,7 +11,8 @@
 namespace text {
 namespace {
 
-/// Words in small letters without strokes and units, separated by spaces; the key; a hint for the writer.
+/// A row: words in lower case without separators and units, with spaces between them; the key that they mean;
+/// and a hint for the writer.
 struct SheetWords {
   std::string_view words, key, more = "";
 };
@@ -19,7 +20,7 @@ struct SheetWords {
 constexpr std::string_view terminal = "with frame = \"terminal\"", phase = "with frame = \"phase\"",
                            which = "with the frame that it means";
 
-// Words with the same meaning. Similar letters do not help: rth1 resembles no key.
+// Words that mean a key. The table is needed because similar letters do not help: "rth1" resembles no key.
 constexpr SheetWords sheet_words[] = {
     {"numberofpolepairs polepairnumber polepaircount noofpolepairs motorpolepairs pp p", "pole_pairs"},
     {"numberofpoles polenumber polecount noofpoles motorpoles magnetpoles magnets simotorpoles", "poles"},
@@ -81,8 +82,8 @@ constexpr SheetWords sheet_words[] = {
      "max_winding_temperature_degC", "(limit of the winding)"},
 };
 
-/// Words without a key in a motor's file, with the reason or the right place. All texts continue "is not a key
-/// here; ..".
+/// Words that have no key in a motor's file, with the reason or the right place. Each text continues the
+/// sentence "is not a key here; ..".
 constexpr SheetWords elsewhere[] = {
     {"gearratio gear gearreduction reductionratio sigearratio", "",
      "a gear belongs to the load: write load.gear in the scenario, motor turns per turn of the load"},
@@ -121,7 +122,8 @@ bool has_word(std::string_view words, std::string_view word) {
 
 template <class Rows>
 const SheetWords* find_words(const Rows& rows, std::string_view key) {
-  // First with all letters, because in the name "C_V" the "_V" is no unit; then without the apparent unit.
+  // The search first uses all letters, because in the name "C_V" the "_V" is no unit; then the word without
+  // the apparent unit.
   for (const std::string& word : {bare_letters(key), bare_letters(without_unit(key))})
     for (const SheetWords& row : rows)
       if (!word.empty() && has_word(row.words, word)) return &row;
@@ -144,7 +146,7 @@ std::optional<std::string> by_meaning(std::string_view key, std::span<const std:
   const auto is_known = [&](std::string_view word) {
     return std::find(known.begin(), known.end(), word) != known.end();
   };
-  if (!is_known("resistance_ohm")) return {};  // not the keys of a motor
+  if (!is_known("resistance_ohm")) return {};  // `known` are not the keys of a motor
   if (const SheetWords* row = find_words(elsewhere, key)) return std::string(row->more);
   const SheetWords* row = find_words(sheet_words, key);
   if (!row || !is_known(row->key)) return {};

@@ -10,9 +10,10 @@
 
 namespace text {
 
-/// The cure for a word of Faulhaber's, Portescap's, Nanotec's, T-Motor's or maxon's sheets, of VESC, ODrive or
-/// SimpleFOC: the key of `known` to write, with the frame that such a sheet means; or the place of the value if
-/// a motor file has no key for it. Empty if the word is unknown, or `known` are not the keys of a motor.
+/// The cure for a word that a sheet of Faulhaber, Portescap, Nanotec, T-Motor or maxon uses, or VESC, ODrive
+/// or SimpleFOC. It names the key of `known` to write, with the frame that such a sheet means. If a motor
+/// file has no key for the value, it names the value's place. Empty if the word is unknown, or if `known` are
+/// not the keys of a motor.
 std::optional<std::string> by_meaning(std::string_view key, std::span<const std::string> known);
 
 }  // namespace text

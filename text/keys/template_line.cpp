@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t comment_column = 32, most_words = 6;
 
-/// "above 0", "in 0 to 1"; empty for an unlimited range.
+/// The range in words: "above 0", "in 0 to 1"; empty for an unlimited range.
 std::string range_text(const KeyEntry& entry) {
   const bool numeric = entry.type == KeyType::number || entry.type == KeyType::whole_number ||
                        entry.type == KeyType::numbers || entry.type == KeyType::quantity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes one key of a file to be filled in: its meaning as a comment, then the line itself, open or commented
-// out.
+// Writes one key of a file to be filled in: its meaning as a comment, then the line itself, active or
+// commented out.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,14 +16,14 @@ inline constexpr std::size_t template_width = 110;
 
 struct TemplateLine {
   std::string_view key;
-  std::string_view value;   ///< as TOML
+  std::string_view value;   ///< value as TOML
   bool open = true;         ///< false: commented out, so that it has no effect yet
-  bool explained = true;    ///< false: the line alone; its meaning is written elsewhere
+  bool explained = true;    ///< false: only the line, because its meaning is written elsewhere
   std::string_view more{};  ///< text after meaning, unit and range
 };
 
-/// "key = value  # meaning [unit], range". A long comment, and the words of an enumeration, are above the
-/// line.
+/// Returns "key = value  # meaning [unit], range". A long comment, and the words of an enumeration, are
+/// written above the line.
 std::string template_line(const KeyEntry& entry, const TemplateLine& line);
 
 }  // namespace text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normalises spellings of units: every sign and name that sheets use becomes the one in the table.
+// Normalises spellings of units: every symbol and name that sheets use becomes the one in the table.
 #include <cctype>
 
 #include "text/keys/units.hpp"
@@ -11,7 +11,7 @@ struct Spelled {
   std::string_view as, means;
 };
 
-/// Signs at any position. Longer ones first.
+/// Symbols that are replaced at any position. Longer ones come first.
 constexpr Spelled unit_signs[] = {
     {"µ", "u"},      {"μ", "u"},     {"Ω", "ohm"},    {"Ω", "ohm"},    {"°C", "degC"},  {"ºC", "degC"},
     {"℃", "degC"},   {"°F", "degF"}, {"°", "deg"},    {"⁻", "-"},      {"¹", "1"},      {"²", "2"},
@@ -22,8 +22,8 @@ constexpr Spelled unit_signs[] = {
     {" per ", "/"},
 };
 
-/// Names as whole words: no letter before a letter and no digit before a digit, and no letter, digit or power
-/// after them.
+/// Names that are replaced as whole words: not if a letter precedes a letter or a digit a digit, nor if a
+/// letter, digit or power follows.
 constexpr Spelled unit_names[] = {
     {"1/min", "rpm"},    {"min-1", "rpm"},      {"Min-1", "rpm"},     {"rev/min", "rpm"},
     {"revs/min", "rpm"}, {"r/min", "rpm"},      {"U/min", "rpm"},     {"tr/min", "rpm"},
@@ -55,13 +55,13 @@ void replace_words(std::string& text, const Spelled& s) {
         at == 0 || !(is_letter(s.as.front()) ? is_letter(text[at - 1]) : is_digit(text[at - 1]));
     const bool power = end + 1 < text.size() && text[end] == '-' && is_digit(text[end + 1]);
     const bool ends = end == text.size() || (!is_letter(text[end]) && !is_digit(text[end]) && !power);
-    // "x10-4": the power belongs to the ten.
+    // In "x10-4" the power belongs to the ten.
     if (begins && (ends || (s.means == "10" && power))) text.replace(at, s.as.size(), s.means);
   }
 }
 
 /// A hyphen or a point between two letters joins them to one factor, as in rpm/oz-in; other points end
-/// abbreviations. Spaces at a stroke are removed.
+/// abbreviations and are removed, as are spaces next to a division sign.
 std::string with_plain_gaps(const std::string& text) {
   std::string out;
   for (std::size_t n = 0; n < text.size(); ++n) {
@@ -69,7 +69,7 @@ std::string with_plain_gaps(const std::string& text) {
     const bool joins = n + 1 < text.size() && (is_letter(text[n + 1]) || text[n + 1] == '(');
     if (c == '.') c = joins ? '-' : ' ';
     if (c == '-' && !out.empty() && (out.back() == ' ' || out.back() == '-'))
-      out.pop_back();  // "lb.-in", "lb - in"
+      out.pop_back();  // as in "lb.-in" and "lb - in"
     if (c == ' ' && (out.empty() || std::string_view(" /*-").find(out.back()) != std::string_view::npos))
       continue;
     if ((c == '/' || c == '*') && !out.empty() && out.back() == ' ') out.pop_back();
@@ -85,7 +85,7 @@ bool same_letters(std::string_view text, std::string_view small) {
   return true;
 }
 
-/// "Arms" for "A rms", "A(RMS)", "A_eff"; "Vpk" for "V peak".
+/// Joins a unit and its measure: "Arms" for "A rms", "A(RMS)" and "A_eff"; "Vpk" for "V peak".
 void join_measures(std::string& text) {
   for (const auto& [name, means] : measure_names)
     for (std::size_t at = 1; at + name.size() <= text.size(); ++at) {
@@ -94,14 +94,14 @@ void join_measures(std::string& text) {
       const bool bracket = text[at - 1] == '(' && end < text.size() && text[end] == ')';
       if (bracket) ++end;
       if (bracket || text[at - 1] == ' ' || text[at - 1] == '_' || text[at - 1] == '-') --from;
-      if (from > 0 && text[from - 1] == ' ') --from;  // "A (rms)"
+      if (from > 0 && text[from - 1] == ' ') --from;  // a space as in "A (rms)"
       const bool ends = end == text.size() || (!is_letter(text[end]) && !is_digit(text[end]));
       if (!ends || from == 0 || (text[from - 1] != 'A' && text[from - 1] != 'V')) continue;
       text.replace(from, end - from, means);
     }
 }
 
-/// "V/rad/s" means V/(rad/s).
+/// Adds the brackets that are meant: "V/rad/s" means V/(rad/s).
 void bracket_speeds(std::string& text) {
   constexpr std::string_view speed = "/rad/s";
   for (std::size_t at = text.find(speed); at != std::string::npos; at = text.find(speed, at + 1)) {

@@ -20,7 +20,7 @@ struct Symbol {
   std::string_view prefixes = "";
 };
 
-// The only table of units. A unit written as one word, Nm or gcm2, is a symbol of its own.
+// The only table of units. A unit written as one word, such as Nm or gcm2, has its own entry.
 constexpr Dimension plain{}, mass{1}, length{0, 1}, time{0, 0, 1}, current{0, 0, 0, 1},
     voltage{0, 0, 0, 0, 1}, kelvin{0, 0, 0, 0, 0, 1}, angle{0, 0, 0, 0, 0, 0, 1},
     celsius{0, 0, 0, 0, 0, 0, 0, 1}, speed{0, 0, -1, 0, 0, 0, 1},
@@ -29,7 +29,8 @@ constexpr Dimension plain{}, mass{1}, length{0, 1}, time{0, 0, 1}, current{0, 0,
     energy{1, 2, -2, 0, 0, 0, 1},  // torque times angle
     resistance{0, 0, 0, -1, 1}, inductance{0, 0, 1, -1, 1}, capacity{0, 0, 1, 1, -1}, charge{0, 0, 1, 1},
     volt_second{0, 0, 1, 0, 1},
-    linkage{0, 0, 1, 0, 1, 0, 0, 0, -1},  // of a phase with the magnets, volts per electrical rad/s
+    linkage{0, 0, 1, 0, 1, 0, 0, 0, -1},  // flux linkage of a phase with the magnets: volts per electrical
+                                          // rad/s
     density{0, -2, 1, 0, 1}, per_volt{0, 0, -1, 0, -1, 0, 1};
 
 constexpr double inch = 0.0254, foot = 0.3048, pound = 0.45359237, ounce = pound / 16;
@@ -122,7 +123,7 @@ constexpr Symbol symbols[] = {
 constexpr std::string_view prefix_letters = "pnumckMG";
 constexpr int prefix_tens[] = {-12, -9, -6, -3, -2, 3, 6, 9};
 
-/// The amperes or volts that a symbol ends in, as plain_spelling() writes them.
+/// A symbol that ends in amperes or volts of one measure (rms, peak), as plain_spelling() writes it.
 struct Measured {
   std::string_view ending;
   Base base;
@@ -159,7 +160,7 @@ void multiply(Unit& product, const Unit& by, int power) {
     product.factor = power > 0 ? product.factor * by.factor : product.factor / by.factor;
 }
 
-/// symbol [-] [digit], as m2 or s-1.
+/// Multiplies by a symbol with an optional minus and digit, such as m2 or s-1.
 bool add_power(std::string_view token, int sign, Unit& product) {
   if (const std::optional<Unit> whole = symbol_of(token)) {
     multiply(product, *whole, sign);
@@ -172,13 +173,13 @@ bool add_power(std::string_view token, int sign, Unit& product) {
     power = -power;
     token.remove_suffix(1);
   }
-  if (token == "1") return false;  // "12" is no power
+  if (token == "1") return false;  // "12" is a number, not a 1 with a power
   const std::optional<Unit> base = symbol_of(token);
   if (base) multiply(product, *base, sign * power);
   return base.has_value();
 }
 
-/// Powers joined by hyphens, as oz-in-s2: one factor.
+/// Multiplies by powers joined by hyphens, which form one factor, such as oz-in-s2.
 bool add_joined(std::string_view token, int sign, Unit& product) {
   while (true) {
     std::size_t cut = token.find('-');
@@ -191,15 +192,15 @@ bool add_joined(std::string_view token, int sign, Unit& product) {
   }
 }
 
-/// factor {(space | * | /) factor}, a factor being powers joined by hyphens or a product in brackets; '/' divides by the next
-/// factor alone.
+/// Reads a product: factor {(space | * | /) factor}. A factor is a list of powers joined by hyphens, or a
+/// product in brackets. '/' divides by the next factor alone.
 class Product {
  public:
   explicit Product(std::string_view text) : rest_(text) {}
   std::optional<Unit> whole() {
     Unit product;
     if (!factors(1, 0, product) || !rest_.empty()) return {};
-    // A difference in degC is in kelvin; only degC alone is a point on the scale.
+    // In a product, degC is a difference in kelvin; only degC alone is a temperature on the Celsius scale.
     if (product.dimension != celsius) product.power(Base::K) += std::exchange(product.power(Base::degC), 0);
     return product;
   }
@@ -208,7 +209,7 @@ class Product {
   static constexpr int deepest = 4;
   bool factors(int outer, int depth, Unit& product) {
     int sign = outer;
-    bool wants = true;  // a factor must come
+    bool wants = true;  // whether a factor must follow
     while (!rest_.empty() && rest_.front() != ')') {
       const char c = rest_.front();
       if (c == ' ' || c == '*' || c == '/') {
@@ -229,7 +230,7 @@ class Product {
     if (rest_.front() == '(') {
       rest_.remove_prefix(1);
       if (depth == deepest || !factors(sign, depth + 1, product) || rest_.empty()) return false;
-      rest_.remove_prefix(1);  // the bracket that ended it
+      rest_.remove_prefix(1);  // the bracket that ended the inner product
       return true;
     }
     const std::size_t end = std::min(rest_.find_first_of(" */()"), rest_.size());
@@ -258,7 +259,7 @@ Angle take_angle(Unit& unit) {
   return {std::exchange(unit.power(Base::rad), 0), std::exchange(unit.power(Base::electrical_rad), 0)};
 }
 
-/// Angles that may be left out of a unit without any: V s means V/(rad/s), kg m2 is N m/(rad/s2).
+/// Whether a unit may be written without its angle: V s for V/(rad/s), kg m2 for N m/(rad/s2).
 bool left_out(const Angle& whole, const Dimension& rest) {
   constexpr Dimension drag{1, 2, -1};
   if (rest == volt_second || rest == drag) return whole == Angle{-1, 0};
@@ -271,11 +272,12 @@ bool same_kind(const Unit& a, const Unit& b) {
   Unit from = a, to = b;
   const Angle in = take_angle(from), out = take_angle(to);
   if (from.dimension != to.dimension) return false;
-  // "mV min" means mV/min-1, which is 1/(2 pi) of it.
+  // "mV min" is used for mV/min-1, which contains a turn, so that it is 1/(2 pi) of V s/rad.
   const bool habit = left_out({-1, 0}, from.dimension);
   if (habit && ((in == Angle{} && from.by_the_clock) || (out == Angle{} && to.by_the_clock))) return false;
   if (in == out) return true;
-  if (in == Angle{} && out == Angle{0, -1}) return from.dimension == volt_second;  // a flux: Wb is V s
+  // a flux linkage: Wb is V s
+  if (in == Angle{} && out == Angle{0, -1}) return from.dimension == volt_second;
   return (in == Angle{} && left_out(out, from.dimension)) || (out == Angle{} && left_out(in, from.dimension));
 }
 

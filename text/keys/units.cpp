@@ -30,7 +30,7 @@ bool begins_a_number(std::string_view text) {
   return at < 2 && (text[at] == '.' || (text[at] >= '0' && text[at] <= '9'));
 }
 
-/// The number times 10^ten, rounded once: only the exponent changes.
+/// The number times 10^ten, rounded once, because only the exponent of its text changes.
 std::optional<double> shifted(const std::string& number, int ten) {
   const std::size_t e = std::min(number.find_first_of("eE"), number.size());
   int exponent = 0;
@@ -52,7 +52,8 @@ bool takes_kind(Unit from, const Unit& to, const Unit& by) {
   return same_kind(from, to);
 }
 
-/// 1 or -1 if `from` has a mass times a length, or its inverse, in place of a torque: "oz-in", "rpm/kg-cm".
+/// 1 if `from` has a mass times a length in place of a torque ("oz-in"), -1 if it has the inverse
+/// ("rpm/kg-cm"), else 0.
 int weights_in(const Unit& from, const Unit& to) {
   for (const int sign : {1, -1})
     if (from.power(Base::kg) == sign && from.power(Base::m) == sign &&
@@ -67,7 +68,8 @@ int gravity_between(const Unit& from, const Unit& to) {
   return power != 0 ? power : -weights_in(to, from);
 }
 
-/// The power of the electrical angle that must become mechanical; 0 if that does not give the wanted kind of unit.
+/// The power of the electrical angle that must be converted to the mechanical angle; 0 if this does not give
+/// the wanted kind of unit.
 int electrical_in(const Unit& from, const Unit& to) {
   const int power = from.power(Base::electrical_rad);
   const bool fits = to.power(Base::electrical_rad) == 0 &&
@@ -75,7 +77,7 @@ int electrical_in(const Unit& from, const Unit& to) {
   return fits ? power : 0;
 }
 
-/// Usual units of the same kind, the key's own first.
+/// Usual units of the wanted kind, the key's own unit first.
 std::vector<std::string> fitting(std::string_view wanted) {
   static const std::vector<Unit> read = [] {
     std::vector<Unit> units;
@@ -91,7 +93,7 @@ std::vector<std::string> fitting(std::string_view wanted) {
   return fit;
 }
 
-/// A fitting unit that resembles the written one: ms for "MS", rpm for "rmp".
+/// A usual unit of the wanted kind that resembles the written one: ms for "MS", rpm for "rmp".
 std::string fitting_like(const std::string& unit, std::string_view wanted) {
   const auto small = [](std::string_view text) {
     std::string out(text);
@@ -121,7 +123,7 @@ base::Problem no_plain_number(const std::string& unit, bool known) {
           .cure = "write the number alone, or in %"};
 }
 
-/// Whether the units are of one kind except for an angle, and `from` contains minutes or hours.
+/// Whether the units are of one kind except for angles, and `from` contains minutes or hours.
 bool multiplies_minutes(Unit from, Unit to) {
   for (Unit* unit : {&from, &to}) unit->power(Base::rad) = unit->power(Base::electrical_rad) = 0;
   return from.by_the_clock && from.dimension == to.dimension && to.dimension != Unit{}.dimension;
@@ -156,8 +158,8 @@ double to_power(double x, int power) {
   return out;
 }
 
-/// Hertz of a voltage are electrical by custom. Hertz of a shaft are ambiguous: turns, or turns times pole
-/// pairs.
+/// Converts by the pole pairs. Hertz of a voltage are electrical by convention. Hertz of a shaft are refused
+/// as ambiguous: turns per second, or turns times pole pairs.
 base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const Unit& to,
                                        const Wanted& wanted, Conversion conversion) {
   if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)

@@ -14,17 +14,20 @@
 
 namespace text {
 
-/// Base units; a unit is a product of their powers. The volt is a separate base in addition to the kilogram,
-/// so that a torque per ampere differs from a voltage per speed: their frames differ. The Celsius scale is no
-/// multiple of K. Mechanical and electrical angles differ by the pole pairs: hertz and erpm count electrical
-/// turns. Rms and peak are part of the unit.
+/// Base units; a unit is a product of their powers.
+/// - The volt is a base in addition to the kilogram, so that a torque per ampere differs from a voltage per
+///   speed: their frames differ.
+/// - The Celsius scale is no multiple of K.
+/// - Mechanical and electrical angles differ by the pole pairs: hertz and erpm count electrical turns.
+/// - Rms and peak are part of the unit.
 enum class Base : std::uint8_t { kg, m, s, A, V, K, rad, degC, electrical_rad, rms, peak };
 using Dimension = std::array<int, 11>;
 
-/// m/s2; defines the pound-force and the kilogram-force.
+/// Standard gravity in m/s2, which defines the pound-force and the kilogram-force.
 inline constexpr double standard_gravity = 9.80665;
 
-/// A value in this unit is `factor` * 10^ten in SI. The power of ten is separate, because it costs no rounding.
+/// A value x in this unit is x * `factor` * 10^ten in SI. The power of ten is separate, because it costs no
+/// rounding.
 struct Unit {
   Dimension dimension{};
   int ten = 0;
@@ -35,38 +38,41 @@ struct Unit {
   int& power(Base base) { return dimension[static_cast<std::size_t>(base)]; }
 };
 
-/// "mNm/A", "kg m2", "oz-in", "Nm/(rad/s)", "mV/min-1", "%"; the number 1 for ""; empty if it is no unit.
+/// The unit of a text such as "mNm/A", "kg m2", "oz-in", "Nm/(rad/s)", "mV/min-1", "%". The text "" gives the
+/// number 1. Empty if the text is no unit.
 std::optional<Unit> unit_of(std::string_view text);
 
-/// The unit in the table's spelling: without signs that few keyboards have, products with spaces, always "rpm".
+/// The unit in the table's spelling: without symbols that few keyboards have, with spaces in products, and
+/// always "rpm".
 std::string plain_spelling(std::string_view unit);
 
-/// Whether values convert by ten and factor alone. Angles are part of the kind: 1/s is no speed, hertz are no
-/// speed, N m/rad is not N m. Exceptions, because sheets usually write a speed as 1/s: V s for V/(rad/s), N m
-/// s for N m/(rad/s).
+/// Whether a power of ten and a factor convert values from one unit to the other. Angles are part of the
+/// kind: 1/s is no speed, hertz are no speed, N m/rad is not N m. Two units without their angle are accepted,
+/// because sheets usually write a speed as 1/s: V s for V/(rad/s), and N m s for N m/(rad/s).
 bool same_kind(const Unit& a, const Unit& b);
 
 /// The unit into which a number is converted.
 struct Wanted {
   std::string unit;
-  std::string frames;             ///< the key's, separated by '|'; if one is rms, the unit may say rms
-  std::optional<int> pole_pairs;  ///< empty: electrical turns do not convert
+  std::string frames;             ///< the key's frames, separated by '|'; if one is rms, the unit may say rms
+  std::optional<int> pole_pairs;  ///< empty: electrical turns cannot be converted
 
   template <std::convertible_to<std::string_view> Text>
   Wanted(const Text& unit_text, std::string_view frames_text = {}, std::optional<int> pairs = {})
       : unit(std::string_view(unit_text)), frames(frames_text), pole_pairs(pairs) {}
 };
 
-/// Converts a number: x * 10^ten * multiply / divide.
+/// Converts a number x to x * 10^ten * multiply / divide.
 struct Conversion {
   int ten = 0;
   double multiply = 1.0, divide = 1.0;
   double of(double x) const;
-  double back(double x) const;  ///< the inverse
+  double back(double x) const;  ///< the inverse conversion
 };
 
-/// Converts from `unit` into the wanted unit. The Problem has limit and cure. It also decides the cases that
-/// same_kind() does not:  in oz-in and kg cm a weight stands for its force, in V/Hz the hertz are electrical.
+/// Converts from `unit` into the wanted unit. The Problem has limit and cure. This function also decides two
+/// cases that same_kind() does not: in oz-in and kg cm a weight stands for its force, and in V/Hz the hertz
+/// are electrical.
 base::Result<Conversion> conversion(std::string_view unit, const Wanted& wanted);
 
 /// "rms" or "peak" if the unit says so; else empty.
@@ -75,18 +81,18 @@ std::string_view measure_in(std::string_view unit);
 /// The frames, separated by '|', that fit a measure: "line-rms" and "phase-rms" for "rms".
 std::vector<std::string> frames_with(std::string_view frames, std::string_view measure);
 
-/// A number and the unit after it; empty if the text does not begin with a number.
+/// A number and the unit after it. A text that does not begin with a number gives no result.
 struct Written {
   std::string number, unit;
 };
 std::optional<Written> split_number(std::string_view text);
 
-/// The value of `written` in the unit `wanted`; the Problem has limit and cure. If the units differ by a power
-/// of ten, the result is the double nearest to the decimal: "0.572 mH" gives exactly 0.000572. Otherwise the
-/// result has a few roundings, as for rpm in rad/s.
+/// The value of `written` in the unit `wanted`; the Problem has limit and cure. If the units differ only by a
+/// power of ten, the result is the double nearest to the decimal: "0.572 mH" gives exactly 0.000572.
+/// Otherwise the result is rounded a few times, as for rpm in rad/s.
 base::Result<double> in_unit(std::string_view written, const Wanted& wanted);
 
-/// Usual units of the same kind, the key's own first: "s, ms, us or min".
+/// Usual units of the same kind in words, the key's own unit first: "s, ms, us or min".
 std::string units_that_fit(std::string_view wanted);
 
 }  // namespace text

@@ -37,7 +37,7 @@ class SheetJson final : public base::Visitor {
     const base::Quantity* const q = quantity_in(member);
     if (!q) return;
     const base::Spelling* linear = base::linear_spelling(about);
-    if (!linear || linear->key != q->key) linear = nullptr;  // a linear motor's value has its own name
+    if (!linear || linear->key != q->key) linear = nullptr;  // set if a linear motor's value has its own name
     const std::string_view key = linear ? linear->key : given;
     const auto told = [linear](double x) { return linear ? base::as_spelled(x, *linear) : x; };
     Json entry = {{"value", told(q->value)}, {"unit", linear ? linear->unit : about.unit}};
@@ -54,7 +54,7 @@ Json constant(const std::optional<design::Constant>& c) {
   return c ? Json({{"value", c->value}, {"from", c->from}}) : Json(nullptr);
 }
 
-/// Uses the names of a linear motor's SI units if it is one.
+/// Friction as JSON; for a linear motor with the names of its SI units.
 Json friction(const design::Friction& f, bool linear) {
   const auto name = [linear](const char* turning, const char* moving) { return linear ? moving : turning; };
   return {{name("viscous_Nm_s", "viscous_N_s_m"), f.B_Nm_s},

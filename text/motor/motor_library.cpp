@@ -9,7 +9,8 @@
 namespace text {
 namespace {
 
-/// A misspelt name gives one motor; a maker's name or an order number gives all that contain it.
+/// The cure for an unknown name: the one motor whose name is similar, or all motors that contain the maker's
+/// name or order number.
 std::string motor_meant(const std::string& name) {
   const std::vector<std::string> all = built_in_motors();
   if (const std::string near = nearest(name, all); !near.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds motors by name: with a Resolve, or among the motors compiled in.
+// Finds motors by name, through a Resolve or among the motors compiled in.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace text {
 
-/// The motor's file, not yet read into a sheet. `name` is as written in `from`. An empty Resolve finds only the
-/// motors compiled in. A Problem names the places of the search and a similar name; the caller fills its
-/// `where`.
+/// Returns the motor's file, not yet read into a sheet. `name` is as written in `from`. With an empty
+/// Resolve, only the motors compiled in are found. A Problem names the places of the search and a similar
+/// name; the caller sets its `where`.
 base::Result<Document> find_motor(const std::string& name, const std::string& from, const Resolve& resolve);
 
 /// Names of the motors compiled in.

@@ -12,12 +12,12 @@ namespace text {
 struct MotorStyle {
   std::string_view name;
   std::string_view what;
-  std::string_view shape;                  ///< the usual back-EMF of such a sheet; to be checked
-  std::vector<std::string_view> needed;    ///< keys that a model needs
-  std::vector<std::string_view> optional;  ///< useful keys: they are checked against the others
+  std::string_view shape;                ///< the usual back-EMF shape of such a sheet; the user must check it
+  std::vector<std::string_view> needed;  ///< keys without which there is no model
+  std::vector<std::string_view> optional;  ///< keys that serve to check the others
   bool linear = false;
-  /// The word for a key on such a sheet; or, if the sheet omits it, the usual range, its reason and how to
-  /// measure it.
+  /// For some keys the word that such a sheet prints; or, if the sheet omits the value, its usual range, the
+  /// reason, and how to measure it.
   std::vector<std::pair<std::string_view, std::string_view>> notes = {};
 };
 

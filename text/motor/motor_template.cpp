@@ -15,15 +15,16 @@
 namespace text {
 namespace {
 
-/// Another spelling has its own unit. A linear motor's spelling is already that of the key.
+/// The entry in another spelling, with the spelling's unit. A linear motor's spelling is already that of the
+/// key.
 KeyEntry as_spelled(const KeyEntry& entry, std::string_view key) {
   for (const base::Spelling& spelling : entry.about.also)
     if (spelling.key == key) return spelled(entry, spelling);
   return entry;
 }
 
-/// "frame = "terminal|phase"" stays invalid until the user deletes one of the two, because no frame has that
-/// name.
+/// The placeholder frame = "terminal|phase" is invalid until the user deletes one of the two words, because
+/// no frame has that name.
 std::string empty_value(const KeyEntry& entry) {
   if (entry.type == KeyType::text) return "\"\"";
   if (entry.type == KeyType::flag) return "true";
@@ -32,7 +33,7 @@ std::string empty_value(const KeyEntry& entry) {
   return fmt::format("{{ value = nan, frame = \"{}\", source = \"data sheet\" }}", entry.about.frame);
 }
 
-/// Writes a line. The comment above it states the differences of such a sheet for this key.
+/// Writes the line of a key. The comment above it states what is different on such a sheet.
 std::string line(const MotorStyle& style, const KeyEntry& given, std::string_view key, bool needed) {
   const KeyEntry entry = as_spelled(given, key);
   const bool choice = frames_of(entry.about.frame).size() > 1;

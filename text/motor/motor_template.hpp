@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes an empty motor file in the words of a trade, to be filled in from a printed sheet.
+// Writes an empty motor file to be filled in from a printed sheet, in the words of one line of business.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,12 +10,12 @@
 
 namespace text {
 
-/// The trades whose sheets have a template: maxon, drone, servo, linear, firmware.
+/// The styles of sheets that have a template: maxon, drone, servo, linear, firmware.
 std::vector<std::string> template_styles();
 
-/// The file's text. Meaning, unit and frames of every line come from the description of the keys. Lines that
-/// a model needs are open (`value = nan`, refused until filled in), the others are commented out. Problem: an
-/// unknown style.
+/// Returns the file's text. Meaning, unit and frames of every line come from the description of the keys.
+/// Lines that a model needs are active (`value = nan`, refused until filled in); the other lines are
+/// commented out. Problem: an unknown style.
 base::Result<std::string> motor_template(std::string_view style, const std::string& name);
 
 }  // namespace text

@@ -23,7 +23,7 @@ using design::SheetConstants;
 
 std::string short_number(double x) { return fmt::format("{:.4g}", x); }
 
-/// Ends a row as one line, for any text from the sheet.
+/// Removes trailing spaces and ends the row as one line, whatever text the sheet has.
 std::string trimmed(std::string row) {
   row.erase(row.find_last_not_of(' ') + 1);
   return visible(row) + "\n";
@@ -51,7 +51,7 @@ class SheetRows final : public base::Visitor {
   void row(std::string_view key, const double& member, const base::About& about) {
     if (member != 0) add(key, fmt::format("{}", member), about.unit, "", "");
   }
-  /// A long list is shown by its ends.
+  /// A long list is printed as its length and its first and last value.
   template <class T>
   void row(std::string_view key, const std::vector<T>& member, const base::About& about) {
     constexpr std::size_t read_at_a_glance = 12;
@@ -65,7 +65,7 @@ class SheetRows final : public base::Visitor {
   void row(std::string_view key, const std::optional<T>& member, const base::About& about) {
     if (member) row(key, *member, about);
   }
-  /// The first word is that of nearly every motor, and is not shown.
+  /// A word's first choice is that of nearly every motor, and is not printed.
   void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
     if ((key != "connection" && key != "rotor" && key != "kind") || member.chosen() != 0)
       add(key, member.word(), "", "", "");
@@ -124,7 +124,7 @@ std::string back_emf_words(const design::Sheet& sheet) {
   return words + (sheet.connection == design::WindingConnection::delta ? ", delta" : "");
 }
 
-/// "6.197 mNm", or in N where the motor is linear.
+/// A torque as text: "6.197 mNm"; for a linear motor a force in N.
 std::string torque_text(double torque_Nm, bool linear) {
   return linear ? short_number(torque_Nm) + " N" : short_number(torque_Nm * 1e3) + " mNm";
 }
@@ -167,10 +167,10 @@ std::string_view word(RelationVerdict verdict) {
 constexpr double most_percentage = 10.0;
 
 std::string relation_rows(const Relation& r) {
-  // A name that is wider than its column has a separate line.
+  // A name that is wider than its column gets a separate line.
   const bool wide = r.name.size() > 25;
   std::string text = wide ? fmt::format("  {:<7}{}\n", word(r.verdict), r.name) : "";
-  // A factor is clearer than a percentage from ten times on.
+  // From ten times on, a factor is clearer than a percentage.
   const std::string deviation = std::fabs(r.deviation) < most_percentage
                                     ? fmt::format("{:>+7.2f} %", 100.0 * r.deviation)
                                     : fmt::format("{:>9}", "x " + short_number(r.deviation + 1.0));
@@ -195,7 +195,8 @@ std::string not_simulatable(const design::Sheet& sheet, const SheetCheck& check)
   return model ? "" : "; it cannot be simulated: " + base::to_string(model.problems().front());
 }
 
-/// Values typed as one digit, whose rounding widens every relation that has them. The voltage of a sheet is exact.
+/// Values that are printed with one digit: their rounding widens every relation that contains them. The
+/// voltage of a sheet counts as exact.
 std::string coarse_lines(const SheetCheck& check) {
   constexpr double wide = 0.05;
   std::string text;
@@ -298,7 +299,7 @@ std::string motor_line(const std::string& name, const design::Sheet& sheet, std:
   const auto with_unit = [](const auto& constant, const char* unit) {
     return constant ? short_number(constant->value) + unit : std::string("-");
   };
-  if (sheet.kind == design::MotorKind::linear)  // units of a linear motor
+  if (sheet.kind == design::MotorKind::linear)  // in the units of a linear motor
     return trimmed(fmt::format(
         "{:<{}} {:>2} {:>6} {:>10} {:>10} {:>10}  {}", name, width, "-",
         c.nominal_voltage_V ? short_number(*c.nominal_voltage_V) : "-", number(c.R_ohm, 2.0),

@@ -12,19 +12,20 @@ namespace text {
 /// One row per value of the sheet: as printed, with unit, frame and source.
 std::string sheet_table(const design::Sheet& sheet);
 
-/// The constants of the model with their sources, and friction between its extremes.
+/// The constants of the model with their sources; friction with its least and greatest value.
 std::string model_table(const design::Sheet& sheet, const design::SheetCheck& check);
 
-/// The relations, the model, the values that the check does not use and why; the last line is the verdict.
+/// The check: the relations, the model, and the values that the check does not use with the reason. The last
+/// line is the verdict.
 std::string check_report(const design::Sheet& sheet, const design::SheetCheck& check);
 
-/// One line of `motor list`: poles, voltage, R, K_t, J, and the reason if it cannot be simulated. `width` is
-/// that of the first column.
+/// One line of `motor list`: poles, voltage, R, K_t, J, and the reason if the motor cannot be simulated.
+/// `width` is the width of the first column.
 std::string motor_line(const std::string& name, const design::Sheet& sheet, std::size_t width);
 std::string motor_line_heading(std::size_t width);
 
 struct NamedSheet {
-  std::string name;  ///< as a scenario names it
+  std::string name;  ///< the name that a scenario uses
   design::Sheet sheet;
 };
 

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value as written in a file. Entries of a mixed list are read as words.
+/// A value of an axis as a file writes it. Entries of a mixed list are kept as text.
 std::string axis_as_written(const toml::node& node) {
   if (const auto* text = node.as_string()) return toml_text(text->get());
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
@@ -32,7 +32,7 @@ std::string axis_as_written(const toml::node& node) {
   return "";
 }
 
-/// Writes each value of vary[n].values as text if the description has a list of words.
+/// Writes each value of vary[n].values as text if the description expects a list of words.
 void values_as_words(Document& document) {
   toml::array* entries = document.root()["vary"].as_array();
   if (!entries) return;
@@ -87,15 +87,15 @@ std::string in_keys_unit(const std::string& written, const std::string& unit) {
   return x ? base::written(*x) : written;
 }
 
-/// An unknown key is reported where it is set.
+/// Converts an axis to its key's own unit. An unknown key is reported elsewhere, where it is set.
 void in_keys_unit(analysis::Axis& axis) {
   const base::Result<std::string> unit = unit_of_key(axis.key);
   if (!unit) return;
   for (std::string& value : axis.values) value = in_keys_unit(value, *unit);
 }
 
-/// A number with the shortest digits, a word without quotes. A whole number stays unchanged, because it may
-/// have more digits than a double.
+/// A value in one spelling: a number with the shortest digits, a word without quotes. A whole number stays
+/// unchanged, because it may have more digits than a double.
 std::string one_spelling(const std::string& value) {
   const std::string word(analysis::bare(value));
   const std::optional<double> x = number_alone(word);
@@ -186,7 +186,7 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
   for (std::size_t n = 0; n < entry.vary.size(); ++n)
     in_keys_unit(
         file.plan.axes.emplace_back(axis_from(entry.vary[n], fmt::format("vary[{}]", n), complaints)));
-  if (!entry.minimise.empty()) {  // the search chooses the points
+  if (!entry.minimise.empty()) {  // with `minimise`, the search chooses the points
     file.plan.sampling = analysis::Sampling::sobol;
     file.plan.points = file.evaluations;
   }

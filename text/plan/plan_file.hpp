@@ -14,19 +14,20 @@ struct PlanFile {
   std::string title, notes;
   std::string scenario;  ///< path as written
   bool sheet_tolerances = false;
-  std::string minimise;  ///< a figure's label; empty: nothing is optimised
+  std::string minimise;  ///< label of the figure to minimise; empty: nothing is optimised
   std::size_t evaluations = 0;
   analysis::Plan plan;
 };
 
-/// Whether the text is a plan, not a scenario: it names a scenario and has no key of one.
+/// Whether the text is a plan and not a scenario: it names a scenario and has no key of a scenario.
 bool is_plan(const std::string& text);
 
-/// Each Problem's `where` begins with "file:line:column: ".
+/// Reads a plan. The `where` of each Problem begins with "file:line:column: ".
 base::Result<PlanFile> read_plan_text(const std::string& name, std::string text);
 
-/// Reads "pwm.period_s=20us:100us:9", "load.torque_Nm=0.01:1:5:log", "pwm.chopping=soft,hard". A range without a
-/// number of points has only its ends; points are drawn between them. A Problem's `where` is the text itself.
+/// Reads an axis from words such as "pwm.period_s=20us:100us:9", "load.torque_Nm=0.01:1:5:log" or
+/// "pwm.chopping=soft,hard". A range without a number of points has only its ends, between which points are
+/// drawn. A Problem's `where` is the text itself.
 base::Result<analysis::Axis> axis_of(std::string_view text);
 
 /// The unit of a scenario's key in this spelling, also inside a list: "at[0].load.torque_Nm". Problem: an

@@ -16,7 +16,7 @@
 namespace text {
 namespace {
 
-/// Finds each text only once.
+/// Returns a Resolve that calls `find` only once for each name.
 Resolve remembered(Resolve find) {
   struct Memory {
     std::mutex guard;
@@ -32,7 +32,7 @@ Resolve remembered(Resolve find) {
   };
 }
 
-/// Keys that determine a table's columns must be the same in all runs; so must a run's names.
+/// Keys that determine a table's columns must be the same in all runs, and so must the names of a run.
 constexpr std::string_view same_in_all[] = {"require", "compare", "record", "spread",
                                             "title",   "notes",   "extends"};
 
@@ -50,7 +50,7 @@ std::string first_of(const analysis::Axis& axis, bool last) {
 
 }  // namespace
 
-/// Scenarios of the last few points, for the drives that share them.
+/// The scenarios of the last few points, because several drives use the scenario of one point.
 struct PlannedScenarios::Recent {
   static constexpr std::size_t most = 16;
   std::mutex guard;

@@ -17,25 +17,25 @@ struct PlannedText {
   bool sheet_tolerances = false;
 };
 
-/// Reads the scenarios of a plan's runs. Several threads may call it at the same time. A named text is
-/// searched once; the drives of a point share one reading.
+/// Reads the scenarios of a plan's runs. Several threads may call it at the same time. A file is searched
+/// once; all drives of a point use one reading.
 class PlannedScenarios {
  public:
   PlannedScenarios(PlannedText of, analysis::Plan plan);
   ~PlannedScenarios();
 
-  /// The scenario as written: with its spread, without varied values.
+  /// The scenario as written, with its spread and without varied values.
   base::Result<study::Scenario> nominal() const;
-  /// The scenario of a point, before the spread of a drive is applied. A Problem's `where` is "--set key" for a
-  /// value of the plan.
+  /// The scenario of a point, before the spread of a drive is applied. For a value of the plan, a Problem's
+  /// `where` is "--set key".
   base::Result<study::Scenario> at(const std::vector<std::string>& point) const;
   base::Result<analysis::PlannedRun> run(std::size_t n) const;
-  /// A drive of any point, also of one outside the plan.
+  /// The run of one drive at any point, even at a point outside the plan.
   base::Result<analysis::PlannedRun> run(const std::vector<std::string>& point, std::size_t drive) const;
 
   /// Checks that the keys can be varied and that the axes' ends can be read. It reads the point with the
-  /// begins of all axes and, if that fails, for each axis the point with its other end. An axis gives
-  /// Problems only if both fail. A corner that cannot run becomes a separate row.
+  /// first ends of all axes. If that fails, it reads for each axis the point with this axis at its other end.
+  /// An axis gives Problems only if both readings fail. A corner that cannot run becomes a row of the table.
   base::Problems check() const;
 
   const analysis::Plan& plan() const { return plan_; }

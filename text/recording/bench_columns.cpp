@@ -12,7 +12,7 @@ bool is_any_of(const RecordedColumn& column, const ThreeNames& names) {
   return std::any_of(names.begin(), names.end(), [&](const auto& of) { return is_called(column, of); });
 }
 
-/// Why a known voltage was not used, although others or none were.
+/// The reason why a known voltage was not used although other voltages were, or although no voltage was used.
 std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
   const bool line = meaning == Meaning::between_terminals;
   if (use.voltages_are_asked) return "other voltages are requested";
@@ -75,8 +75,8 @@ Columns from_the_first(const Three& found) {
 }
 
 Columns in_turn(const Three& found) {
-  // The sequence begins after the missing column, or at the first: a b, b c or c a, each 120 degrees behind
-  // the one before it.
+  // The sequence begins after the missing column, or at the first one: a b, b c or c a. Each voltage lags the
+  // one before by 120 degrees.
   const auto gap =
       static_cast<std::size_t>(std::find(found.begin(), found.end(), std::nullopt) - found.begin());
   const std::size_t before = std::min(gap, found.size() - 1);

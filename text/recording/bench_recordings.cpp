@@ -19,7 +19,7 @@ Meaning meaning_of_first(const Columns& columns) {
   return columns.empty() ? Meaning::unknown : meaning_of(*columns.front().column);
 }
 
-/// The points between which the voltages were measured, by their headings.
+/// The points between which the voltages were measured, according to their headings.
 std::optional<analysis::EmfBetween> between_in(const Columns& columns) {
   const Meaning meaning = meaning_of_first(columns);
   const bool alike = std::all_of(columns.begin(), columns.end(),
@@ -29,8 +29,8 @@ std::optional<analysis::EmfBetween> between_in(const Columns& columns) {
   return {};
 }
 
-/// The voltages that the options name, else by the headings. A log of Hall lines needs the first two of three
-/// voltages, a back-EMF any of them.
+/// The voltages that the options name, else those that the headings identify. A log of Hall lines needs the
+/// first two of three voltages, a back-EMF any of them.
 base::Result<Voltages> voltages_of(const Recording& r, const BenchColumns& wanted,
                                    Columns (*taken)(const Three&)) {
   if (!wanted.voltages.empty()) {
@@ -50,14 +50,14 @@ bool is_of_kind(const RecordedColumn& column, std::string_view unit) {
   return !column.unit.empty() && same_kind(*unit_of(column.unit), *unit_of(unit));
 }
 
-/// Some exporters write a column of time for each channel.
+/// Whether a column is another time: some exporters write a column of time for each channel.
 bool is_other_time(const RecordedColumn& column, const RecordedColumn* time) {
   if (&column == time || !time || !column.filled) return false;
   const bool same_heading = !time->heading.empty() && column.heading == time->heading;
   return same_heading || is_of_kind(column, "s");
 }
 
-/// Channels sampled at different instants cannot be in one row.
+/// Refuses channels that were sampled at different instants, because these cannot be in one row.
 base::Problems check_other_times(const Recording& r, const RecordedColumn* time) {
   for (const RecordedColumn& column : r.columns) {
     if (!is_other_time(column, time)) continue;
@@ -76,7 +76,7 @@ bool is_among(const Columns& columns, const RecordedColumn& column) {
   return std::any_of(columns.begin(), columns.end(), [&](const Picked& p) { return p.column == &column; });
 }
 
-/// Notes each unused column with the reason; not if the options name the columns.
+/// Notes each unused column with the reason. If the options name the columns, it notes nothing.
 void note_rest(const Recording& r, const Columns& used, const RecordedColumn* time, const BenchUse& use,
                Notes& notes) {
   std::vector<NotUsed> rest;
@@ -108,12 +108,12 @@ Columns whatever_is_a_voltage(const Recording& r, const RecordedColumn* time, No
   return out;
 }
 
-/// The two levels of a line, or why it has none.
+/// The two voltage levels of a line, or the reason why it has none.
 struct Levels {
   double low = 0.0, high = 1.0;
 };
 Levels levels_of(std::vector<double> values) {
-  // Spikes beyond the levels are rare.
+  // Quantiles instead of extremes, because spikes beyond the levels are rare.
   const auto at = [&](double part) {
     const auto place =
         values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
@@ -123,7 +123,7 @@ Levels levels_of(std::vector<double> values) {
   return {at(0.02), at(0.98)};
 }
 
-/// 1 where the line is high.
+/// The line as high (true) and low (false).
 std::vector<bool> digital(const std::vector<double>& values) {
   std::vector<bool> out(values.size());
   const bool is_digital =
@@ -168,8 +168,8 @@ base::Result<Codes> codes_of(const Recording& r, const Columns& lines) {
   return out;
 }
 
-/// The columns that the options name, else by the headings; three columns that a logic analyzer heads "logic"
-/// are lines.
+/// The columns that the options name, else those that the headings identify. Three columns that a logic
+/// analyzer heads "logic" are Hall lines.
 base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wanted, Notes& notes) {
   if (!wanted.hall.empty()) return columns_called(r, wanted.hall);
   const base::Result<Three> three = three_of(r, names_of_hall_lines());
@@ -196,8 +196,8 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
                       "head them hall1, hall2, hall3, or one of codes hall, or name the columns");
 }
 
-/// The points between which a log's voltages were measured: as requested, else by the headings. The number of
-/// columns does not decide it.
+/// The points between which a log's voltages were measured: as requested, else according to the headings. The
+/// number of columns does not decide this.
 base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
   if (voltages.between) return *voltages.between;
   if (const std::optional<analysis::EmfBetween> said = between_in(voltages.columns)) return *said;

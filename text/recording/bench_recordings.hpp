@@ -11,7 +11,7 @@
 
 namespace text {
 
-/// Statements of the user that add to the headings or replace them.
+/// Columns that the user names, in addition to the headings or in place of them.
 struct BenchColumns {
   std::vector<std::string> hall;  ///< headings of H1, H2 and H3, or of one column of codes
   std::vector<std::string>
@@ -20,12 +20,12 @@ struct BenchColumns {
   std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
 };
 
-/// A line has the values 0 and 1, or two voltages; the threshold is then their middle, with hysteresis.
-/// `notes` lists the unused columns and the assumptions.
+/// The log of Hall lines. A line has the values 0 and 1, or two voltages; with voltages, the threshold is in
+/// their middle, with hysteresis. `notes` lists the unused columns and the assumptions.
 base::Result<analysis::HallLog> hall_log_of(const Recording& recording, const BenchColumns& columns,
                                             Notes& notes);
 
-/// One to three voltages of one kind.
+/// The record of one to three voltages of one kind.
 base::Result<analysis::EmfRecord> emf_record_of(const Recording& recording, const BenchColumns& columns,
                                                 Notes& notes);
 

@@ -26,14 +26,14 @@ bool fits(const std::string& unit, const study::Column& column) {
   return unit.empty() || conversion(unit, {unit_of_trace(column), "", 1}).operator bool();
 }
 
-/// A column of the trace, and the recorded column in its unit.
+/// A column of a trace, and the recorded column converted to its unit.
 struct Found {
   const study::Column* column = nullptr;
   Picked picked;
 };
 
-/// Finds the column by a heading that a trace itself has, "i_m_A", else by name and unit. If two columns have
-/// one name, such as the bus's voltage and current, the unit decides.
+/// Finds the column of a trace by a heading that a trace itself uses, "i_m_A", else by name and unit. If two
+/// columns have one name, such as the bus's voltage and current, the unit decides.
 Found column_of(const RecordedColumn& recorded) {
   Found found;
   for (const study::Column& column : study::all_columns()) {
@@ -49,8 +49,8 @@ Found column_of(const RecordedColumn& recorded) {
   return found;
 }
 
-/// "i_m_A [mA]": the trace's own name contains a unit, and a different one follows. It is unknown which one
-/// holds.
+/// Problems of headings such as "i_m_A [mA]": the trace's own name contains a unit, and a different one
+/// follows. It is unknown which unit applies.
 base::Problems said_twice(const Recording& r) {
   base::Problems found;
   for (const RecordedColumn& recorded : r.columns)
@@ -68,7 +68,7 @@ base::Problems said_twice(const Recording& r) {
   return found;
 }
 
-/// The column of a trace that a formula names; for "bus" the name with its unit.
+/// The column of a trace that a formula names; "bus" needs the name with its unit.
 base::Result<const study::Column*> trace_column(const std::string& name) {
   std::vector<std::string> known;
   const study::Column* found = nullptr;
@@ -96,7 +96,8 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
   const base::Result<std::vector<Picked>> found = columns_called(r, {formula.column});
   if (!found) return found.problems();
   column = found->front().column;
-  // The comparison ignores all characters except letters, and would accept "e*rpm" and "erpm+" for erpm.
+  // The comparison of headings ignores all characters except letters, and would accept "e*rpm" and "erpm+"
+  // for erpm. So a formula must write the name exactly.
   const bool as_headed = formula.column == column->name || formula.column == column->heading;
   if (!as_headed && formula.column.find_first_of("*/+^=") != std::string::npos)
     return of_recording(r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
@@ -107,7 +108,8 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
       for (double& x : *values) x *= formula.factor;
     return values;
   }
-  // A formula with constants uses the numbers of the file: without unit, and with its power of ten restored.
+  // A formula with constants uses the numbers as the file has them: without unit, and with the unit's power
+  // of ten restored.
   RecordedColumn bare = *column;
   const int ten = bare.unit.empty() ? 0 : unit_of(bare.unit)->ten;
   bare.unit.clear();

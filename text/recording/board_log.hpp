@@ -15,11 +15,10 @@
 
 namespace text {
 
-/// Statements of the user that add to the headings or replace them.
+/// Columns that the user names, in addition to the headings or in place of them.
 struct LogColumns {
   std::vector<std::string>
       formulas;  ///< see column_formula.hpp; if given, only their columns and the time are read
-                 ///< are read
   std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
   std::optional<int> pole_pairs{};   ///< pole pairs of the motor, which convert electrical speeds
 };
@@ -30,8 +29,9 @@ struct BoardLog {
   Notes notes;
 };
 
-/// Reads from the last headings on, where the board last started; an incomplete last line is left out. Problems:
-/// no time, no column of a trace, an unknown unit, a cell that is not a number, a time that does not rise.
+/// Reads a log from its last headings on, where the board last started; an incomplete last line is left out.
+/// Problems: no time, no column of a trace, an unknown unit, a cell that is not a number, a time that does
+/// not rise.
 base::Result<BoardLog> read_board_log(const std::string& name, std::string_view bytes,
                                       const LogColumns& wanted = {});
 

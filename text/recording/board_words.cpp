@@ -24,7 +24,7 @@ bool holds_faults(const RecordedColumn& column) { return is_headed(column, {"fau
 
 std::string rows_say(std::size_t rows) { return rows == 1 ? "1 row says" : fmt::format("{} rows say", rows); }
 
-/// The rows in which a number is above 0.
+/// The rows in which a column's number is above 0.
 struct Marked {
   std::size_t rows = 0, first = 0;
   double most = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints a board's own messages with the numbers of a run: remarks between the rows, missed periods, faults.
+// Prints a board's own messages in a log: remarks between the rows, missed periods, faults.
 #pragma once
 #include "text/recording/recording.hpp"
 
@@ -7,7 +7,8 @@ namespace text {
 
 Notes what_the_board_says(const Recording& recording);
 
-/// Whether what_the_board_says() covers this column, so that it needs no note that a simulation lacks it.
+/// Whether what_the_board_says() evaluates this column, so that no note is needed that a simulation does not
+/// have it.
 bool is_the_boards_word(const RecordedColumn& column);
 
 }  // namespace text

@@ -10,7 +10,7 @@
 namespace text {
 namespace {
 
-/// Replaces a decimal comma by a point. A point without a digit before or after it gets a 0 there.
+/// Replaces a decimal comma by a point. If no digit precedes or follows the point, a 0 is added there.
 std::string as_decimal(std::string_view cell, bool decimal_comma) {
   std::string out(cell);
   if (decimal_comma) std::replace(out.begin(), out.end(), ',', '.');
@@ -19,7 +19,7 @@ std::string as_decimal(std::string_view cell, bool decimal_comma) {
   return out;
 }
 
-/// "5e-1" times 10^3 is "5e2": only the exponent changes.
+/// A number times a power of ten: "5e-1" times 10^3 is "5e2". Only the exponent changes.
 std::optional<double> moved(std::string_view number, int ten) {
   const std::size_t e = std::min(number.find_first_of("eE"), number.size());
   int exponent = 0;
@@ -34,8 +34,8 @@ std::optional<double> moved(std::string_view number, int ten) {
   return x.kind == DecimalNumber::Kind::number ? std::optional(x.value) : std::nullopt;
 }
 
-/// The place after the quotes of the cell that begins at `at`, if they enclose the whole cell. The cell's
-/// separator is searched from there.
+/// The place after the quotes of the cell that begins at `at`, if quotes enclose the whole cell. The search
+/// for the cell's separator begins there.
 std::size_t behind_quotes(std::string_view line, std::size_t at, char separator) {
   const std::size_t open = line.find_first_not_of(' ', at);
   if (open == std::string_view::npos || line[open] != '"') return at;
@@ -88,7 +88,8 @@ std::optional<char> separator_of_row(std::string_view line) {
     if (c != ' ' && line.find(c) == std::string_view::npos) continue;
     const std::vector<std::string_view> cells = cells_of_line(line, c);
     if (cells.empty() || !number_in(cells[0])) continue;
-    // "0,5 1,2" also has a number before its first comma, but only blanks make numbers of all cells.
+    // "0,5 1,2" also has a number before its first comma. But only blanks as separators make all cells
+    // numbers.
     if (std::all_of(cells.begin(), cells.end(),
                     [](std::string_view cell) { return cell.empty() || number_in(cell).has_value(); }))
       return c;

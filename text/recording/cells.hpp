@@ -7,17 +7,19 @@
 
 namespace text {
 
-/// Returns the cell without surrounding blanks and quotes.
+/// Returns the cell's text without surrounding blanks and quotes.
 std::string_view bare_cell(std::string_view text);
 
-/// A line's cells, bare. Empty cells at the end are dropped. A quoted text is one cell, commas included.
+/// Returns the bare cells of a line. Empty cells at the end are left out. A quoted text is one cell,
+/// including its commas.
 std::vector<std::string_view> cells_of_line(std::string_view line, char separator);
 
-/// The number in the whole cell times 10^ten, rounded once. A comma is a decimal point: between cells separated
-/// by ';', tab or blanks, and within quotes if commas separate the cells.
+/// The number times 10^ten if the whole cell is one, rounded once. A comma is a decimal point in two cases:
+/// between cells separated by ';', tab or blanks, and within quotes if commas separate the cells.
 std::optional<double> number_in(std::string_view cell, int ten = 0);
 
-/// The separator of a row, a line whose first cell is a number: ';', tab, ',' or a blank. Empty for other lines.
+/// The separator of a row: ';', tab, ',' or a blank. A row is a line whose first cell is a number. Empty for
+/// other lines.
 std::optional<char> separator_of_row(std::string_view line);
 
 }  // namespace text

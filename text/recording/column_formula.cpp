@@ -20,7 +20,8 @@ std::optional<double> constant_in(std::string_view word) {
   return number_alone(word);
 }
 
-/// Removes constants from the end, "/60" and "*pi", as long as there are any.
+/// Moves constants such as "/60" and "*pi" from the end of the text into the formula, as long as there are
+/// any.
 void take_behind(std::string_view& rest, ColumnFormula& out) {
   for (std::size_t cut = rest.find_last_of("*/"); cut != std::string_view::npos;
        cut = rest.find_last_of("*/")) {
@@ -32,7 +33,8 @@ void take_behind(std::string_view& rest, ColumnFormula& out) {
   }
 }
 
-/// Removes constants from the beginning, "2*pi*"; a minus there changes the sign.
+/// Moves constants such as "2*pi*" from the beginning of the text into the formula; a minus there changes the
+/// sign.
 void take_before(std::string_view& rest, ColumnFormula& out) {
   if (rest.starts_with('-')) {
     out.factor = -out.factor;
@@ -47,8 +49,8 @@ void take_before(std::string_view& rest, ColumnFormula& out) {
   }
 }
 
-/// The place of a * or / at either end without a constant: "erpm*", "*erpm", and "erpm**2" after its 2 is
-/// removed.
+/// The place of a * or / without a constant at either end: in "erpm*", in "*erpm", and in "erpm**2" after its
+/// 2 has been removed.
 std::optional<std::size_t> operator_without_constant(std::string_view text, std::string_view column) {
   if (column.empty()) return {};
   const auto place = static_cast<std::size_t>(column.data() - text.data());

@@ -13,7 +13,7 @@
 namespace text {
 namespace {
 
-/// "column 2 or column 4"
+/// The places of columns in words: "column 2 or column 4".
 std::string places_of(const Recording& r, const std::vector<const RecordedColumn*>& columns) {
   std::string out;
   for (std::size_t n = 0; n < columns.size(); ++n)
@@ -52,13 +52,13 @@ base::Problem none_called(const Recording& r, const std::string& heading) {
                       near.empty() ? "it has " + headings_of(r) : fmt::format("did you mean \"{}\"?", near));
 }
 
-/// A letter after the name of a voltage is a phase, "phase_A" and "hall_C". Volts and seconds are always
-/// units.
+/// Whether the apparent unit is part of the name: a letter after the name of a voltage is a phase, as in
+/// "phase_A" and "hall_C". V and s are always units.
 bool is_part_of_name(const Picked& picked, const Wanted& wanted) {
   return wanted.unit == "V" && picked.column->letter && picked.unit != "V" && picked.unit != "s";
 }
 
-/// Converts from the column's unit. The values already include its power of ten.
+/// Converts from the column's unit. The values already contain the unit's power of ten.
 base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked, const Wanted& wanted) {
   const std::string belongs = wanted.unit.empty() ? "a plain number" : wanted.unit;
   const RecordedColumn& column = *picked.column;
@@ -82,7 +82,7 @@ bool is_one_of(std::string_view bare, std::span<const std::string_view> names) {
   return std::find(names.begin(), names.end(), bare) != names.end();
 }
 
-/// Compares the name with the apparent unit: "u_a" is not u in amperes.
+/// Compares the name including the apparent unit: "u_a" does not mean u in amperes.
 bool is_called_as_a_whole(const RecordedColumn& column, std::span<const std::string_view> names) {
   return (column.unit.empty() || column.letter) && is_one_of(bare_name(column.heading), names);
 }
@@ -154,7 +154,8 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
   }
   base::Result<std::vector<double>> out = converted(recording, picked, wanted);
   if (!out) return out;
-  constexpr double most = 1e12;  // beyond all instruments; products of such values are still finite
+  constexpr double most = 1e12;  // beyond the range of all instruments; products of such values are still
+                                 // finite
   for (std::size_t n = 0; n < out->size(); ++n)
     if (!(std::fabs((*out)[n]) <= most))
       return of_recording(

@@ -13,14 +13,14 @@
 
 namespace text {
 
-/// A column and the unit of its values: the heading's unit, unless that letter is part of the name that was
-/// found.
+/// A column and the unit of its values. This is the heading's unit, unless its letter is part of the name
+/// that was found.
 struct Picked {
   const RecordedColumn* column = nullptr;
   std::string unit;
 };
 
-/// Whether its bare name is one of `names`.
+/// Whether the column's bare name is one of `names`.
 bool is_called(const RecordedColumn& column, std::span<const std::string_view> names);
 
 /// The column with one of these names; null if there is none. Problem: two columns match.
@@ -30,8 +30,8 @@ inline base::Result<Picked> find_column(const Recording& recording,
   return find_column(recording, std::span(names.begin(), names.size()));
 }
 
-/// The columns with these headings; "column 3" means a place. A heading given as often as it occurs means each
-/// of its columns in turn. The Problem lists the headings.
+/// The columns with these headings; "column 3" means a place. If a heading is given as often as it occurs, it
+/// means each of its columns in turn. The Problem lists the headings.
 base::Result<std::vector<Picked>> columns_called(const Recording& recording,
                                                  const std::vector<std::string>& headings);
 
@@ -44,7 +44,7 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
 base::Result<std::vector<double>> converted(const Recording& recording, const Picked& picked,
                                             const Wanted& wanted);
 
-/// "hall1, hall2, u_ab": the headings, for messages.
+/// The headings for messages: "hall1, hall2, u_ab".
 std::string headings_of(const Recording& recording);
 
 /// Adds the note "not used: Comment, Remark (holds no numbers), Temp (in degC)"; no note without columns.

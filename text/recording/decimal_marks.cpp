@@ -60,8 +60,8 @@ const DecimalMarks::Cell* DecimalMarks::first_of(Marked Column::*mark) const {
 }
 
 /// One cell that can only be a decimal fraction determines the mark of the whole file. A column with numbers
-/// of 1000 and more without a mark determines its own. `decimal_point`: the mark is decimal unless the column
-/// has a number such as 942 in addition to 1.025.
+/// of 1000 and more without a mark determines only its own mark. `decimal_point`: the mark is decimal unless
+/// a column has a number such as 942 in addition to 1.025.
 std::optional<base::Problem> DecimalMarks::thousands(const std::string& file, Marked Column::*mark, char c,
                                                      bool decimal_point) const {
   const auto settles = [&](const Column& column) {

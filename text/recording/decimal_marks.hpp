@@ -12,8 +12,8 @@
 
 namespace text {
 
-/// "1,025" and "-2,940": one mark before exactly three digits, and before the mark one to three digits, the
-/// first not 0.
+/// Whether a mark may separate thousands, as in "1,025" and "-2,940". There is one mark before exactly three
+/// digits; one to three digits precede it, of which the first is not 0.
 bool may_part_thousands(std::string_view number, char mark);
 
 /// Collects the cells that are numbers. A table is ambiguous if it has both marks, or if each of its marks
@@ -21,8 +21,8 @@ bool may_part_thousands(std::string_view number, char mark);
 class DecimalMarks {
  public:
   void see(std::size_t line, std::size_t column, std::string_view cell);
-  /// `file` is the name for messages. A semicolon between cells indicates a country with a decimal comma, where
-  /// points may separate thousands.
+  /// The Problem of an ambiguous table; `file` is the name for messages. A semicolon between cells indicates
+  /// a country with a decimal comma, where points may separate thousands.
   std::optional<base::Problem> doubt(const std::string& file, char separator) const;
 
  private:
@@ -30,14 +30,14 @@ class DecimalMarks {
     std::size_t line = 0;
     std::string text;
   };
-  /// One column's cells with one mark.
+  /// The cells of one column that contain one kind of mark.
   struct Marked {
     std::optional<Cell> first;
-    bool in_thousands = true;  ///< in each cell the mark may separate thousands
+    bool in_thousands = true;  ///< whether the mark may separate thousands in each of these cells
   };
   struct Column {
     Marked comma, point;
-    std::optional<Cell> hundreds;  ///< 100 to 999 without a mark
+    std::optional<Cell> hundreds;  ///< a number from 100 to 999 without a mark
     bool bare_thousands = false;   ///< a number of 1000 and more without a mark
   };
   const Cell* first_of(Marked Column::*mark) const;

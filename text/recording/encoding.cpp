@@ -20,7 +20,8 @@ void add_utf8(std::string& out, std::uint32_t c) {
   }
 }
 
-/// Characters of the bytes 0x80 to 0x9F; 0xFFFD if CP1252 has none. All other bytes equal their code points.
+/// The characters that CP1252 has for the bytes 0x80 to 0x9F; 0xFFFD if it has none. All other bytes equal
+/// their code points.
 constexpr std::uint16_t above_ascii[32] = {0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                            0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD,
                                            0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
@@ -48,7 +49,7 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return out;
 }
 
-/// The number of bytes that follow the first byte of a character; 4 if no character begins with it.
+/// The number of bytes that follow a character's first byte; 4 if no character begins with this byte.
 std::size_t following(unsigned char c) {
   if (c < 0x80U) return 0;
   if (c >= 0xC2U && c < 0xE0U) return 1;
@@ -66,7 +67,7 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// Replaces the line ends in place.
+/// Replaces all line ends by "\n", in place.
 void with_plain_line_ends(std::string& text) {
   std::size_t to = 0;
   for (std::size_t n = 0; n < text.size(); ++n) {

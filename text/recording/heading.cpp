@@ -30,7 +30,7 @@ constexpr std::pair<std::string_view, std::string_view> prefix_words[] = {
     {"pico", "p"}, {"nano", "n"}, {"micro", "u"}, {"milli", "m"}, {"kilo", "k"}, {"mega", "M"},
     {"p", "p"},    {"n", "n"},    {"u", "u"},     {"m", "m"},     {"k", "k"}};
 
-/// "volt" and "volts".
+/// The unit of a word such as "volt" or "volts".
 std::string_view word_for(std::string_view small) {
   for (const auto& [word, unit] : unit_words)
     if (small == word || (word.size() > 2 && small.size() == word.size() + 1 && small.starts_with(word) &&
@@ -39,8 +39,7 @@ std::string_view word_for(std::string_view small) {
   return {};
 }
 
-/// Words for raw counts and scales of an instrument, and for logarithms: they are no units of the measured
-/// quantity.
+/// Words for raw counts, scales of an instrument, and logarithms: they are no units of the measured quantity.
 bool is_no_measure(std::string_view word) {
   constexpr std::string_view words[] = {"counts", "count",  "cnt",  "cnts",    "lsb",    "raw",  "adc",
                                         "ticks",  "digits", "div",  "dbv",     "dbmv",   "dbuv", "dbm",
@@ -54,7 +53,7 @@ bool is_number_of_a_place(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// A word in a place that can only be a unit.
+/// A heading whose word is in a place that can only be a unit.
 Heading with_word(std::string_view name, std::string_view word) {
   Heading out{std::string(bare_cell(name)), unit_in_words(word), {}, false};
   word = bare_cell(word);
@@ -62,7 +61,8 @@ Heading with_word(std::string_view name, std::string_view word) {
   return out;
 }
 
-/// "u_ab [V]", "(V)". "V(a,b)" is a voltage in SPICE's notation, and "eRPM[0]" the first of several.
+/// A unit in brackets: "u_ab [V]", "(V)". But "V(a,b)" is a voltage in SPICE's notation, and "eRPM[0]" is the
+/// first of several columns.
 std::optional<Heading> in_brackets(std::string_view cell) {
   if (cell.empty() || (cell.back() != ']' && cell.back() != ')')) return {};
   const std::size_t open = cell.find_last_of(cell.back() == ']' ? '[' : '(');
@@ -76,7 +76,7 @@ std::optional<Heading> in_brackets(std::string_view cell) {
   return out;
 }
 
-/// "C1 in V", "in s" and "U / V".
+/// A unit after a word: "C1 in V", "in s" and "U / V".
 std::optional<Heading> behind_a_word(std::string_view cell) {
   for (const std::string_view word : {" in ", " / "})
     if (const std::size_t at = cell.rfind(word); at != std::string_view::npos)
@@ -94,7 +94,7 @@ bool is_unit_alone(std::string_view cell) {
   return same_kind(u, *unit_of("s")) || same_kind(u, *unit_of("V"));
 }
 
-/// Behind a name these are words or letters, not units: "current_in", "axis_10".
+/// Words and letters that are no units if they follow a name: "current_in", "axis_10".
 bool is_rather_a_word(std::string_view word) {
   constexpr std::string_view words[] = {"in", "inch", "ft",   "h",     "lb", "lbs", "oz",
                                         "kp", "KV",   "turn", "turns", "m",  "g"};
@@ -112,7 +112,7 @@ std::string unit_in_pieces(std::string_view pieces) {
   return {};
 }
 
-/// "i_m_A" is the known i_m in A, not i in m/A; "i_m" has no unit.
+/// A known name with a unit: "i_m_A" is i_m in A, not i in m/A; "i_m" has no unit.
 std::optional<Heading> behind_a_known_name(std::string_view cell) {
   for (std::size_t at = cell.rfind('_'); at != std::string_view::npos && at > 0;
        at = cell.rfind('_', at - 1)) {
@@ -125,7 +125,7 @@ std::optional<Heading> behind_a_known_name(std::string_view cell) {
   return {};
 }
 
-/// "speed_rad_s": the pieces of a key's unit, parted by underscores.
+/// A unit in pieces of a key that underscores separate: "speed_rad_s".
 std::optional<Heading> behind_underscores(std::string_view cell) {
   const std::string_view name = without_unit(cell);
   if (name.empty() || name.size() == cell.size()) return {};
@@ -135,7 +135,7 @@ std::optional<Heading> behind_underscores(std::string_view cell) {
   return Heading{std::string(name), std::move(unit), {}, pieces.size() == 1};
 }
 
-/// "CH1 mV", "CH1_mVolt", "u_ab, mV", "u_ab_counts", and "u_ab.v" as Modelica has it.
+/// A unit as the last word: "CH1 mV", "CH1_mVolt", "u_ab, mV", "u_ab_counts", and "u_ab.v" as in Modelica.
 std::optional<Heading> last_word(std::string_view cell) {
   const std::size_t cut = cell.find_last_of(" _.,");
   if (cut == std::string_view::npos || cut == 0 || cut + 1 == cell.size()) return {};
@@ -144,7 +144,7 @@ std::optional<Heading> last_word(std::string_view cell) {
   if (name.ends_with(',')) name.remove_suffix(1);
   if (name.empty()) return {};
   if (is_no_measure(word)) return Heading{std::string(name), {}, std::string(word), false};
-  // Small letters are names: "hall_v", "phase a".
+  // A lower-case letter is part of the name: "hall_v", "phase a".
   if (word.size() == 1 && cell[cut] != '.' && unit_of(word) == std::nullopt) return {};
   const std::string unit = unit_in_words(word);
   if (unit.empty() || is_rather_a_word(word)) return {};
@@ -172,7 +172,7 @@ std::string unit_in_words(std::string_view cell) {
     if (std::string unit = plain_spelling(as_written); !unit.empty() && unit_of(unit)) return unit;
   const std::string small = lower(plain_spelling(bare));
   if (const std::string_view unit = word_for(small); !unit.empty()) return std::string(unit);
-  if (small == "ms" || small == "us" || small == "ns")  // "uS", but not "MS"
+  if (small == "ms" || small == "us" || small == "ns")  // upper case is accepted in "uS", but not in "MS"
     return std::islower(static_cast<unsigned char>(bare[0])) != 0 || small != "ms" ? small : std::string();
   for (const auto& [word, letter] : prefix_words) {
     if (!small.starts_with(word) || small.size() < word.size() + 3) continue;
@@ -187,7 +187,7 @@ Heading heading_of(std::string_view cell) {
   if (std::optional<Heading> found = in_brackets(cell)) return *found;
   if (std::optional<Heading> found = behind_a_word(cell)) return *found;
   if (is_unit_alone(cell)) {
-    // A volt may also be the name of a column; a second is the time.
+    // V alone may also be the name of a column, but s alone is the time.
     const std::string unit = unit_in_words(cell);
     return {same_kind(*unit_of(unit), *unit_of("V")) ? std::string(cell) : std::string(), unit, {}, false};
   }

@@ -11,7 +11,7 @@ namespace text {
 
 bool names_a_time(std::string_view bare);
 
-/// "im" for i_m_A, as a log's heading has it.
+/// The column's name as a log's heading may have it: "im" for i_m_A.
 std::string bare_column(const study::Column& column);
 
 /// Whether the heading names a time, a Hall line or code, a voltage, or a column of a trace.

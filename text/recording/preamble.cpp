@@ -26,16 +26,16 @@ bool is_one_of(std::string_view name, const Names& names) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// "20 kHz", "1.25GSa/s", "Analog:0.000002" or "4e-06,s" in s or 1/s.
+/// The value in s or 1/s of a text such as "20 kHz", "1.25GSa/s", "Analog:0.000002" or "4e-06,s".
 std::optional<double> value_in(std::string_view text, char separator, bool rate) {
   if (const std::size_t word = text.find(':'); word < text.find_first_of("0123456789"))
     text.remove_prefix(word + 1);
   text.remove_prefix(std::min(text.find_first_not_of(" ,;\t\""), text.size()));
   const std::size_t size = decimal_number(text).size;
   std::size_t end = size;
-  if (separator == ';' || separator == '\t')  // "0,0001"
+  if (separator == ';' || separator == '\t')  // with these separators, "0,0001" is one number
     end = std::min(text.find_first_not_of("0123456789.,eE+-"), text.size());
-  // "10,000 Hz" is ambiguous: ten hertz or ten thousand.
+  // "10,000 Hz" is ambiguous: it may mean ten hertz or ten thousand.
   const std::size_t digits = std::min(text.find_first_not_of("0123456789,"), text.size());
   if (may_part_thousands(text.substr(0, digits), ',')) return {};
   const std::optional<double> number = number_in(text.substr(0, end));
@@ -49,10 +49,10 @@ std::optional<double> value_in(std::string_view text, char separator, bool rate)
     if (word.ends_with(samples)) word.replace(word.size() - samples.size(), samples.size(), "Hz");
   const std::string known = unit_in_words(word);
   const base::Result<Conversion> in_si = conversion(known.empty() ? "1" : known, rate ? "Hz" : "s");
-  return in_si ? in_si->of(*number) : *number;  // otherwise the next cell is something else
+  return in_si ? in_si->of(*number) : *number;  // otherwise the next cell is not a unit
 }
 
-/// Rigol's MSO5000 writes them among its headings: "CH1V,t0 = -6e-06,tInc = 2e-09".
+/// Finds the times that Rigol's MSO5000 writes among its headings: "CH1V,t0 = -6e-06,tInc = 2e-09".
 std::optional<RowClock> clock_among_headings(std::string_view line, char separator) {
   const auto value_of = [&](std::string_view name) -> std::optional<double> {
     const std::size_t at = line.find(name), equals = line.find('=', std::min(at, line.size()));

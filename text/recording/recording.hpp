@@ -26,13 +26,13 @@ struct RecordedColumn {
   std::string heading;         ///< heading as in the file
   std::string name;            ///< unique, without its unit; "column 2" without a heading
   std::string bare;            ///< bare_name() of `name`; two columns may have the same
-  std::string unit;            ///< in the spelling of units.hpp; empty: none
-  std::string odd_unit;        ///< the word in the place of the unit if it is no unit
-  bool letter = false;         ///< the unit may be a part of the name, see Heading
-  std::vector<double> values;  ///< in the unit without its power of ten: in V for mV
-  std::vector<BadCell> bad;    ///< the first few; an unused column may hold anything
-  std::size_t bad_cells = 0;   ///< their number
-  bool filled = false;         ///< some cell is not empty
+  std::string unit;            ///< unit in the spelling of units.hpp; empty: none
+  std::string odd_unit;        ///< the word in the place of the unit if that word is no unit
+  bool letter = false;         ///< whether the unit may be a part of the name, see Heading
+  std::vector<double> values;  ///< values in the unit without its power of ten: in V for mV
+  std::vector<BadCell> bad;    ///< the first few bad cells; an unused column may hold anything
+  std::size_t bad_cells = 0;   ///< number of bad cells
+  bool filled = false;         ///< whether some cell is not empty
 
   bool has_numbers() const { return bad_cells < values.size(); }
 };
@@ -40,40 +40,41 @@ struct RecordedColumn {
 /// Messages about an accepted file: unused parts with the reason, and assumptions.
 using Notes = std::vector<std::string>;
 
-/// A line of the file between its rows that begins with '#' or '%'.
+/// A line between the file's rows that begins with '#' or '%'.
 struct Remark {
-  std::string text;       ///< without that mark
+  std::string text;       ///< text without '#' or '%'
   std::size_t line = 0;   ///< line of its first occurrence
-  std::size_t times = 1;  ///< occurrences
+  std::size_t times = 1;  ///< number of occurrences
 };
-/// Different remarks at most.
+/// Largest number of different remarks that are kept.
 constexpr std::size_t most_remarks = 8;
 
 struct Recording {
   std::string name;  ///< name of the file, for messages
   std::vector<RecordedColumn> columns;
-  std::optional<RowClock> clock;  ///< from the preamble
+  std::optional<RowClock> clock;  ///< interval and start of the rows, from the preamble
   bool has_headings = false;
-  std::vector<std::pair<std::size_t, std::size_t>> lines{};  ///< row and line wherever lines are skipped
-  std::vector<Remark> remarks{};                             ///< below the first row
+  std::vector<std::pair<std::size_t, std::size_t>> lines{};  ///< index of a row and its line in the file,
+                                                             ///< wherever lines are skipped
+  std::vector<Remark> remarks{};                             ///< remarks below the first row
   Notes notes;
 
   std::size_t rows() const { return columns.front().values.size(); }
   std::size_t line_of(std::size_t row) const;
 };
 
-/// "scope.csv: limit; cure"
+/// A Problem whose text begins with the file's name: "scope.csv: limit; cure".
 base::Problem of_recording(const Recording& recording, std::string limit, std::string cure);
 
-/// The rows that are read.
+/// Selects the rows that are read.
 enum class RowsFrom {
-  first,      ///< all
-  last_start  ///< from the board's last start, at its last headings, to the last complete line
+  first,      ///< all rows
+  last_start  ///< rows from the board's last start, at its last headings, to the last complete line
 };
 
-/// Cells are separated by ',' or by ';', a tab or blanks; with the latter three a comma may be the decimal
-/// point. A line that begins with '#' or '%' is a remark. If an instrument writes keys and values in the
-/// cells next to the rows, only the rows are read.
+/// Reads a table. Cells are separated by ',' or by ';', a tab or blanks. If they are not separated by ',', a
+/// comma may be the decimal point. A line that begins with '#' or '%' is a remark. If an instrument writes
+/// keys and values in the cells next to the rows, only the rows are read.
 base::Result<Recording> read_recording(const std::string& name, std::string_view bytes,
                                        RowsFrom from = RowsFrom::first);
 

@@ -16,11 +16,11 @@
 namespace text {
 namespace {
 
-/// Oscilloscopes write their settings there.
+/// Largest number of lines above the rows: oscilloscopes write their settings there.
 constexpr std::size_t most_lines_above = 100;
-/// 160 MB; larger than the memory of any oscilloscope that a bench needs.
+/// Largest number of values: 160 MB, more than the memory of any oscilloscope that a bench needs.
 constexpr std::size_t most_values = 20'000'000;
-/// Quoted wrong cells per column.
+/// Largest number of wrong cells per column that are quoted.
 constexpr std::size_t most_quoted = 6;
 
 bool is_remark(std::string_view line) {
@@ -53,7 +53,7 @@ std::optional<RowsBeside> rows_beside(std::string_view text) {
   std::optional<RowsBeside> found;
   int rows = 0;
   for (; rows < looked_at && !text.empty(); ++rows) {
-    const std::size_t begin = text.rfind('\n') + 1;  // 0 if there is no line before it
+    const std::size_t begin = text.rfind('\n') + 1;  // 0 if no line precedes it
     const std::string_view line = text.substr(begin);
     RowsBeside here;
     for (const char c : {';', '\t', ','})
@@ -114,7 +114,7 @@ bool RowReader::begins_rows(std::string_view text) {
   return true;
 }
 
-/// Reads cells next to the first rows as lines above the rows.
+/// Keeps the cells next to the first rows as lines above the rows.
 bool RowReader::row_beside(std::string_view text) {
   std::vector<std::string_view> cells = cells_of_line(text, beside_->separator);
   const bool is_row = beside_->cells < cells.size() && number_in(cells[beside_->cells]).has_value();
@@ -136,7 +136,7 @@ bool RowReader::row_beside(std::string_view text) {
     separator_ = beside_->separator;
     first_cells_ = cells.size();
     first_line_ = number_;
-    out_.columns.resize(cells.size());  // named when all cells next to the rows are known
+    out_.columns.resize(cells.size());  // names follow when all cells next to the rows are read
     tens_.assign(cells.size(), 0);
   }
   row(cells);
@@ -178,7 +178,7 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
   }
 }
 
-/// A row with more cells than columns is a problem, because the meaning of the further ones is unknown.
+/// A row with more cells than columns is a problem, because the meaning of the further cells is unknown.
 std::optional<base::Problem> RowReader::wrong_cells() const {
   const bool more_than_names = names_ > 0 && first_cells_ > names_;
   if (separator_ == ',' && !has_point_ && (more_than_names || (names_ == 0 && has_leading_zero_)))

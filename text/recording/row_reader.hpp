@@ -11,22 +11,22 @@
 
 namespace text {
 
-/// The place of the rows in a table with other cells next to them.
+/// The place of the rows in a table that has other cells next to them.
 struct RowsBeside {
   char separator = 0;
   std::size_t cells = 0;  ///< number of cells before the row's own first cell
 };
 
-/// Recognises a table in which most lines begin with the same number of empty cells and a number: "Record
-/// Length,2500,,-0.02,3.78" and then ",,,-0.0199,3.77".
+/// Recognises a table in which most lines begin with the same number of empty cells and then a number: after
+/// "Record Length,2500,,-0.02,3.78" follows ",,,-0.0199,3.77".
 std::optional<RowsBeside> rows_beside(std::string_view text);
 
 class RowReader {
  public:
-  /// `line`: lines of the file before the first one that is passed.
+  /// `line`: number of lines of the file before the first line that is passed to line().
   RowReader(std::string name, std::size_t line, std::optional<RowsBeside> beside);
 
-  /// False: the rest is not read, because the text is no table or too long.
+  /// Reads the next line. Returns false if the rest is not read, because the text is no table or too long.
   bool line(std::string_view text);
   base::Result<Recording> result();
 

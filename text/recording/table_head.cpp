@@ -31,8 +31,8 @@ std::string_view without_brackets(std::string_view cell) {
   return is_in_brackets(cell) ? cell.substr(1, cell.size() - 2) : cell;
 }
 
-/// "Second,Volt" and "(ms),(foo)": a line of units below the names; some may be unknown if brackets show that
-/// they are units.
+/// Whether the cells are units below names, as in "Second,Volt" and "(ms),(foo)". Some may be unknown if
+/// brackets show that they are units.
 bool are_units(const Cells& cells) {
   const auto is_unit = [](std::string_view cell) { return !unit_in_words(cell).empty(); };
   return std::any_of(cells.begin(), cells.end(), is_unit) &&
@@ -41,8 +41,8 @@ bool are_units(const Cells& cells) {
          });
 }
 
-/// "t,u_ab" above "s,foo": a unit is below a known name, and no unit's name is a known one. The rest must be
-/// units then.
+/// Whether "s,foo" below "t,u_ab" are units: one is a unit below a known name, and none of them is itself a
+/// known name. The other cells must then be units.
 bool are_units_below(const Cells& names, const Cells& cells) {
   const auto known = [](std::string_view cell) { return is_known_name(bare_name(heading_of(cell).name)); };
   if (std::any_of(cells.begin(), cells.end(), known)) return false;
@@ -51,7 +51,7 @@ bool are_units_below(const Cells& names, const Cells& cells) {
   return false;
 }
 
-/// Blanks also separate names from their units, "t [s] u_ab [V]".
+/// Joins names and units if blanks separate them, as in "t [s] u_ab [V]".
 Cells with_units_joined(const Cells& cells) {
   Cells out;
   for (const std::string_view cell : cells)
@@ -74,7 +74,7 @@ class HeadReader {
   std::size_t take() {
     find_clock();
     Head head = find_head();
-    // Start and step of the time are not columns.
+    // Cells with '=' give start and step of the time, and are not columns.
     while (head.names.size() > cells_ && head.names.back().find('=') != std::string_view::npos)
       head.names.pop_back();
     out_.has_headings = !head.names.empty();
@@ -100,17 +100,17 @@ class HeadReader {
         if (!out_.clock) out_.clock = clock_in(line, above_.separator);
   }
 
-  /// The last lines above the rows: headings, perhaps with a line of units below them.
+  /// The last lines above the rows: the headings, and a line of units if there is one below them.
   Head find_head() {
     Head head;
     const std::vector<std::string>& lines = above_.lines;
-    if (above_.cells_before > 1) return head;  // the rows are in those lines too
+    if (above_.cells_before > 1) return head;  // such lines also contain rows
     if (lines.size() > 1) {
       const Cells names = cells_of(lines[lines.size() - 2]), below = cells_of(lines.back());
       if (const std::optional<RowClock> clock = clock_below(names, below)) {
         out_.clock = clock;
         head = {names, below};
-        // Start and Increment have no column of their own.
+        // Start and Increment are the headings of no column.
         head.names.resize(std::min(cells_, names.size()));
         for (std::string_view& unit : head.units)
           if (unit_in_words(unit).empty()) unit = {};
@@ -129,12 +129,13 @@ class HeadReader {
         break;
     }
     if (head.names.empty())
-      head.names = std::exchange(head.units, {});  // "s,V": units at once, or names that look like units
+      head.names = std::exchange(head.units, {});  // for "s,V": the cells may be units without names, or
+                                                   // names that look like units
     if (head.units.empty()) head.units = units_by_keys();
     return head;
   }
 
-  /// "Horizontal Units,s" and "Vertical Units,V,V" above the headings, as Tektronix writes them.
+  /// The units that Tektronix writes above the headings: "Horizontal Units,s" and "Vertical Units,V,V".
   Cells units_by_keys() const {
     Cells units;
     for (const std::string& line : above_.lines) {
@@ -173,7 +174,7 @@ class HeadReader {
     return out;
   }
 
-  /// Tektronix has no headings, but "Source,CH1" and "Vertical Units,V" next to the rows.
+  /// Names columns without headings: Tektronix writes "Source,CH1" and "Vertical Units,V" next to the rows.
   void name_by_keys() {
     if (above_.cells_before < 2 || out_.has_headings || out_.columns.size() < 2) return;
     std::map<std::string, std::string> values;
@@ -192,7 +193,7 @@ class HeadReader {
     time.heading = time.name = "time";
   }
 
-  /// sigrok heads all lines "logic" and lists their names above.
+  /// Names channels: sigrok heads all lines "logic" and lists their names above.
   void name_channels() {
     std::vector<RecordedColumn*> lines;
     for (RecordedColumn& column : out_.columns)

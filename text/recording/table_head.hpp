@@ -10,12 +10,12 @@ namespace text {
 
 struct LinesAbove {
   const std::vector<std::string>& lines;    ///< preamble and headings
-  const std::vector<std::string>& remarks;  ///< lines that begin with '#' or '%'
+  const std::vector<std::string>& remarks;  ///< lines with '#' or '%' as the first character
   char separator;
-  std::size_t cells_before = 0;  ///< cells in front of the row's own first cell
+  std::size_t cells_before = 0;  ///< number of cells before the row's own first cell
 };
 
-/// Fills columns, clock and has_headings. Returns the number of cells in the line of headings, 0 if there is
+/// Sets columns, clock and has_headings. Returns the number of cells in the line of headings, 0 if there is
 /// none.
 std::size_t take_head(const LinesAbove& above, std::size_t cells, Recording& out);
 

@@ -17,14 +17,14 @@ bool is_in_seconds(const RecordedColumn& column) {
   return !column.unit.empty() && same_kind(*unit_of(column.unit), *unit_of("s"));
 }
 
-/// 0, 1, 2 or 1, 2, 3: sample numbers of an oscilloscope.
+/// Whether the values are an oscilloscope's sample numbers: 0, 1, 2 or 1, 2, 3.
 bool are_numbers_of_rows(const std::vector<double>& values) {
   for (std::size_t n = 0; n < values.size(); ++n)
     if (values[n] - values[0] != static_cast<double>(n)) return false;
   return values.size() > 2;
 }
 
-/// The nonzero steps from row to row: least, median and greatest.
+/// The nonzero differences between successive times: least, median and greatest.
 struct Steps {
   double least = 0.0, middle = 0.0, greatest = 0.0;
   bool even() const { return greatest < 1.5 * least; }
@@ -58,9 +58,9 @@ struct TimeUnit {
 };
 constexpr TimeUnit time_units[] = {{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1.0}};
 
-/// The unit for which a column without a unit agrees with the preamble; null if none does. Rows recorded only
-/// at changes are whole numbers of samples apart in every larger unit too, so that the smallest unit is
-/// chosen.
+/// The unit for which a column without a unit agrees with the preamble; null if there is none. If rows are
+/// recorded only at changes, they are whole numbers of samples apart in every larger unit too. So the
+/// smallest unit is chosen.
 const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, double interval_s) {
   for (const TimeUnit& unit : time_units)
     if (steps.even() && are_near(steps.middle / unit.per_s, interval_s)) return &unit;
@@ -69,7 +69,8 @@ const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, 
   return nullptr;
 }
 
-/// A given interval may be rounded to three digits, and times are rounded or cut at their last digit.
+/// Whether times agree with an interval. A given interval may be rounded to three digits, and times are
+/// rounded or cut at their last digit.
 bool go_with(const std::vector<double>& t, double interval_s) {
   const double digit = 0.99 * steps_of(t).least;
   for (std::size_t n = 1; n < t.size(); ++n) {
@@ -91,7 +92,7 @@ bool is_a_guess(const Recording& r, const RecordedColumn& column) {
   return !r.has_headings && column.unit.empty();
 }
 
-/// Uses the preamble's rate or the given interval.
+/// Times without a column of time, from the preamble's rate or the given interval.
 base::Result<Times> without_column(const Recording& r, std::optional<double> interval_s, Notes& notes) {
   if (interval_s && r.clock && !are_near(*interval_s, r.clock->interval_s))
     return of_recording(
@@ -142,7 +143,7 @@ bool contradict(const Steps& steps, double interval_s) {
   return steps.least < 0.99 * interval_s || (steps.even() && steps.middle > 999.0 * interval_s);
 }
 
-/// The column's values in s, after a comparison with the preamble.
+/// The column's values in s, compared with the preamble if there is one.
 base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedColumn& column,
                                            std::vector<double> t, Notes& notes) {
   if (!r.clock) return t;
@@ -200,7 +201,8 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
     if (t[n] < t[n - 1]) return does_not_rise(n);
     if (t[n] == t[n - 1]) out.left_out.push_back(n - 1);
   }
-  // An event may occur twice at an instant now and then; a time with too few digits repeats everywhere.
+  // Largest fraction of repeated times. Sometimes two events have the same time; a time with too few digits
+  // repeats everywhere.
   constexpr std::size_t one_in = 10;
   if (out.left_out.size() * one_in > t.size()) return does_not_rise(out.left_out[0] + 1);
   if (!out.left_out.empty())
@@ -218,7 +220,7 @@ base::Result<Times> times_at_interval(const Recording& recording, std::vector<do
                         fmt::format("contradicts the interval that is given, {:.6g} s: {} steps by {:.6g} s",
                                     interval_s, column.name, steps_of(t).middle),
                         "leave the interval out, or give the column its right unit, as in time [us]");
-  // Only a time with too few digits needs the interval.
+  // The interval is needed only for times with too few digits.
   if (steps_of(t).even() && std::adjacent_find(t.begin(), t.end()) == t.end())
     return rising_times(recording, std::move(t), column, notes);
   return Times{.t_s = rows_from(t[0], interval_s, t.size()), .left_out = {}, .column = &column};

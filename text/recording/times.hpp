@@ -15,25 +15,26 @@ const RecordedColumn* time_column(const Recording& recording);
 
 struct Times {
   std::vector<double> t_s;            ///< rising
-  std::vector<std::size_t> left_out;  ///< rows at the same instant as the next row
+  std::vector<std::size_t> left_out;  ///< rows with the same time as the next row
   const RecordedColumn* column = nullptr;
 };
 
-/// Uses the given interval; it must not contradict a column of time or the preamble's rate. Without it: the
-/// column of time, whose unit the preamble's rate may determine, or else the preamble's rate. If an instant
-/// occurs twice, as simulators write an event, the later row is used. `notes` lists the assumptions.
-/// Problems: no time, a time that does not rise, a contradiction to the preamble.
+/// Finds the times. `notes` lists the assumptions. Problems: no time, a time that does not rise, a
+/// contradiction to the preamble.
+/// - With an interval: the interval, which must not contradict a column of time or the preamble's rate.
+/// - Without it: the column of time, whose unit the preamble's rate may determine; else the preamble's rate.
+/// - If a time occurs twice, because a simulator writes an event as two rows, the later row is used.
 base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes);
 
-/// Like times_of(), for values that are times in s already.
+/// Like times_of(), for values that are already times in s.
 base::Result<Times> rising_times(const Recording& recording, std::vector<double> t_s,
                                  const RecordedColumn& column, Notes& notes);
 
-/// Like rising_times(), with a given interval. It only replaces digits that the values lack.
+/// Like rising_times(), with a given interval, which only restores digits that the values do not have.
 base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t_s,
                                       const RecordedColumn& column, double interval_s, Notes& notes);
 
-/// The values without those of the rows left out.
+/// The values without those of the left-out rows.
 template <class Value>
 std::vector<Value> without_rows(std::vector<Value> values, const std::vector<std::size_t>& left_out) {
   std::size_t to = 0, next = 0;

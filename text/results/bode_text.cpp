@@ -54,7 +54,7 @@ constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 /// Fraction of samples without current that commutation alone can cause.
 constexpr double least_without_current = 0.01;
 
-/// The first reason that applies.
+/// The first applicable reason why measured and designed loop differ.
 std::string why_beside(const BodeStudy& s) {
   const study::Scenario& end = s.at_end;
   const bool hall =
@@ -74,7 +74,8 @@ std::string why_beside(const BodeStudy& s) {
   return "the response repeats in each period of the multisine and is not linear: commutation, dead time, discontinuous current or a limit";
 }
 
-/// A coherence near 1 shows that the answers repeat, but not that the loop is linear.
+/// Compares measured and designed loop. A coherence near 1 shows that the answers repeat, but not that the
+/// loop is linear.
 std::string beside_the_designed(const BodeStudy& s) {
   double most_dB = 0.0, deg = 0.0, Hz = 0.0;
   for (const LoopPoint& p : s.points) {

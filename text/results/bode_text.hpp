@@ -10,23 +10,24 @@
 
 namespace text {
 
-/// Operating point, one line per frequency, and both margins. `name` is the scenario's.
+/// Operating point, one line per frequency, and the measured and designed margins. `name` is the scenario's.
 std::string bode_text(std::string_view name, const analysis::BodeStudy& study);
 /// Frequencies in Hz, gains in dB, phases in degrees. The designed columns exist only if there is a linear loop.
 std::string bode_csv(const analysis::BodeStudy& study);
 /// JSON in full precision. The same study gives the same bytes.
 std::string bode_json(std::string_view name, const analysis::BodeStudy& study);
 
-/// One line of the comparison of margins: its name, and both values with unit; "-" if there is none.
+/// One line of the comparison of margins: its name, and both values with unit; "-" for a value that does not
+/// exist.
 struct BodeMargin {
   std::string name, measured, designed;
 };
 std::vector<BodeMargin> bode_margins(const analysis::BodeStudy& study);
 
-/// "current around 5 A, +-0.25 A"
+/// The operating point in words: "current around 5 A, +-0.25 A".
 std::string bode_place(const analysis::BodeStudy& study);
-/// Notes on the measurement: frequencies without a line, lines of little coherence, why there is no designed
-/// loop.
+/// Notes on the measurement: frequencies without a line, lines of little coherence, the reason if there is no
+/// designed loop.
 std::vector<std::string> bode_notes(const analysis::BodeStudy& study);
 
 }  // namespace text

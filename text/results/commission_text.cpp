@@ -31,7 +31,7 @@ void add_part(Rows& rows, const char* what, double x, double truth, double bound
 
 void add_angle(Rows& rows, const std::string& what, double x, double truth, double bound) {
   const double off = std::remainder(x - truth, 360.0);
-  // + 0.0 makes a zero that is negative by rounding positive.
+  // Adding 0.0 turns a zero that is negative by rounding into a positive one.
   rows.add({what, fmt::format("{:.2f} deg", x + 0.0), fmt::format("{:.2f} deg", truth + 0.0),
             fmt::format("{:+.2f} deg", off), fmt::format("{:.2f} deg", bound),
             held(std::fabs(off) <= bound)});
@@ -56,7 +56,8 @@ std::string numbers(const CommissionStudy& s) {
          "Resistance is that of a phase and its leg: a switch, and a diode in dead time. Inductance is a phase's along the magnet. Angles are electrical.\n";
 }
 
-/// The chip names a phase by its leg, so crossed phases change the probes' numbers and perhaps the direction.
+/// Explains crossed phases: the chip names a phase by its leg, so that they change the probes' numbers and
+/// perhaps the direction.
 std::string crossed_phases(const sixstep::rig::Wiring& wires) {
   using sixstep::rig::WireOrder;
   if (wires.phases == WireOrder::abc) return "";

@@ -25,7 +25,7 @@ std::string taken(const sixstep::rig::InterruptTimes& t, double clock_Hz) {
 
 constexpr std::string_view fault_remark = "# fault: ", waits_remark = "# waits for ";
 
-/// Limits, because a firmware may send anything.
+/// Limits of the quoted faults, because a firmware may send any text.
 constexpr std::size_t most_faults = 16, longest_reason = 60;
 
 std::string printable(std::string_view words) {
@@ -35,7 +35,7 @@ std::string printable(std::string_view words) {
   return out;
 }
 
-/// The last line that begins with '#': the state of the chip's program.
+/// The last line that begins with '#', in which the chip's program reports its state.
 std::string_view last_remark(std::string_view sent) {
   std::string_view last;
   for (std::size_t at = 0; at < sent.size();) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the results of a run on a core: each answer equals the host's, or the duration of a chip's
+// Prints the results of a run on a core: whether each answer equals the host's, or the duration of a chip's
 // interrupts.
 #pragma once
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace text {
 
-/// "on the Cortex-M4F: 1200 calls, each answered as by the host, to the bit". A chip has a sentence for each
-/// interrupt, and one if it overran its period or stopped by a fault. Empty if only the host ran the drive.
+/// Sentences on the core: "on the Cortex-M4F: 1200 calls, each answered as by the host, to the bit". A chip
+/// has a sentence for each interrupt. It has another one if an interrupt exceeded its period, or if a fault
+/// stopped it. Empty if only the host ran the drive.
 std::vector<std::string> core_texts(const study::Outcome& outcome);
 
-/// Reasons on a chip's serial line, "# fault: over-current", in their order, each once.
+/// The reasons of lines such as "# fault: over-current" on a chip's serial line, in their order, each once.
 std::vector<std::string> chip_faults(const study::ChipReport& chip);
 
-/// Cycles as a time: "66.3 us".
+/// A number of cycles as a time: "66.3 us".
 std::string cycles_text(double cycles, double clock_Hz);
 
 }  // namespace text

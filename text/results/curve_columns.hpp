@@ -11,7 +11,7 @@
 
 namespace text {
 
-/// One point with all its results; the thermal members are null if the sheet has no such lines.
+/// One point with all its results. The thermal members are null if the sheet has no thermal values.
 struct CurveRow {
   const analysis::CurveRequest& request;
   const analysis::OperatingPoint& point;
@@ -24,13 +24,14 @@ struct CurveColumn {
   double (*value)(const CurveRow&);  ///< NaN: no value
 };
 
-/// SI units, mechanical speed, phase currents; speed first. A linear motor has other names for the same values.
+/// Columns in SI units, with mechanical speed and phase currents; the speed comes first. For a linear motor,
+/// the same values have other names.
 std::span<const CurveColumn> curve_columns(const base::Motion& motion = {});
 
 /// The rows of the curve's points, from standstill to no load.
 std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
-/// Thermal results of a point outside the curve.
+/// Thermal results of a point that is not one of the curve's points.
 struct LoosePoint {
   analysis::ThermalLimits limits;
   analysis::Warming warming;

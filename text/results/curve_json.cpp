@@ -34,7 +34,7 @@ Json bench(const analysis::CurveRequest& r) {
           {"housing_degC", r.motor_degC.housing_degC}};
 }
 
-/// A point between those of the curve.
+/// A point that is not one of the curve's points, as JSON.
 Json loose(const analysis::CurveRequest& r, const analysis::Curve& curve,
            const std::optional<analysis::OperatingPoint>& p) {
   return p ? point(curve_row(r, curve, *p, loose_point(r, curve, *p))) : Json(nullptr);

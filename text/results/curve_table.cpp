@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t shown_points = 11;
 constexpr double per_cent = 100;
 
-/// The units of speeds and torques, and their size per rad/s or N m.
+/// The units of speeds and torques, and factors from rad/s and N m.
 struct Units {
   struct Unit {
     double factor;
@@ -50,7 +50,7 @@ std::string fixed(double x, int decimals) {
 
 std::string significant(double x, int digits = 5) {
   if (std::isnan(x)) return "none";
-  if (std::fabs(x) < 1e-9) return "0";  // rounding of a no-load point
+  if (std::fabs(x) < 1e-9) return "0";  // rounding at a no-load point
   const int before = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::fabs(x)))) + 1;
   return fixed(x, std::clamp(digits - before, 0, digits));
 }
@@ -64,7 +64,7 @@ std::string torque_text(double Nm, const Units& u, int digits = 4) {
   return fmt::format("{} {}", significant(Nm * u.torque.factor, digits), u.torque.name);
 }
 
-/// The result for the winding if the point is held: a temperature, or a time.
+/// What the winding does if the motor stays at the point: a final temperature, or a permissible time.
 std::string warming(const analysis::Warming& w) {
   if (!w.permissible_s) return fmt::format("{} degC", fixed(*w.winding_degC, 0));
   const double s = *w.permissible_s;
@@ -145,7 +145,8 @@ class Table {
   std::vector<Row> rows_;
 };
 
-/// A held rotor, and the same rotor just turning, where torque is averaged over the angle.
+/// Two rows: a rotor held at one angle, and a rotor that just begins to turn, with the torque averaged over
+/// the angle.
 void add_standstill(Table& table, const analysis::OperatingPoint& turning) {
   analysis::OperatingPoint locked = turning;
   locked.shaft_torque_Nm = turning.locked->least_torque_Nm;
@@ -155,7 +156,7 @@ void add_standstill(Table& table, const analysis::OperatingPoint& turning) {
   table.add("just turning", turning);
 }
 
-/// Every k-th point, and always the last one.
+/// Every k-th point of the curve, and always the last one.
 std::string points(const analysis::CurveRequest& request, const analysis::Curve& curve) {
   Table table(request, curve);
   const std::size_t count = curve.points.size(), step = (count + shown_points - 2) / (shown_points - 1);
@@ -204,12 +205,12 @@ std::string ideal(const analysis::Bench& b, const Units& u) {
       significant(analysis::ideal_no_load_rad_s(b) * u.speed.factor), u.speed.name);
 }
 
-/// "-12.0 %": the difference from the sheet's value.
+/// The difference from the sheet's value: "-12.0 %".
 std::string against(double here, double sheet) {
   return fmt::format("{:+.1f} %", per_cent * (here / sheet - 1));
 }
 
-/// The speed drop, because the sheet's gradient is only that of the ideal line.
+/// The curve's speed drop, because the sheet's gradient is only that of the ideal line.
 std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
   const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
@@ -221,8 +222,8 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
   return text + " and leaves out the time that commutation takes.\n";
 }
 
-/// Compared only if the curve has the voltage of the sheet's point, and at its torque, because the load
-/// determines the torque, and the motor the speed.
+/// The comparison with the sheet's nominal point, if the curve has that point's voltage. It is made at the
+/// point's torque, because the load determines the torque, and the motor the speed.
 std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::NominalPoint& n = *curve.nominal;
   std::string text =
@@ -267,7 +268,7 @@ std::string stands(const std::string& when, const design::ThermalModel& model,
       analysis::short_times_s[0]);
 }
 
-/// Speeds that the motor's constants allow, but not its mechanics.
+/// A warning of speeds that the motor's constants allow, but not its mechanics.
 std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!r.sheet.max_speed_rpm) return "";
   const double allowed = r.sheet.max_speed_rpm->value / base::rpm_per_rad_s;

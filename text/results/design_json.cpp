@@ -43,7 +43,7 @@ Json limits(const DriveDesign& d) {
           {"longest_period_s", d.longest_period_s}};
 }
 
-/// The speed sensor: the delay of its speed, and the limit of the loop with each way of sensing.
+/// The speed sensor: the delay of its speed, and the fastest loop with each way of sensing.
 Json sensing(const DriveDesign& d) {
   Json limits = Json::array();
   for (const auto& l : d.limits)
@@ -57,7 +57,7 @@ Json sensing(const DriveDesign& d) {
           {"fastest_settling", limits}};
 }
 
-/// A time may be "never"; an infinite value in another unit is null.
+/// A figure as JSON. A time may be "never"; an infinite value in another unit is null.
 Json told(double x, const std::string& unit) { return unit == "s" ? figure_json(x) : finite(x); }
 
 Json robust(const std::vector<RobustFigure>& list) {

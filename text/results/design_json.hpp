@@ -9,7 +9,7 @@
 namespace text {
 
 /// Gains, derivations, margins, Bode and step data of each loop, limits, simulated and designed values, worst
-/// corners, warnings. Values that are infinite or do not exist are null.
+/// variations, warnings. Values that are infinite or do not exist are null.
 std::string design_json(const analysis::DesignStudy& study);
 
 }  // namespace text

@@ -159,7 +159,7 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
          "  these runs have Hall edges in place of zero crossings; run the scenario itself to simulate the start\n";
 }
 
-/// A nominal speed that lies above the limit of commutation.
+/// A sentence on a nominal speed above the speed that commutation allows.
 std::string nominal_above(const DriveDesign& d, const sixstep::design::Sheet& sheet) {
   if (!sheet.nominal_speed_rpm) return "";
   const double nominal = sheet.nominal_speed_rpm->value / sixstep::base::rpm_per_rad_s;
@@ -182,7 +182,8 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
       d.spec.chopping == sixstep::control::Chopping::complementary ? "it reverses within each period"
                                                                    : "it is discontinuous");
   const Motion motion = sixstep::design::motion_of(d.motor);
-  // A turning motor's speeds are in the hundreds, a linear one's a few.
+  // Speeds of rotary motors are in the hundreds, those of linear motors around 1, and need digits after the
+  // point.
   const auto speed = [&](double w, int decimals) {
     return motion.linear ? fmt::format("{:.4g}", w) : fmt::format("{:.{}f}", w, decimals);
   };

@@ -16,7 +16,7 @@ std::string gain_unit(std::string_view loop, const base::Motion& motion);
 /// A loop's derivation and gains.
 std::string loop_text(const design::LoopDesign& loop, const base::Motion& motion);
 
-/// Margins and steps of all loops, side by side.
+/// Margins and step responses of all loops, side by side.
 std::string figures_text(const design::DriveDesign& design);
 
 /// The derivation of the speed sensor's delay, and the fastest settling time with each way of sensing.
@@ -25,7 +25,7 @@ std::string sensing_text(const design::DriveDesign& design);
 /// The design of a drive without a rotor position sensor; empty for a drive that has one.
 std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& steps);
 
-/// Ripple, voltage left, braking, period.
+/// Limits of the design: ripple, voltage that is left, braking, period.
 std::string limits_text(const design::DriveDesign& design, const design::Sheet& sheet);
 
 }  // namespace text

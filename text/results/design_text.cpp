@@ -64,7 +64,7 @@ std::string simulated_text(const analysis::DesignStudy& s) {
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& told : s.outcome.comparisons) {
     const study::ComparisonResult c = as_shown(told, s.scenario);
-    // A value without limits or without commutation is a bound of another drive.
+    // A value "without" limits or commutation is that of another drive, and only a bound.
     const bool same = c.source.find("without") == std::string::npos;
     rows.add({c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit),
               same ? deviation_text(c) : "", c.source});
@@ -109,8 +109,8 @@ std::string robust_text(const analysis::Robustness& r, const DriveDesign& d) {
 
 std::string position_text(const analysis::PositionGain& p, const Motion& motion) {
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
-  // A drive with a low top speed may brake faster than its linear loop. The smaller value comes first, each
-  // with its own words.
+  // A drive with a low top speed may brake faster than its linear loop. The smaller of the two gains comes
+  // first, each with its own explanation.
   const std::string braking = sixstep::base::six_digits(p.estimate * gain.factor) +
                               " (full torque stops it from top speed)",
                     linear = sixstep::base::six_digits(p.linear * gain.factor) + " (no limit acts)";
@@ -124,7 +124,7 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
   return text;
 }
 
-/// The figure of the worst motor.
+/// The figure with the worst motor within the tolerances.
 std::string at_worst(const analysis::DesignStudy& s, const char* figure, double nominal, int digits) {
   if (!s.robustness) return "";
   for (const RobustFigure& f : s.robustness->figures)
@@ -133,7 +133,7 @@ std::string at_worst(const analysis::DesignStudy& s, const char* figure, double 
   return "";
 }
 
-/// The settling band in percent of the step: that of the design's run.
+/// The settling band of the design's run, in per cent of the step.
 double settled_percent(const analysis::DesignStudy& s) {
   for (const study::Comparison& c : s.scenario.compare)
     if (c.measure.label == "settling time") return 100 * c.measure.band;

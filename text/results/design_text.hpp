@@ -10,13 +10,14 @@ namespace text {
 
 std::string design_text(const analysis::DesignStudy& study, bool colour);
 
-/// "usable, 2 warnings: the current loop settles to 2 % in 990 us (1 ms to 1 % asked for), overshoot 0.2 A"
+/// The verdict: "usable, 2 warnings: the current loop settles to 2 % in 990 us (1 ms to 1 % asked for),
+/// overshoot 0.2 A".
 std::string design_verdict(const analysis::DesignStudy& study);
 
-/// The printed figure: an expected value that is only rounding, compared with the reference, becomes 0.
+/// The figure for display: an expected value that is only rounding, compared with the reference, becomes 0.
 study::ComparisonResult as_shown(study::ComparisonResult figure, const study::Scenario& scenario);
 
-/// Lines for the head of a scenario file: the source of the gains, one line per loop.
+/// Lines for the head of a scenario file: the source of the gains, and one line per loop.
 std::vector<std::string> design_lines(const analysis::DesignStudy& study, bool of_a_board = false);
 
 }  // namespace text

@@ -20,9 +20,9 @@ using analysis::EmfHarmonic;
 using analysis::EmfResult;
 using analysis::Interval;
 
-/// Limit of the harmonics below which a drive with this shape behaves as with a sine.
+/// Harmonics below this limit do not matter: a drive with this shape behaves as with a sine.
 constexpr double as_good_as_none = 0.01;
-constexpr std::size_t most_listed = 5;  // limit of harmonic_orders
+constexpr std::size_t most_listed = 5;  // limit of the list harmonic_orders
 constexpr int highest_listed = 23;
 
 bool counts(const EmfHarmonic& h, const EmfResult& r) {
@@ -34,8 +34,8 @@ std::string measured_source(const MeasuredEmf& m) {
   return fmt::format("source = {}, kind = \"measured\"", toml_text(m.name));
 }
 
-/// The volts at a drill's speed for a sine. Any other shape has the flux linkage, which belongs to the
-/// fundamental and is independent of the harmonics that the lines above omit.
+/// The line with the constant. For a sine it is the voltage at a drill's speed. For any other shape it is the
+/// flux linkage: this belongs to the fundamental, and does not depend on harmonics that the lines above omit.
 std::string constant_line(const MeasuredEmf& m) {
   const EmfResult& r = m.result;
   const std::string pairs = r.pole_pairs > 0 ? fmt::format("pole_pairs = {}\n", r.pole_pairs) : "";
@@ -66,7 +66,7 @@ std::string harmonic_lines(const EmfResult& r) {
 std::string inline_table(const EmfResult& r) {
   std::string angles, values;
   for (std::size_t n = 0; n < r.angle_deg.size();
-       n += 5) {  // every tenth degree: enough to type; a file has them all
+       n += 5) {  // every tenth degree, which is enough to type; a file has all values
     angles += fmt::format("{}{:g}", n == 0 ? "" : ", ", r.angle_deg[n]);
     values += fmt::format("{}{:.4f}", n == 0 ? "" : ", ", r.shape[n]);
   }
@@ -133,7 +133,7 @@ std::string emf_motor_lines(const MeasuredEmf& m, const std::string& shape_file)
 
 std::string emf_shape_csv(const MeasuredEmf& m) {
   std::string out = "angle_deg,shape\n";
-  // The mean must be zero, so its rounding error is removed.
+  // The mean of the table must be zero, so that its rounding error is subtracted.
   double mean = 0.0;
   for (const double x : m.result.shape) mean += x / static_cast<double>(m.result.shape.size());
   for (std::size_t n = 0; n < m.result.shape.size(); ++n)

@@ -11,7 +11,7 @@ namespace text {
 /// The verdict first, then every step in numbers.
 std::string field_design_text(const analysis::FieldStudy& study, bool colour);
 
-/// "good", "usable, 1 warning", or "NOT USABLE" and the reason.
+/// The verdict: "good", "usable, 1 warning", or "NOT USABLE" with the reason.
 std::string field_design_verdict(const analysis::FieldStudy& study);
 
 /// JSON in full precision, loops as in design_json(). Values that are infinite or do not exist are null.

@@ -71,8 +71,8 @@ std::string sensor_lines(const analysis::HallIdentity& found) {
   } else if (found.mask == 0b010) {
     out += "hall_spacing = \"60\"\n";
   }
-  // Without a place the first edge and the signs are omitted: the log would fit a rotor with the opposite
-  // direction as well.
+  // If the log does not show the rotor's angle, the first edge and the signs are left out: a rotor that
+  // turned in the opposite direction would fit the log as well.
   if (!place)
     return out +
            "# hall_edges_deg is left out: codes alone show neither the first edge nor the rotor's direction, which "

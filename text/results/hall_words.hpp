@@ -9,18 +9,18 @@
 
 namespace text {
 
-/// "101", H1 first.
+/// A code as digits: "101", H1 first.
 std::string code_word(std::uint8_t code);
-/// "231": the probes at pins H1, H2, H3, as in a scenario's hall_lines.
+/// Probes as digits: "231" are the probes at pins H1, H2, H3, as in a scenario's hall_lines.
 std::string probes_word(sixstep::rig::WireOrder probes);
-/// "none", "13": as in a scenario's hall_inverted.
+/// Inverted lines as a scenario's hall_inverted has them: "none", "13".
 std::string inverted_word(std::uint8_t inverted);
-/// "a".
+/// A leg's letter: 'a', 'b' or 'c'.
 char leg_word(sixstep::control::Leg leg);
-/// "probes 120 degrees apart, probes 2 3 1 at H1 H2 H3, H2 inverted"
+/// A wiring in words: "probes 120 degrees apart, probes 2 3 1 at H1 H2 H3, H2 inverted".
 std::string wires_words(const analysis::HallWires& wires);
-/// "from H1 to H3, from H2 to H1": moves of the wires after which every probe is at its own pin; empty if all
-/// are.
+/// The moves of the wires after which every probe is at its own pin: "from H1 to H3, from H2 to H1". Empty if
+/// every probe already is.
 std::string moves_words(sixstep::rig::WireOrder probes);
 /// The lines of a scenario's [sensors], each with a line end.
 std::string sensor_lines(const analysis::HallIdentity& found);

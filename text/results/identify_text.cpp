@@ -55,16 +55,16 @@ std::string never_seen(const HallIdentity& f) {
   return code_word(f.mask) + " and " + code_word(static_cast<std::uint8_t>(f.mask ^ 7));
 }
 
-/// The meaning of the pair of codes that never occurs, for any pin.
+/// The meaning of the pair of codes that never occurs, whichever pins the lines have.
 std::string spacing_words(const HallIdentity& f) {
   if (f.mask == 0b000) return "probes 120 degrees apart, or 60, some inverted";
   const int pin = f.mask == 0b100 ? 1 : f.mask == 0b010 ? 2 : 3;
   return fmt::format("probes 60 degrees apart, the middle one at H{0}, or 120 degrees, H{0} inverted", pin);
 }
 
-/// An inverted line is the same line shifted by half a turn. If all three are inverted, this equals another
-/// order and an offset that differs by 60 degrees. A scenario and an assembly may have that, although no edge
-/// is then at its nearest place.
+/// The same log without inverted lines. An inverted line equals the line shifted by half a turn. If all three
+/// lines are inverted, this equals another order and an offset that differs by 60 degrees. A scenario and an
+/// assembly may have such an offset, although no edge is then at its nearest place.
 std::string none_inverted_words(const IdentifiedPlace& p) {
   analysis::HallWires wires = p.wires.front();
   if (wires.inverted != 0b111) return "";
@@ -111,7 +111,7 @@ std::string wires_section(const HallIdentity& f) {
     rows.add({"", "or " + wires_words(p.wires[n]), ""});
   const std::string none = none_inverted_words(p), moves = moves_words(p.wires.front().probes);
   if (!none.empty()) rows.add({"", none, ""});
-  // If an offset explains the lines as well as the wires do, perhaps no wire must move.
+  // If an offset explains the lines as well as the wires do, perhaps no wire needs to be moved.
   if (none.empty() && !moves.empty()) rows.add({"to mend", "move " + moves, ""});
   return rows.text();
 }
@@ -158,7 +158,7 @@ std::string table_section(const IdentifiedPlace& p) {
   return rows.text();
 }
 
-/// Comments out each line.
+/// Writes each line as a comment.
 std::string as_remarks(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

@@ -8,12 +8,13 @@
 
 namespace text {
 
-/// `name` is the log's.
+/// `name` is the name of the log.
 std::string identify_text(const std::string& name, const analysis::HallIdentity& found);
 
 std::string identify_json(const std::string& name, const analysis::HallIdentity& found);
 
-/// TOML: the sensors as in a scenario, and below them, as comments, the values that a user's own firmware needs.
+/// TOML: the sensors as in a scenario. Below them, as comments, are the values that a user's own firmware
+/// needs.
 std::string identify_toml(const std::string& name, const analysis::HallIdentity& found);
 
 }  // namespace text

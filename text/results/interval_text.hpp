@@ -8,16 +8,16 @@
 
 namespace text {
 
-/// The value, rounded to two digits of its half width.
+/// The value, rounded to two digits of its half width: "3.21".
 std::string measured_text(const analysis::Interval& x);
-/// "3.15 .. 3.27", to the same digits.
+/// The bounds with the same digits: "3.15 .. 3.27".
 std::string bounds_text(const analysis::Interval& x);
-/// "3.21 V (3.15 .. 3.27)", where `unit` is "V".
+/// The value with `unit` and bounds: "3.21 V (3.15 .. 3.27)" for "V".
 std::string with_bounds(const analysis::Interval& x, const char* unit);
 /// A number with the digits that the interval supports, for a file.
 std::string as_good_as(double value, const analysis::Interval& x);
 
-/// "> 99.99 %", "97.2 %".
+/// A probability in per cent: "> 99.99 %", "97.2 %".
 std::string certainty_text(double probability);
 
 }  // namespace text

@@ -13,8 +13,8 @@ namespace text {
 
 struct JunitCase {
   std::string name;
-  std::string failure;  ///< why it does not hold; empty: it holds
-  bool broken = false;  ///< it could not be judged: a fault, or no run
+  std::string failure;  ///< why the case does not hold; empty: it holds
+  bool broken = false;  ///< the case could not be judged: a fault, or no run
 };
 
 struct JunitSuite {
@@ -22,12 +22,12 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// One run: a case per requirement, and one for the run itself, which a fault fails.
+/// The suite of one run: a case per requirement, and a case for the run itself, which fails after a fault.
 JunitSuite junit_suite(const std::string& name, const study::Outcome& outcome);
-/// Many runs: a requirement passes if it holds in all of them; a further case counts runs that stopped by a
-/// fault or could not run.
+/// The suite of many runs. A requirement passes if it holds in all of them. A further case counts the runs
+/// that a fault stopped or that could not run.
 JunitSuite junit_suite(const std::string& name, const analysis::Series& series);
-/// An experiment that could not run.
+/// The suite of an experiment that could not run.
 JunitSuite junit_suite(const std::string& name, const base::Problems& problems);
 
 std::string junit_xml(std::span<const JunitSuite> suites);

@@ -42,7 +42,7 @@ Json bode(const LoopDesign& loop, double period_s) {
   return out;
 }
 
-/// The step response in at most some 500 samples, each on the grid of the period.
+/// The step response with at most some 500 samples, each at the end of a whole number of periods.
 Json step(const LoopDesign& loop, double period_s) {
   Json out{{"t_s", Json::array()}, {"value", Json::array()}};
   const auto& samples = loop.step.samples;

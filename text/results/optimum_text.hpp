@@ -14,7 +14,7 @@ struct OptimumStory {
   const std::string& name;
   const analysis::Plan& plan;
   const analysis::PlanColumns& columns;
-  std::size_t figure = 0;  ///< column of the minimised figure
+  std::size_t figure = 0;  ///< index of the minimised figure's column
 };
 
 std::string optimum_text(const OptimumStory& story, const analysis::Optimum& best);

@@ -11,7 +11,7 @@
 namespace text {
 namespace {
 
-/// SQL does not distinguish A from a.
+/// Names are compared in lower case, because SQL does not distinguish A from a.
 std::string in_small_letters(std::string name) {
   for (char& c : name)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// Columns of every plan's table: before its own columns, and after them.
+/// Columns that every plan's table has: these precede its own columns; others follow them.
 inline constexpr std::string_view columns_before[] = {"run", "end", "passed"};
 inline constexpr std::string_view columns_behind[] = {"problem", "digest"};
 

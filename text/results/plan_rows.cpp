@@ -52,7 +52,7 @@ Json columns_json(const PlanStory& s) {
 
 Json interval(const analysis::Estimated& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
 
-/// A list per figure with an entry per key; null for a figure without indices.
+/// A list per figure, with an entry per key; null for a figure without indices.
 Json indices_json(const PlanStory& s) {
   Json all = Json::array();
   for (std::size_t f = 0; f < s.columns.figures.size(); ++f) {
@@ -89,7 +89,7 @@ Json row_json(const analysis::RunRecord& r) {
   return row;
 }
 
-/// A number as written, a word as a name.
+/// The cell of a value: a number as written, a word escaped like a name.
 std::string value_cell(const std::string& written) {
   return number_alone(written) ? written : csv_cell(analysis::bare(written));
 }
@@ -130,7 +130,7 @@ std::string plan_json(const PlanStory& s, const std::string& title, const std::s
   json.update(columns_json(s));
   if (s.plan.sampling == analysis::Sampling::saltelli) json["indices"] = indices_json(s);
   json["columns"] = row_names(s.columns);
-  // One row per line, because programs may read a hundred thousand of them line by line.
+  // One row per line, because programs may read a hundred thousand rows line by line.
   std::string text = json_text(json);
   text.resize(text.find_last_of('}'));
   text.erase(text.find_last_not_of(" \n") + 1);

@@ -19,12 +19,12 @@ namespace {
 constexpr int plan_digits = 4;
 using PointCells = std::vector<std::string>;
 
-/// The drives at one point.
+/// The drives at one point of the plan.
 struct Point {
   std::vector<std::string> values;
   std::vector<analysis::Statistics> figures;
   std::size_t first = 0, runs = 0, passed = 0;
-  analysis::RunEnd end = analysis::RunEnd::whole;  ///< reason of the first incomplete drive
+  analysis::RunEnd end = analysis::RunEnd::whole;  ///< how the first incomplete drive ended
 };
 
 std::vector<Point> points_of(const PlanStory& story) {
@@ -49,7 +49,7 @@ std::string value_text(const std::string& written, const std::string& unit) {
 }
 
 std::string verdict(const Point& point, std::size_t drives, bool asks) {
-  // The lines below the table have the reason.
+  // The reason is printed below the table.
   if (point.end != analysis::RunEnd::whole && drives <= 1)
     return point.end == analysis::RunEnd::fault ? "FAULT" : "REFUSED";
   if (!asks) return "";

@@ -12,18 +12,19 @@
 
 namespace text {
 
-/// A value that differs from drive to drive, and its width: "+-10 %", "normal, std. dev. 0.1 V".
+/// A value that differs from drive to drive, with the width of its spread: "+-10 %", "normal, std. dev. 0.1
+/// V".
 struct DriveSpread {
   std::string key, width;
 };
 
-/// Those of the columns.
+/// The spreads of the columns' keys.
 std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario, const analysis::PlanColumns& columns);
 
 inline constexpr const char* too_few_points =
     "too few points: an index is negative or above its total, or the first order adds up to more than 1";
 
-/// A plan and its results; `each` visits the rows with their points in the order of their numbers.
+/// A plan and its results. `each` visits the rows, with their points, in the order of their numbers.
 struct PlanStory {
   const std::string& name;
   const analysis::Plan& plan;
@@ -37,11 +38,13 @@ struct PlanStory {
 /// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them (Sampling::saltelli).
 std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story, std::size_t figure);
 
-/// Largest number of points for which the table is shown instead of statistics.
+/// Up to this number of points the table is printed; for more, the statistics.
 inline constexpr std::size_t most_points_shown = 60;
 
-/// One line per point with its figures (for several drives the median, and the number that hold); or the
-/// statistics of all runs; or the Sobol indices if the plan is sampled for them.
+/// The table, in one of three forms:
+/// - one line per point with its figures; for several drives the median, and the number of drives that hold;
+/// - the statistics of all runs;
+/// - the Sobol indices, if the plan is sampled for them.
 std::string plan_table(const PlanStory& story);
 
 /// CSV: the head is a line of names with units (plan_columns.hpp), then one line per run.

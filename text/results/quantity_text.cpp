@@ -15,11 +15,11 @@ constexpr int few_digits = 5, all_digits = 17;
 
 struct Prefix {
   std::string_view letter;
-  double times;  ///< 1 milli is written as x times 1000
+  double times;  ///< x is multiplied by this: 1000 for milli
 };
 constexpr Prefix no_prefix{"", 1.0};
 
-/// rad/s, degrees and ratios have no prefix.
+/// Whether a unit takes prefixes; rad/s, degrees and ratios do not.
 bool takes_prefix(std::string_view unit) {
   constexpr std::array<std::string_view, 10> with = {"s", "A", "V", "Hz", "N m", "Nm", "W", "J", "ohm", "H"};
   return std::find(with.begin(), with.end(), unit) != with.end();
@@ -38,7 +38,7 @@ Prefix prefix_for(double x, std::string_view unit) {
 }
 
 std::string prefixed(double x, Prefix prefix, int digits) {
-  // 800 with two digits must not become 8e+02.
+  // Without this, 800 with two digits would become 8e+02.
   const double value = x * prefix.times, size = std::fabs(value);
   if (size >= 100.0 && size < 1e6 && size >= std::pow(10.0, digits) - 0.5)
     return fmt::format("{:.0f}", value);
@@ -54,7 +54,8 @@ std::string joined(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-/// Words for values that are no numbers: a time of an event that did not occur, a figure of an empty window.
+/// Words for values that are not finite: "never" for a time whose event did not occur, "no value" for a
+/// figure of an empty window.
 std::string without_number(double x, const std::string& unit) {
   if (std::isnan(x)) return "no value";
   return unit == "s" && x > 0.0 ? "never"
@@ -85,7 +86,7 @@ std::string csv_cell(double x) {
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit) {
   double largest = 0.0;
   for (const double y : yardsticks) largest = std::max(largest, std::abs(y));
-  // If the yardsticks are zero, only x itself has a magnitude.
+  // If all yardsticks are zero, the prefix is that of x.
   Prefix shared = prefix_for(largest > 0.0 ? largest : x, unit);
   if (largest == 0.0 && x == 0.0) shared = no_prefix;
   const double ratio = std::abs(largest > 0.0 ? x / largest : 1.0);
@@ -94,7 +95,8 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
 
   ComparedTexts texts;
   for (int digits = few_digits; digits <= all_digits; ++digits) {
-    // If x is a thousand times smaller than all yardsticks, only its magnitude is relevant.
+    // If x is less than a thousandth of all yardsticks, only its magnitude matters, and it gets its own
+    // prefix.
     const bool tiny = !alike && ratio < 1e-3;
     const std::string x_text = prefixed(x, own, tiny ? 2 : digits);
     texts = {{}, joined(x_text, unit_text(own, unit)), unit_text(shared, unit)};
@@ -109,7 +111,8 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
     if (!std::isfinite(x)) texts.x = without_number(x, unit);
     if (told_apart) return texts;
   }
-  // The multiplication by the prefix has rounded the last bit away; without prefix it shows.
+  // Multiplication by the prefix may round the last bit away, by which the numbers differ. Without prefix the
+  // difference is visible.
   return {[&] {
             std::vector<std::string> plain;
             for (const double y : yardsticks) plain.push_back(prefixed(y, no_prefix, all_digits));

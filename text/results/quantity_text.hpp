@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints numbers for users: engineering prefixes and few digits, but enough to distinguish a failed limit
+// Prints numbers for users: engineering prefixes and few digits, but enough to distinguish a missed limit
 // from a met one. Files for programs (CSV, JSON) have full precision and do not use this.
 #pragma once
 #include <cstddef>
@@ -11,22 +11,23 @@
 
 namespace text {
 
-/// "131.17 us", "47.25 kHz", "702.61 rad/s": five significant digits by default.
+/// A number with its unit: "131.17 us", "47.25 kHz", "702.61 rad/s". It has five significant digits by
+/// default.
 std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
-/// Prints `digits` digits after the point; "-" for a number that is not finite.
+/// A number with `digits` digits after the point; "-" if it is not finite.
 std::string fixed_text(double x, int digits);
-/// Prints in full precision; empty for NaN, "never" for an event that does not occur.
+/// A number in full precision; empty for NaN, "never" for an infinite one.
 std::string csv_cell(double x);
 
-/// "1 run", "2 runs".
+/// A number of things: "1 run", "2 runs".
 std::string counted(std::size_t n, const char* what);
 
-/// Numbers that are compared with each other: all with the prefix of the largest of `yardsticks`, and with
-/// enough digits to distinguish different numbers.
+/// Numbers that are compared with each other. All have the prefix of the largest of `yardsticks`, and enough
+/// digits to distinguish different numbers.
 struct ComparedTexts {
   std::vector<std::string> yardsticks;
-  std::string x;     ///< value with its unit; with its own prefix if its magnitude differs
+  std::string x;     ///< value with its unit; it has its own prefix if its magnitude differs
   std::string unit;  ///< unit of the yardsticks, with prefix
 };
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit);

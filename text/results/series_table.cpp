@@ -16,7 +16,7 @@ namespace text {
 namespace {
 
 constexpr std::size_t series_columns = 10;
-constexpr int spread_digits = 4;  // a thousand drives do not give more
+constexpr int spread_digits = 4;  // a thousand drives do not give more significant digits
 using SeriesRow = std::array<std::string, series_columns>;
 
 std::string cell(const std::optional<double>& x, const std::string& unit, int digits = spread_digits) {
@@ -29,7 +29,7 @@ std::string required(const analysis::FigureColumn& f) {
   return f.max ? "<= " + quantity_text(*f.max, f.unit) : "";
 }
 
-/// "0.3 ms beyond its limit", "12 mA within its limits".
+/// The least margin in words: "0.3 ms beyond its limit", "12 mA within its limits".
 std::string margin_text(const analysis::SpreadFigure& f) {
   if (!std::isfinite(f.least_margin)) return "without a value within its limit";
   return fmt::format("{} {} its limit{}",
@@ -37,7 +37,7 @@ std::string margin_text(const analysis::SpreadFigure& f) {
                      f.least_margin < 0.0 ? "beyond" : "within", f.column.min && f.column.max ? "s" : "");
 }
 
-/// Enough digits for two of the standard deviation.
+/// The number of digits with which the standard deviation still has two.
 int digits_of(const analysis::Statistics& s) {
   const std::optional<double> deviation = s.standard_deviation();
   if (!deviation || !(*deviation > 0.0)) return spread_digits;
@@ -78,7 +78,7 @@ std::string aligned(std::vector<SeriesRow> rows) {
   return text;
 }
 
-/// A number in a series of drives is a drive; otherwise it is a run, at a point.
+/// The word for a number of a plan: in a series of drives it is a drive, otherwise a run at a point.
 const char* one_of(const analysis::Plan& plan) { return plan.axes.empty() ? "drive" : "run"; }
 
 std::string casualties(const std::vector<analysis::Casualty>& which, const char* what,
@@ -90,7 +90,7 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
 
 constexpr std::size_t most_numbers = 8;
 
-/// "run 4", "runs 0, 1, 2", "all runs", or how many and the first.
+/// The runs in words: "run 4", "runs 0, 1, 2", "all runs", or how many and the first.
 std::string those(const std::vector<std::size_t>& numbers, const analysis::Series& series,
                   const analysis::Plan& plan) {
   const char* one = one_of(plan);
@@ -100,14 +100,14 @@ std::string those(const std::vector<std::size_t>& numbers, const analysis::Serie
   return fmt::format("{}{} {}", one, numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "));
 }
 
-/// It may have missed because of the fault.
+/// Whether a fault stopped the run, which may be why it missed the requirement.
 bool stopped(std::size_t number, const analysis::Series& series) {
   return std::any_of(series.faults.begin(), series.faults.end(),
                      [number](const analysis::Casualty& c) { return c.number == number; });
 }
 
-/// If all requirements hold: the one with the least margin as a part of its limit, or of the half distance of its
-/// limits.
+/// The requirement with the least margin if all hold. The margin counts as a fraction of the limit, or of
+/// half the distance between two limits.
 const analysis::SpreadFigure* closest_of(const analysis::Series& series) {
   const analysis::SpreadFigure* closest = nullptr;
   double least = 0.0;

@@ -10,12 +10,12 @@
 
 namespace text {
 
-/// The reader: a page describes the run's sensor, an exported header the one that its constants were tested
-/// with.
+/// What the words are for: a page describes the run's sensor, an exported header the sensor with which its
+/// constants were tested.
 enum class SensorWordsOf : std::uint8_t { page, header };
 
-/// "encoder of 1024 lines, ..."; `given` prints a number and its unit. Empty with Hall probes or without a
-/// sensor.
+/// The sensor in words: "encoder of 1024 lines, ..."; `given` prints a number and its unit. Empty with Hall
+/// probes or without a sensor.
 std::string shaft_sensor_words(const study::Sensors& s, SensorWordsOf reader,
                                std::string (*given)(double, std::string_view));
 

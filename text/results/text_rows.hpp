@@ -8,7 +8,8 @@
 
 namespace text {
 
-/// Aligns cells in columns as wide as their widest cell, left or right, without blanks at line ends.
+/// A table of text. Each column is as wide as its widest cell, with cells at the left or the right; lines
+/// have no blanks at their ends.
 class Rows {
  public:
   enum class Side { left, right };

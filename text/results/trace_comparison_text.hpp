@@ -9,8 +9,8 @@
 
 namespace text {
 
-/// One line that names the compared logs, one line per column, then the notes on the log. `name` is the
-/// log's.
+/// One line that names the compared logs, one line per column, then the notes on the log. `name` is the log's
+/// name.
 std::string trace_comparison_text(const std::string& name,
                                   const std::vector<analysis::TraceComparison>& columns, double shift_s,
                                   const std::vector<std::string>& notes);

@@ -21,7 +21,7 @@ struct Line {
   std::array<std::string, 5> cells;
 };
 
-/// Characters, not bytes, because a title may be in any language.
+/// The width in characters, not in bytes, because a title may be in any language.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -44,7 +44,7 @@ const char* colour_of(Kind kind) {
   return "";
 }
 
-/// Whether a line has no columns, so that it does not change their width.
+/// Whether a line has no columns, so that it does not affect their width.
 bool is_free(Kind kind) { return kind == Kind::name || kind == Kind::note; }
 
 std::string coloured(Kind kind, std::string text, bool colour) {
@@ -92,7 +92,8 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
 std::string deviation_text(const study::ComparisonResult& c) {
   if (!std::isfinite(c.measured)) return "not comparable";
   if (c.value == 0.0) return "";
-  // The percentage is relative to the amount, in both directions. It has no meaning for opposite signs.
+  // The percentage is relative to the expected magnitude. For opposite signs it has no meaning, and the
+  // difference is printed.
   if ((c.measured < 0.0) != (c.value < 0.0))
     return (c.measured > c.value ? "+" : "") + quantity_text(c.measured - c.value, c.unit);
   const double percent = 100.0 * (c.measured - c.value) / c.value;

@@ -9,7 +9,7 @@
 namespace text {
 
 struct TableEntry {
-  std::string experiment;  ///< short name
+  std::string experiment;  ///< short name of the experiment
   const study::Outcome* outcome = nullptr;
 };
 
@@ -17,13 +17,14 @@ struct TableEntry {
 /// expected value, measured value, ok or deviation, source.
 std::string verdict_table(std::span<const TableEntry> entries, bool colour);
 
-/// "22 experiments: all 43 requirements hold", or which of them fail.
+/// The last line: "22 experiments: all 43 requirements hold", or which of them fail.
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 
 /// One line for each experiment that a fault stopped, for callers that print no table.
 std::string faults_text(std::span<const TableEntry> entries);
 
-/// "-0.25 %"; empty if the source's value is zero: then the measured value is the difference.
+/// The deviation in per cent: "-0.25 %". Empty if the source's value is zero, because then the measured value
+/// is itself the difference.
 std::string deviation_text(const study::ComparisonResult& comparison);
 
 }  // namespace text

@@ -104,7 +104,7 @@ std::string recipe() {
   return text + rows.text() + broken(recipe_note());
 }
 
-/// The measurement does not use the theory, so that their agreement is a result.
+/// Whether theory and measurement agree. The measurement does not use the theory, so that this is a result.
 std::string agreement(const WiringStudy& s) {
   if (s.agreeing() == s.cases.size())
     return fmt::format("All {} move in simulation as theory predicts.\n", s.cases.size());

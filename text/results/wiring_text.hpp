@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// The drive's commutation; the behaviour of each wiring; its symptom at the bench; its cure; and the
-/// differences between theory and simulation, if any.
+/// Prints the drive's commutation; the behaviour of each wiring, its symptom at the bench and its cure; and
+/// the differences between theory and simulation, if there are any.
 std::string wiring_text(const analysis::WiringStudy& study);
 
 }  // namespace text

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 struct Place {
   const std::vector<KeyEntry>& keys;
-  bool partial = false;  ///< inside a table that only changes values: no key is required, frames are kept
+  bool partial = false;  ///< true: inside a table that only changes values, so that no key is required and
+                         ///< frames are kept
 };
 
 bool is_bounded(double x) { return x - x == 0.0; }
@@ -34,14 +35,14 @@ Json schema_number(const base::Range& range) {
   return schema;
 }
 
-/// Schema of every number of a file: in the key's unit, or as text with its own unit, "20 ms", whose kind and
-/// range are checked on reading.
+/// Schema of a number in a file. It is a number in the key's unit, or a text with its own unit such as "20
+/// ms", whose unit and range are checked on reading.
 Json range_schema(const base::Range& range) {
   const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
   return {{"anyOf", {schema_number(range), with_unit}}};
 }
 
-/// An int, as the reader accepts it.
+/// Schema of a whole number, with the range of an int that the reader accepts.
 Json whole_number(const base::Range& range) {
   Json schema = schema_number(range);
   schema["type"] = "integer";
@@ -61,8 +62,8 @@ Json one_of(const std::vector<std::pair<std::string, std::string>>& words) {
 
 Json words_of(const std::vector<std::string>& words) { return {{"enum", words}}; }
 
-/// A number, or a table that also gives its frame and source. A motor file must name the frame if there are
-/// several.
+/// Schema of a quantity: a number, or a table that also gives its frame and source. A motor file must name
+/// the frame if the key allows several.
 Json quantity(const KeyEntry& entry, const Place& place) {
   const std::vector<std::string> frames = frames_of(entry.about.frame);
   std::vector<std::string> trusts;
@@ -86,7 +87,7 @@ Json quantity(const KeyEntry& entry, const Place& place) {
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
-/// A list of words, or the word alone if there is only one.
+/// Schema of a list of words, or of the word alone if there is only one.
 Json words_or_one(const Json& word) { return {{"anyOf", {list_of(word), word}}}; }
 
 Json known_columns() {
@@ -104,7 +105,7 @@ std::vector<std::pair<std::string, std::string>> all_words(const KeyEntry& entry
   return words;
 }
 
-/// Suggests built-in names, allows any path.
+/// Schema of a motor's name: suggests built-in names, and allows any path.
 Json motor_names() {
   return {{"anyOf", {words_of(built_in_motors()), {{"type", "string"}, {"minLength", 1}}}}};
 }
@@ -173,7 +174,7 @@ std::string document(const std::vector<KeyEntry>& keys, const char* title) {
                  {"title", title},
                  {"$comment", "written by sixstep schema, version " SIXSTEP_VERSION}};
   Json root = table("", {keys});
-  // A key that the extended file may have is not required.
+  // If the file extends another one, no key is required, because the other file may have it.
   if (root["properties"].contains("extends") && root.contains("required")) {
     root["if"] = {{"required", Json::array({"extends"})}};
     root["else"] = {{"required", root["required"]}};

@@ -11,8 +11,8 @@ namespace text {
 inline constexpr char scenario_schema_file[] = "sixstep-scenario.schema.json";
 inline constexpr char motor_schema_file[] = "sixstep-motor.schema.json";
 
-/// Types, ranges, words with their meanings, required keys, and no other key: every rule on a single value.
-/// Rules between keys are checked when the file is read. Ends in a newline.
+/// The schema checks every rule on a single value: types, ranges, words with their meanings, required keys,
+/// and no unknown key. Rules between keys are checked when the file is read. Ends in a newline.
 std::string scenario_schema();
 std::string motor_schema();
 std::string plan_schema();

@@ -15,7 +15,7 @@
 namespace text {
 namespace {
 
-/// The places of a catalog's path in a document: one, or one in each table of its list.
+/// The paths in a document at which a catalog's path occurs: one, or one in each table of a list.
 std::vector<std::string> places_of(const std::string& path, const Document& document) {
   const std::size_t dot = path.find('.');
   const toml::node* first = document.find(path.substr(0, dot));
@@ -31,7 +31,7 @@ void refuse(const std::string& path, const std::string& instead, Complaints& com
     if (complaints.document().find(place)) complaints.other_motion(place, instead);
 }
 
-/// The nearest number that reading, which divides by the factor, converts back to this one.
+/// The number to write: the nearest one that reading, which divides by the factor, converts back to `own`.
 double written_as(double own, double factor) {
   if (factor == 1.0) return own;
   double x = own * factor;
@@ -40,7 +40,7 @@ double written_as(double own, double factor) {
   return x;
 }
 
-/// A key of [[spread]] by its two names, and the factor from the linear motor's unit to the turning motor's.
+/// A key of [[spread]] by its two names, and the factor from the linear motor's unit to the rotary motor's.
 struct TwoNames {
   std::string turning, linear;
   double factor = 1.0;

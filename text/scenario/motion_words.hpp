@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles keys that only a turning motor has, or only a linear one (base/linear.hpp).
+// Handles keys that only a rotary motor has, or only a linear motor (base/linear.hpp).
 #pragma once
 #include <vector>
 
@@ -10,16 +10,16 @@
 namespace text {
 
 /// Reports every key of the document that belongs to the other kind of motor, with the key to write instead.
-/// `keys`: the keys of this kind of file; the document itself defines its kind of motor.
+/// `keys`: all keys of this kind of file. The document says itself which kind of motor it has.
 void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complaints);
 
-/// Converts the keys that [[spread]] names, and their widths, from a linear motor's names to the library's. Keys
-/// of the other kind of motor are complained about.
+/// Converts the keys that [[spread]] names, and their widths, from a linear motor's names to the library's.
+/// Reports keys of the other kind of motor.
 void read_spread_keys(study::Scenario& scenario, Complaints& complaints);
 
 /// Converts the numbers whose unit follows from a mode or a figure to a linear motor's units: position in mm,
-/// not deg. A turning motor's scenario is unchanged. Reading returns the same number, to the bit if a double
-/// allows it.
+/// not deg. A rotary motor's scenario is unchanged. Reading converts back to the same number, to the bit if a
+/// double allows it.
 void in_units_of_its_motor(study::Scenario& scenario);
 
 }  // namespace text

@@ -42,7 +42,8 @@ class RowsOf {
                                             y = converted(r_, *picked, unit_);
     if (!t) return t.problems();
     if (!y) return y.problems();
-    // Stops at the first cell that is not a number: the time before it does not bound the time after it.
+    // Stops at the first cell that is not a number, because a time before this cell does not bound the times
+    // after it.
     for (std::size_t row = 0; bad_ == 0 && row < t->size(); ++row) take(row, (*t)[row], (*y)[row]);
     if (told_.empty()) return std::move(rows_);
     std::stable_sort(told_.begin(), told_.end(),
@@ -73,7 +74,7 @@ class RowsOf {
     return found->front();
   }
 
-  /// Problem of a table with many columns, in which the second column may be any quantity.
+  /// The problem of a table with many columns, in which the second column need not be the wanted quantity.
   base::Problem which_column() const {
     std::string names;
     for (std::size_t n = 1; n < r_.columns.size(); ++n)
@@ -83,7 +84,7 @@ class RowsOf {
                    r_.has_headings && first_.selects ? "name the column that is meant" : keep);
   }
 
-  /// Each line is reported once.
+  /// Reports cells that are not numbers, each line once.
   void tell_bad_cells(const RecordedColumn& column) {
     bad_ = std::max(bad_, column.bad_cells);
     for (const BadCell& bad : column.bad)
@@ -113,7 +114,7 @@ class RowsOf {
     return false;
   }
 
-  /// A recorded trace decays for ever: values near zero become 0.
+  /// A recorded trace decays exponentially, without end: values near zero become 0.
   static double not_nearly(double x) { return std::fabs(x) < base::nearly_nothing ? 0.0 : x; }
 
   base::Problem at_line(std::size_t line, std::string limit, std::string cure) const {
@@ -131,7 +132,7 @@ class RowsOf {
   const FirstColumn& first_;
   std::string unit_;
   ReferenceRows rows_;
-  std::size_t bad_ = 0;                                      ///< cells that are no numbers, quoted or not
+  std::size_t bad_ = 0;  ///< number of cells that are no numbers, quoted or not
   std::vector<std::pair<std::size_t, base::Problem>> told_;  ///< problems with their lines
 };
 

@@ -15,10 +15,11 @@ struct ReferenceRows {
   std::vector<double> times_s, values;
 };
 
-/// `text` is the file's content, `name` its name in messages; it is read like every recording (text/recording/).
-/// The first column is the time. `column` is the heading of the values; without it the table has two columns. A
-/// heading may contain a unit, "time [ms]" or "speed_rpm": a unit of time, or one of the same kind as `unit`, to
-/// which the values are converted. Times rise from 0 on.
+/// Reads the rows. `text` is the file's content, `name` its name in messages; it is read like every recording
+/// (text/recording/). The first column is the time, rising from 0 on. `column` is the heading of the values;
+/// without it the table has two columns. A heading may contain a unit, "time [ms]" or "speed_rpm". The unit
+/// of the time is a unit of time; that of the values is of the same kind as `unit`, to which the values are
+/// converted.
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column, const std::string& unit);
 
@@ -26,7 +27,7 @@ struct ShapeRows {
   std::vector<double> angles_deg, values;
 };
 
-/// Exactly two columns, read like a reference. A mistake in a line is reported with its number;
+/// Reads exactly two columns, like a reference. A mistake in a line is reported with the line's number;
 /// design::sheet_constants() checks the shape.
 base::Result<ShapeRows> shape_rows(const std::string& name, const std::string& text);
 

@@ -44,7 +44,7 @@ class Family {
     std::string path, file;
   };
 
-  /// The scenario's description reports a value of another type.
+  /// Leaves out a value of another type, because the scenario's description reports it.
   static std::vector<Named> named(const Document& document) {
     std::vector<Named> all;
     const toml::node* node = document.find("extends");
@@ -57,7 +57,7 @@ class Family {
     return all;
   }
 
-  /// The base's own `extends` has been applied.
+  /// Returns the base with its own `extends` already applied.
   base::Result<Document> follow(const Named& base, const std::string& from, Complaints& complaints) {
     const auto refuse = [&](std::string limit, std::string cure) -> base::Result<Document> {
       complaints.value(*base.node, base.path, {.limit = std::move(limit), .cure = std::move(cure)});
@@ -75,7 +75,7 @@ class Family {
   }
 
   const Resolve& resolve_;
-  std::vector<std::string> chain_;  ///< the files being read, each named by the one before
+  std::vector<std::string> chain_;  ///< the files being read, each named by the preceding one
   std::size_t files_ = 1;
 };
 

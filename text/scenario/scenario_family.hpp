@@ -9,8 +9,8 @@
 
 namespace text {
 
-/// `extends` names one file or a list, each relative to the file that names it; these may extend others.
-/// Problems: files that extend each other in a circle, more than 64 files.
+/// Reads the document. `extends` names one file or a list, each relative to the file that names it; these
+/// files may extend others. Problems: files that extend each other in a circle, more than 64 files.
 base::Result<Document> read_family(const std::string& name, std::string text, const Resolve& resolve);
 
 }  // namespace text

@@ -30,8 +30,9 @@
 namespace text {
 namespace {
 
-/// Reports the problems of study::check at their places: in the scenario, its overrides, or the motor's file. If
-/// the sheet has mistakes, only those problems that concern the scenario alone.
+/// Reports the problems that study::check finds, at their places: in the scenario, in its overrides, or in
+/// the motor's file. If the sheet has mistakes, only the problems that concern the scenario alone are
+/// reported.
 void run_checks(const Document& document, const std::optional<SheetSource>& source,
                 const study::Scenario& scenario, Complaints& complaints, base::Problems& of_other_files) {
   const bool sound = source && source->problems.empty();
@@ -43,7 +44,7 @@ void run_checks(const Document& document, const std::optional<SheetSource>& sour
         if (sound) of_sheet.push_back(as_written(source->document, "", std::move(problem)));
         continue;
       }
-      // A problem that follows from a reported mistake would only hide it.
+      // A problem that only follows from a reported mistake would distract from the mistake.
       if (!sound || follows(problem, "motor_override.", complaints)) continue;
       problem = as_written(document, "motor_override.", std::move(problem));
       problem.where = in_override;
@@ -82,7 +83,7 @@ void read_rows(const Document& document, const std::string& path, sixstep::contr
   const std::string_view of_mode = study::reference_unit(mode);
   const base::LinearUnit unit =
       complaints.linear_motor() ? base::in_linear(of_mode) : base::LinearUnit{of_mode, of_mode};
-  // A duty is a plain number.
+  // A duty's unit is "1": it is a plain number.
   base::Result<ReferenceRows> rows =
       reference_rows(file->name, file->text, r.column, unit.linear == "1" ? "" : std::string(unit.linear));
   if (!rows) {
@@ -185,7 +186,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   drop_stale(scenario.sheet, [&](std::string_view key) { return overridden(document, key); });
   read_shape(document, "motor_override.back_emf_file", options.resolve, scenario.sheet, complaints,
              of_other_files);
-  // A wrong duration has been reported: times after its end must not cause further problems.
+  // A wrong duration has already been reported. Times after the run's end must not cause further problems.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
   load_controller(document, options.resolve, scenario.control.own, complaints);

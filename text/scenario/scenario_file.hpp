@@ -17,9 +17,9 @@ struct ReadOptions {
   Resolve resolve;                 ///< finds the named texts; motors compiled in do not need it
 };
 
-/// The scenario with its motor's sheet, after all checks of study::check. Each Problem's `where` begins with
-/// "file:line:column: " or "--set key"; Problems are in the order of the lines. `name` is the text's name in
-/// messages.
+/// Reads the scenario with its motor's sheet, after all checks of study::check. The `where` of each Problem
+/// begins with "file:line:column: " or "--set key". Problems are in the order of the lines. `name` is the
+/// text's name in messages.
 base::Result<study::Scenario> read_scenario_text(const std::string& name, std::string text,
                                                  const ReadOptions& options = {});
 

@@ -30,7 +30,7 @@ std::string toml(const std::vector<T>& list) {
   return out + "]";
 }
 
-/// A number with the digits after the point as in its file, because they define the tolerance.
+/// A number with as many digits after the point as in its file, because these define its tolerance.
 std::string with_last_digit(const sixstep::base::Quantity& q) {
   std::string text = toml(q.value);
   if (!q.last_digit || text.find_first_not_of("-.0123456789") != std::string::npos) return text;
@@ -54,7 +54,7 @@ std::string toml(const sixstep::base::Quantity& q) {
   return out + " }";
 }
 
-/// A number for another spelling, such that reading gives the same double if one does.
+/// A number for another spelling. Reading converts it back to the same double, if any number does.
 double spelled_as(double own, const sixstep::base::Spelling& spelling) {
   using sixstep::base::in_own_unit;
   double x = sixstep::base::as_spelled(own, spelling);
@@ -67,17 +67,16 @@ std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Sp
   return list;
 }
 
-/// Writes one table's keys, with the tables within it and the lists after them, in the words of the motor's
-/// kind.
+/// Writes one table's keys, then the tables in it, then the lists in it, in the words of the motor's kind.
 class TableText final : public sixstep::base::Visitor {
  public:
   explicit TableText(bool linear_motor = false) : linear_motor_(linear_motor) {}
 
   enum class Heading { with_rows, always, none };
 
-  /// The rows that differ from `usual`, below the table's heading; then the tables within.
+  /// The rows that differ from `usual`, below the table's heading; then the inner tables.
   std::string text(const TableText& usual, const std::string& path, Heading heading) const;
-  /// All rows, each with `path`; then those of the tables and lists within.
+  /// All rows, each with `path`; then those of the inner tables and lists.
   void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const;
 
  private:
@@ -92,7 +91,7 @@ class TableText final : public sixstep::base::Visitor {
         return rows_.push_back({std::string(linear->key), toml(spelled_as(member, *linear)), about.required});
     rows_.push_back({std::string(key), toml(member), about.required});
   }
-  /// The file of a linear motor has keys of its own for the values of its sheet, too.
+  /// For the values of a linear motor's sheet, its file has other keys too.
   void add_row(std::string_view key, const sixstep::base::Quantity& member,
                const sixstep::base::About& about) {
     const auto* const linear = linear_motor_ ? sixstep::base::linear_spelling(about) : nullptr;
@@ -119,7 +118,8 @@ class TableText final : public sixstep::base::Visitor {
                       const sixstep::base::About& about) override {
     std::visit([&](const auto* of) { add_row(key, *of, about); }, member);
   }
-  /// An optional table is marked by its heading, even if every row has its default.
+  /// The heading of an optional table is written even if every row has its default, because the heading marks
+  /// the table as present.
   void visit_table(std::string_view key, sixstep::base::TableMember& member,
                    const sixstep::base::About& about) override {
     TableText inner(linear_motor_);
@@ -144,7 +144,7 @@ class TableText final : public sixstep::base::Visitor {
     }
   }
 
-  enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys is required
+  enum class Shown { where_it_differs, always, never, partly };  ///< partly: no key of the table is required
   struct Row {
     std::string key, value;
     bool required;
@@ -201,7 +201,7 @@ void TableText::add_values(const TableText& usual, const std::string& path,
   for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
 }
 
-/// The quantities, counts and texts that a sheet gives.
+/// Collects the keys of quantities, counts and texts that a sheet gives.
 class KeysGiven final : public sixstep::base::Visitor {
  public:
   std::vector<std::string_view> keys;
@@ -219,7 +219,7 @@ class KeysGiven final : public sixstep::base::Visitor {
   }
 };
 
-/// The sheet without overrides: the motor's own. If the run lacks a key of it, an override with the same
+/// The motor's own sheet, without overrides. If the run's sheet lacks a key of it, an override with the same
 /// meaning has replaced that key; then all keys are written.
 design::Sheet usual_sheet(const study::Scenario& s) {
   if (!s.motor_sheet) return s.sheet;

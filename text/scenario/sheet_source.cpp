@@ -19,7 +19,7 @@
 namespace text {
 namespace {
 
-/// Whether the table holds a key that no sheet has; a known key may then be missing because of it.
+/// Whether the table has a key that no sheet has. It may be a misspelt key, so that a known key is missing.
 bool has_unknown_key(const std::string& table, const Document& document) {
   const std::vector<KeyEntry>& keys = sheet_keys();
   const toml::node* node =
@@ -119,7 +119,7 @@ SheetSource sheet_of(Document document, const Resolve& resolve) {
 std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& resolve,
                                        Complaints& complaints, base::Problems& of_other_files) {
   const toml::node* name = scenario.find("motor");
-  if (!name || !name->is_string()) return {};  // the description reports it
+  if (!name || !name->is_string()) return {};  // the description reports a value of another type
   base::Result<Document> document =
       find_motor(name->as_string()->get(), scenario.file_of(*name, "motor"), resolve);
   if (!document) {
@@ -166,7 +166,8 @@ bool follows(const base::Problem& problem, const std::string& table, const Compl
   const bool misspelt = has_unknown_key(table, complaints.document());
   const std::vector<std::string> others = keys_in_table(problem.limit + " " + problem.cure);
   return std::any_of(others.begin(), others.end(), [&](const std::string& key) {
-    const bool sure = key.find('_') != std::string::npos;  // "poles" and "winding" are ordinary words
+    const bool sure = key.find('_') != std::string::npos;  // a word such as "poles" or "winding" alone does
+                                                           // not show that the text is a sheet
     return told(key) || (misspelt && sure && !complaints.document().find(table + key));
   });
 }

@@ -25,7 +25,7 @@ using sixstep::control::Mode;
 
 struct Wanted {
   std::string path;
-  bool open = false;  ///< always open, even if it only repeats the default
+  bool open = false;  ///< whether the line is active even if it only repeats the default
 };
 
 /// Keys that a first scenario shows in addition to those that it sets.
@@ -58,7 +58,7 @@ std::vector<Wanted> wanted_keys(Mode mode) {
   return keys;
 }
 
-/// The value of a line without a value in the scenario: refused until a number is given.
+/// The value of a line for which the scenario has none: it is refused until the user gives a number.
 std::string placeholder(const KeyEntry& entry) {
   if (!entry.default_value.empty()) return entry.default_value;
   switch (entry.type) {
@@ -76,14 +76,14 @@ std::string placeholder(const KeyEntry& entry) {
   }
 }
 
-/// Writes "3e-05" in engineering form, "30e-6": the same number. Other texts are unchanged.
+/// Writes "3e-05" in engineering form, "30e-6", which is the same number. Other texts are unchanged.
 std::string with_plain_exponent(const std::string& text) {
   const std::size_t cut = text.find('e');
   if (cut == std::string::npos || text.find_first_not_of("-.0123456789") != cut) return text;
   std::string digits = text.substr(0, cut);
   int power = std::atoi(text.c_str() + cut + 1);
   if (digits.find('.') == std::string::npos) digits += '.';
-  for (; power % 3 != 0; --power) {  // the point moves one digit to the right
+  for (; power % 3 != 0; --power) {  // moves the point one digit to the right
     const std::size_t point = digits.find('.');
     if (point + 1 == digits.size()) digits += '0';
     std::swap(digits[point], digits[point + 1]);
@@ -92,7 +92,8 @@ std::string with_plain_exponent(const std::string& text) {
   return fmt::format("{}e{}", digits, power);
 }
 
-/// A written-out scenario already contains what it extends, so `extends` is removed.
+/// The scenario without `extends`, because a written-out scenario already contains everything that it
+/// extends.
 study::Scenario alone(study::Scenario scenario) {
   scenario.extends.clear();
   return scenario;
@@ -117,7 +118,8 @@ std::vector<Wanted> wanted_for(const study::Scenario& scenario) {
   return wanted;
 }
 
-/// The source of a torque limit if the sheet names no nominal current, because the key's meaning mentions one.
+/// The source of a torque limit if the sheet has no nominal current: the key's meaning would wrongly refer to
+/// this current.
 std::string torque_limit_origin(const study::Scenario& s) {
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   const std::optional<double>& limit = s.control.speed.torque_limit_Nm;
@@ -141,7 +143,7 @@ class Starter {
   std::string text() { return table("", ""); }
 
  private:
-  /// The keys of one table and of those within it. `at` is its path: "control", or "require[0]".
+  /// The keys of one table and of its inner tables. `at` is the table's path: "control", or "require[0]".
   std::string table(const std::string& path, const std::string& at) {
     std::string own, inner;
     for (const KeyEntry* entry : keys_in(keys_, path)) {
@@ -170,15 +172,16 @@ class Starter {
     const std::string at =
         outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
     const bool in_list =
-        outer.find('[') != std::string::npos;  // in a list it may be left out, header and all
+        outer.find('[') != std::string::npos;  // a table in a list may be left out, including its header
     return headed(entry, table(entry.path, at), !in_list || says(at), entry.optional && says(at));
   }
 
-  /// The header of an existing table is open, so that removing one # suffices. A table that has an effect by its
-  /// presence has a header even if all its keys have defaults.
+  /// The table with its header. The header of an existing table is active, so that the user only has to
+  /// remove one # to use a key. A table that has an effect by its presence has a header even if all its keys
+  /// have defaults.
   static std::string headed(const KeyEntry& table, const std::string& lines, bool open,
                             bool says_by_itself = false) {
-    // Tables within need no header above them: TOML makes it.
+    // A table that only has inner tables needs no header: TOML creates it.
     if (!says_by_itself && (lines.empty() || lines.front() == '\n')) return lines;
     return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(meaning_of(table)), open ? "" : "# ", table.path,
                        lines);
@@ -195,7 +198,7 @@ class Starter {
     }
   }
 
-  /// The motor's own keys, if they differ from its file; that file explains them.
+  /// The keys of [motor_override], without explanations, because the motor's file has them.
   std::string override_table(const KeyEntry& entry) {
     std::string text;
     for (const KeyEntry* key : keys_in(keys_, entry.path))
@@ -216,7 +219,7 @@ class Starter {
     const bool given = value != values_.end();
     const bool open = given && (!value->usual || (wanted != wanted_.end() && wanted->open));
     if (!open && !full_ && wanted == wanted_.end()) return "";
-    // Lists repeat their keys, loops their gains: each is explained once.
+    // Lists repeat their keys, and loops their gains. Each key is explained only once.
     const bool limit = path == "control.speed.torque_limit_Nm" || path == "control.speed.force_limit_N";
     const std::string why = limit && open && !origin_.empty() ? wrapped_comment(origin_) : "";
     return why + template_line(entry, {.key = name_of(entry),

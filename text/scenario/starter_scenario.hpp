@@ -14,12 +14,12 @@ struct StarterOptions {
   bool full = false;  ///< all keys, not only those of a first scenario
 };
 
-/// The scenario's file with explanations. The scenario's own values are open. Other keys useful in its mode
-/// are commented out, with their default, or with `nan` if a number must be given. It reads back as the same
-/// scenario, to the bit.
+/// The scenario's file with explanations. Lines with the scenario's own values are active. Other keys useful
+/// in its mode are commented out, with their default, or with `nan` if the user must give a number. The text
+/// reads back as the same scenario, to the bit.
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options);
 
-/// A note on the source of the file's numbers; empty: none is required.
+/// A note on the source of the file's numbers; empty if no note is required.
 std::string starter_note(const study::Scenario& scenario);
 
 }  // namespace text

@@ -30,7 +30,7 @@ std::string shown(std::string_view path) {
 
 void Complaints::add(const toml::source_region& at, std::string place, std::string_view path,
                      base::Problem problem) {
-  // "--set a.b" already names the key.
+  // "--set a.b" already names the key, so that it is not repeated.
   if (place == "--set " + std::string(path))
     problem.where = std::move(place);
   else

@@ -17,11 +17,12 @@ class Complaints {
  public:
   explicit Complaints(const Document& document) : document_(document) {}
 
-  /// Whether the document's motor is linear; units that follow from others are then those of a linear motor.
+  /// Whether the document's motor is linear. Units that follow from other keys are then those of a linear
+  /// motor.
   bool linear_motor() const { return linear_motor_; }
   void set_linear_motor(bool linear) { linear_motor_ = linear; }
 
-  /// Pole pairs of the document's motor, if given; they convert electrical turns.
+  /// Pole pairs of the document's motor, if given, with which electrical turns are converted.
   std::optional<int> pole_pairs() const { return pole_pairs_; }
   void set_pole_pairs(std::optional<int> pole_pairs) { pole_pairs_ = pole_pairs; }
 
@@ -31,8 +32,8 @@ class Complaints {
   void key(const toml::key& key, const toml::node& node, std::string_view path, base::Problem problem);
   /// Reports a missing key at the place of its table.
   void missing(std::string_view path, base::Problem problem);
-  /// Reports the problem of a later check; its `where` is a path. The place is the value's, else the nearest
-  /// table's.
+  /// Reports the problem of a later check, whose `where` is a path. Its place is that of the value, else that
+  /// of the nearest table.
   void later(base::Problem problem);
 
   /// Reports a key or a word at `path` that only the other kind of motor has.
@@ -43,7 +44,7 @@ class Complaints {
            .cure = "write " + instead});
   }
 
-  /// Marks the table of `path` as reported: the mistake is in a file that it names.
+  /// Marks the table of `path` as reported, because the mistake is in a file that the table names.
   void told_elsewhere(std::string_view path);
 
   /// Whether a mistake in the table of `path` has been reported.
@@ -54,18 +55,19 @@ class Complaints {
 
   const Document& document() const { return document_; }
   bool empty() const { return found_.empty(); }
-  /// Limit of reported mistakes. Further ones are only counted, because a longer list has no use.
+  /// Whether the largest number of reported mistakes is reached. Further ones are only counted, because a
+  /// longer list does not help.
   bool full() const { return found_.size() >= most_told; }
   base::Problems in_order() const;
 
  private:
   struct Found {
-    std::size_t file;  ///< number of the file, as Document::order_of gives it
+    std::size_t file;  ///< number of the file, as given by Document::order_of()
     toml::source_position at;
     base::Problem problem;
   };
   static constexpr std::size_t most_told = 100;
-  /// Marks the table of `path` and the list item that contains it.
+  /// Marks the table of `path` and the list item that contains the table.
   void told(std::string_view path);
   void add(const toml::source_region& at, std::string place, std::string_view path, base::Problem problem);
   /// Counts the mistake and returns true if full().
@@ -80,7 +82,7 @@ class Complaints {
   std::set<std::string, std::less<>> keys_;  ///< reported keys and the tables that contain them
 };
 
-/// "require.max" for "require[1].max": the line number identifies the item.
+/// A path for messages: "require.max" for "require[1].max", because the line number identifies the item.
 std::string shown(std::string_view path);
 
 }  // namespace text

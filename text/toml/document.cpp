@@ -19,7 +19,7 @@ bool is_number(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// Const or not, as the node is.
+/// The child has the constness of the node.
 template <class Node>
 Node* child(Node& node, const std::string& word) {
   if (auto* table = node.as_table()) return table->get(word);
@@ -63,7 +63,7 @@ void put_first(toml::array& list, toml::array& first) {
     for (toml::node& item : *from) list.push_back(std::move(*item.as_table()));
 }
 
-/// `name = {}`
+/// Whether a node is `name = {}`.
 bool is_empty_inline(const toml::node* node) {
   const toml::table* table = node ? node->as_table() : nullptr;
   return table && table->is_inline() && table->empty();
@@ -76,14 +76,15 @@ struct Dropped {
 
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped);
 
-/// A base's braces replace what weaker bases have. The mark lets none of them add to the joined table.
+/// Joins a table with the base's. If the base wrote its table in braces, this replaces the tables of weaker
+/// bases: the mark prevents them from adding keys.
 void join(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   fill(over, base, dropped);
   if (base.is_inline()) over.is_inline(true);
 }
 
-/// Moves the keys that `over` lacks there from `base`; they keep their place in their file. A dropped table
-/// stays as a mark until all bases are processed, because a weaker one may have it too.
+/// Moves the keys that `over` does not have from `base` to `over`; they keep their place in their file. A
+/// dropped table stays as a mark until all bases are processed, because a weaker base may have it too.
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   for (auto&& [key, node] : base) {
     toml::node* mine = over.get(key.str());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises a motor's file in the place of a scenario, and the reverse, so that one message replaces dozens of
-// unknown keys.
+// Recognises a motor's file in the place of a scenario, and a scenario in the place of a motor's file, so
+// that one message replaces dozens of unknown keys.
 #pragma once
 #include <optional>
 

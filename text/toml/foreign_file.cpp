@@ -12,7 +12,7 @@
 namespace text {
 namespace {
 
-/// A number of the other program, and the key that means the same here.
+/// A number of the other program, and the key with the same meaning here.
 struct ForeignNumber {
   std::string_view word;
   std::string_view key;
@@ -22,12 +22,12 @@ struct ForeignNumber {
 
 struct ForeignKind {
   std::string_view name;
-  std::string_view mark;  ///< text that no other file has
+  std::string_view mark;  ///< text that occurs in no other program's files
   std::array<ForeignNumber, 6> numbers;
 };
 
-// Resistance, inductance and flux linkage are phase values in all of them, because each computes in the rotor's
-// frame.
+// Resistance, inductance and flux linkage are phase values in all of these programs, because each computes in
+// the rotor's frame.
 constexpr ForeignKind foreign_kinds[] = {
     {"a VESC motor configuration",
      "<MCConfiguration",
@@ -55,8 +55,8 @@ constexpr ForeignKind foreign_kinds[] = {
        {".J ", "inertia_kgm2"}}}},
 };
 
-/// The number after a word: "<foc_motor_r>0.0187", "phase_resistance": 0.05", "motor.poles 14" or ".Rs =
-/// 0.36".
+/// The number after a word, as in "<foc_motor_r>0.0187", "phase_resistance": 0.05", "motor.poles 14" or ".Rs
+/// = 0.36".
 std::optional<double> number_behind(std::string_view text, std::string_view word) {
   const std::size_t at = text.find(word);
   if (word.empty() || at == std::string_view::npos) return {};
@@ -68,7 +68,7 @@ std::optional<double> number_behind(std::string_view text, std::string_view word
 }
 
 std::string toml_line(const ForeignNumber& number, double value) {
-  // 2.23e-05 H must become 22.3 uH, not 22.299999999999997.
+  // Ten digits, so that 2.23e-05 H becomes 22.3 uH and not 22.299999999999997.
   const std::string written = fmt::format("{:.10g}", value * number.factor);
   return number.frame.empty()
              ? fmt::format("{} = {}", number.key, written)
@@ -84,7 +84,8 @@ base::Problem foreign_problem(const std::string& name, std::string_view kind, co
                                       "; add the inertia and the other values that the style firmware lists"};
 }
 
-/// BLDCMotor(pole pairs, phase resistance, KV, phase inductance), of which the last three may be missing.
+/// Reads BLDCMotor(pole pairs, phase resistance, KV, phase inductance), of which the last three may be
+/// missing.
 std::optional<base::Problem> simple_foc(const std::string& name, std::string_view text) {
   constexpr ForeignNumber order[] = {{"", "pole_pairs"},
                                      {"", "resistance_ohm", 1, "phase"},

@@ -9,7 +9,7 @@ namespace text {
 namespace {
 
 /// The place after the string that begins at `at`, or the end of the text. If the string is not closed on its
-/// line, which the parser will report, the end of the line.
+/// line, it is the end of the line; the parser will report the open string.
 std::size_t behind_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool whole = text.substr(at, 3) == std::string(3, quote);
@@ -27,7 +27,7 @@ std::size_t behind_string(std::string_view text, std::size_t at) {
 
 base::Problem too_deep(std::string_view name, std::string_view text, std::size_t at) {
   const std::string_view before = text.substr(0, at);
-  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  const std::size_t line_start = before.rfind('\n') + 1;  // 0 on the first line, because npos + 1 is 0
   return {.where = fmt::format("{}:{}:{}:", name, 1 + std::count(before.begin(), before.end(), '\n'),
                                at - line_start + 1),
           .limit = fmt::format("nests deeper than {} tables or lists", deepest),
@@ -37,7 +37,8 @@ base::Problem too_deep(std::string_view name, std::string_view text, std::size_t
 }  // namespace
 
 std::optional<base::Problem> nests_too_deep(std::string_view name, std::string_view text) {
-  std::size_t brackets = 0, parts = 0;  // open brackets at this place; dots in the current key
+  std::size_t brackets = 0, parts = 0;  // number of open brackets at this place; number of dots in the
+                                        // present key
   for (std::size_t at = 0; at < text.size(); ++at) {
     switch (text[at]) {
       case '"':

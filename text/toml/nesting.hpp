@@ -13,7 +13,7 @@ namespace text {
 /// Largest depth. Keys of scenarios and motor files have a depth of at most four.
 inline constexpr std::size_t deepest = 32;
 
-/// The first place where brackets or parts of a key nest deeper than `deepest`.
+/// A problem at the first place where brackets or parts of a key nest deeper than `deepest`.
 std::optional<base::Problem> nests_too_deep(std::string_view name, std::string_view text);
 
 }  // namespace text

@@ -11,7 +11,7 @@ struct Cure {
   std::string_view cure;
 };
 
-/// The first match counts.
+/// The cures in order; the first one that matches applies.
 constexpr std::array<Cure, 11> syntax_cures = {{
     {"invalid utf-8", "save the file as text in UTF-8"},
     {"parsing string", "close the quote on the same line"},

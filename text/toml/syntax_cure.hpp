@@ -7,7 +7,7 @@
 
 namespace text {
 
-/// Returns the change that corrects the file. `met`: the parser's message.
+/// Returns the cure that corrects the file. `met` is the parser's message.
 std::string_view syntax_cure(std::string_view met);
 
 }  // namespace text

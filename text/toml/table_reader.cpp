@@ -15,7 +15,7 @@ namespace {
 /// Upper limit of reported entries of one list, because each may be of a wrong kind.
 constexpr std::size_t most_told_of_a_list = 5;
 
-/// Limit for one [[key]].
+/// Largest number of tables of one [[key]].
 constexpr std::size_t most_tables = 10'000;
 
 std::string in_unit_words(const base::About& about) {
@@ -191,7 +191,7 @@ void TableReader::read(std::string_view key, std::vector<std::string>& member, c
   const toml::node* node = find(key, about);
   if (!node) return;
   const toml::array* items = node->as_array();
-  if (node->is_string()) {  // a list of one
+  if (node->is_string()) {  // a text counts as a list of one
     member.clear();
     word(*node, at(key), about, member.emplace_back());
     return;

@@ -18,8 +18,8 @@ namespace text {
 
 class TableReader final : public base::Visitor {
  public:
-  /// `path`: the table's; empty for the file itself. `partial`: no key is required. `advice`: the cure for a key
-  /// unlike all keys of the table; empty: the keys are listed.
+  /// `path`: path of the table; empty for the file itself. `partial`: no key is required. `advice`: the cure
+  /// for a key that is unlike all keys of the table; if it is empty, the keys are listed.
   TableReader(const toml::table& table, std::string path, Complaints& complaints, bool partial,
               std::string_view advice = {})
       : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial), advice_(advice) {}
@@ -67,8 +67,8 @@ class TableReader final : public base::Visitor {
   Wanted wanted_in(const std::string& unit, const base::About& about) const;
   void frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                      base::Quantity& quantity);
-  /// Finds which of a quantity's keys the table holds, and marks all of them as known; two of them are a
-  /// mistake.
+  /// Finds which of a quantity's keys the table holds, and marks all of them as known. A table that holds two
+  /// of them is a mistake.
   std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
   void parts(const toml::table& table, const std::string& path, const base::About& about,
              const base::Spelling& spelling, base::Quantity& out);
@@ -76,14 +76,15 @@ class TableReader final : public base::Visitor {
                 base::Quantity& out);
   std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
                                    int ten) const;
-  /// This motor's word for one that only the other kind of motor has; empty if `word` is valid for this motor.
+  /// The word that this motor has in place of one that only the other kind of motor has; empty if `word` is
+  /// valid for this motor.
   std::string_view of_other_motion(const base::WordMember& words, const base::WordMember::Word& word) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
-  /// A number in the allowed range; it replaces a refused one.
+  /// A number in the allowed range, which replaces a refused number.
   static double within(const base::About& about);
-  /// The unit in which a key's number is written, and its size in the key's own unit. They differ for a linear
-  /// motor and for another spelling.
+  /// The unit in which a key's number is written, and this unit's size in the key's own unit. They differ for
+  /// a linear motor and for another spelling.
   struct WrittenIn {
     std::string unit;
     double factor = 1.0;
@@ -105,8 +106,9 @@ class TableReader final : public base::Visitor {
   std::vector<std::string> known_;
   std::vector<std::string>
       other_motion_;        ///< words of the other kind of motor among `known_`; they are never suggested
-  bool refused_ = false;    ///< a number was out of its range
-  bool lost_word_ = false;  ///< a choice could not be read, so that the unit which it decides is unknown
+  bool refused_ = false;    ///< whether a number was out of its range
+  bool lost_word_ = false;  ///< whether a choice could not be read, so that the unit that it determines is
+                            ///< unknown
 };
 
 /// Fills the struct from the whole file.

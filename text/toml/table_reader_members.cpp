@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the members of a described struct one by one, and distinguishes an optional member that is absent from
-// one that is present.
+// Reads the members of a described struct one by one, and distinguishes an absent optional member from a
+// present one.
 #include <type_traits>
 
 #include "text/toml/table_reader.hpp"
@@ -13,12 +13,13 @@ void TableReader::read(std::string_view key, std::optional<T>& member, const bas
   T present{};
   refused_ = false;
   if constexpr (std::is_same_v<T, double>)
-    read(key, present, about);  // read() finds the spellings itself
+    read(key, present, about);  // read() itself finds the spellings
   else
     read(spelling_in_file(key, about)->key, present, about);
   if constexpr (std::is_arithmetic_v<T>)
     if (refused_)
-      present = static_cast<T>(within(about));  // already reported; later checks treat it as given
+      present = static_cast<T>(within(about));  // the missing value has been reported; later checks treat it
+                                                // as given
   member = std::move(present);
 }
 
@@ -27,8 +28,8 @@ void TableReader::read(std::string_view key, std::optional<base::Quantity>& memb
   if (!any_spelling_in_file(key, about)) return absent(key, about);
   std::optional<base::Quantity> found = member ? member : base::Quantity{};
   read(key, *found, about);
-  // An unreadable value is no number of the file: later checks read an empty value, or the one to be
-  // replaced.
+  // An unreadable value does not reach later checks: they read an empty value, or the value that would have
+  // been replaced.
   if (!complaints_.about(shown(at(found->key.empty() ? key : std::string_view(found->key))))) member = found;
 }
 
@@ -54,7 +55,7 @@ void TableReader::visit_word(std::string_view key, base::WordMember& member, con
   const toml::node* node = find(key, about);
   lost_word_ = lost_word_ || (!node && about.required);
   if (!node) return;
-  // TOML reads a word of digits without quotes as a number, as after --set.
+  // TOML reads a word of digits without quotes, as after --set, as a number.
   const toml::value<std::int64_t>* digits = node->as_integer();
   const std::optional<std::string> said = digits ? std::to_string(digits->get()) : node->value<std::string>();
   std::vector<std::string> words;

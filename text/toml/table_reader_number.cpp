@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a number in its unit: the key's own, that of its control mode or of another key, or a linear motor's.
+// Reads a number in its unit: the key's own, the unit of its control mode or of another key, or a linear
+// motor's unit.
 #include <fmt/format.h>
 
 #include "sixstep/base/linear.hpp"
@@ -19,7 +20,8 @@ std::optional<std::string> word_at(const Document& document, const std::string& 
   return node ? node->value<std::string>() : std::nullopt;
 }
 
-/// The control mode of the table at `path`: in an [[at]] that of the last event up to it that changes it.
+/// The control mode of the table at `path`. In an [[at]] it is the mode after the last event up to this one
+/// that changes the mode.
 std::optional<std::string> mode_at(const Document& document, const std::string& path) {
   std::optional<std::string> mode = word_at(document, "control.mode");
   if (!path.starts_with("at[")) return mode;
@@ -52,7 +54,7 @@ std::string mode_unit(const Document& document, const std::string& path) {
   return {};
 }
 
-/// The unit of the number at a scenario's key.
+/// The unit of the number at a path of a scenario.
 std::optional<std::string> unit_at(std::string_view path) {
   for (const KeyEntry& entry : scenario_keys()) {
     if (entry.type != KeyType::number && entry.type != KeyType::quantity) continue;
@@ -65,7 +67,8 @@ std::optional<std::string> unit_at(std::string_view path) {
 
 }  // namespace
 
-/// Empty text for a plain number; no value if it follows from a control mode that has no unit.
+/// The unit of a key: an empty text for a plain number; no value if the unit follows from a control mode that
+/// has none.
 std::optional<TableReader::WrittenIn> TableReader::unit_of_key(const base::About& about) const {
   const auto moving = [this](std::string_view unit) {
     const base::LinearUnit row =
@@ -81,7 +84,7 @@ std::optional<TableReader::WrittenIn> TableReader::unit_of_key(const base::About
   if (about.mode_unit.empty()) return WrittenIn{std::string(about.unit)};
   const std::string unit = mode_unit(complaints_.document(), path_);
   if (unit.empty()) return {};
-  // "1" is the unit of a duty.
+  // "1" is the unit of a duty, which is a plain number.
   WrittenIn whole = moving(unit);
   whole.unit += about.mode_unit.substr(1);
   if (whole.unit == "1") whole.unit.clear();

@@ -32,8 +32,8 @@ std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key
   return used;
 }
 
-/// The value of the number's last digit, from the text of the file: 0.1 for 36.0, 1 for 36, and 0.0001 for "36.0
-/// mH" if the key is in H.
+/// The value of the number's last digit, from the text of the file: 0.1 for 36.0, 1 for 36, and 0.0001 for
+/// "36.0 mH" if the key's unit is H.
 std::optional<double> TableReader::last_digit(const toml::node& node, const std::string& path,
                                               const base::About& about, int ten) const {
   std::string text = complaints_.document().quote(node, path);
@@ -55,7 +55,7 @@ std::optional<double> TableReader::last_digit(const toml::node& node, const std:
     const char* from = text.c_str() + exponent + 1;
     from += *from == '+';
     if (std::from_chars(from, text.c_str() + text.size(), power).ec != std::errc()) return {};
-    if (power < -400 || power > 400) return {};  // no double has it
+    if (power < -400 || power > 400) return {};  // outside the range of double
   }
   power += ten;
   if (point != std::string::npos)
@@ -140,7 +140,8 @@ void TableReader::read(std::string_view key, base::Quantity& member, const base:
   member = std::move(read);
 }
 
-/// Nm/Arms determines the frame, and so does Vrms/krpm if only one frame fits. A given frame must agree.
+/// Sets the frame that follows from the unit: Nm/Arms determines it, and so does Vrms/krpm if only one frame
+/// of the key is an rms one. A given frame must agree.
 void TableReader::frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                                 base::Quantity& quantity) {
   const toml::value<std::string>* text = node.as_string();
@@ -159,7 +160,8 @@ void TableReader::frame_of_unit(const toml::node& node, const std::string& path,
                            quantity.frame.empty() ? "" : ", or the unit without " + std::string(measure))});
 }
 
-/// The struct's own check reports a missing frame, because it can explain each candidate.
+/// Sets the frame that the file gives. A missing frame is reported by the struct's own check, which can
+/// explain each candidate.
 void TableReader::frame(const toml::node& node, const std::string& path, const base::About& about,
                         base::Quantity& quantity) {
   const std::vector<std::string> frames = frames_of(about.frame);

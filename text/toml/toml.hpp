@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The TOML parser as this project uses it: no exceptions (the browser has none), compiled once in toml.cpp.
+// Includes the TOML parser without exceptions, because the browser has none. It is compiled once, in
+// toml.cpp.
 #pragma once
 #include <cstdint>
 
@@ -7,12 +8,13 @@
 #undef TOML_HEADER_ONLY
 #define TOML_HEADER_ONLY 0
 #define TOML_ENABLE_FORMATTERS 0
-// The parser's assertions fail for some files ("[# no name"), which it then refuses anyway. Without NDEBUG
-// they would end the program, and clang would compile them as assumptions.
+// The parser's assertions fail for some files ("[# no name"), which the parser then refuses anyway. Without
+// NDEBUG a failed assertion would end the program, and with it clang would compile the assertions as
+// assumptions.
 #undef TOML_ASSERT
 #define TOML_ASSERT(expr) static_assert(true)
 // The parser's tables of white space mark characters as unreachable that a file may hold ("valueÖ = 1";
-// version 3.3 and before). Such a character is no white space.
+// version 3.3 and before). Here such a character counts as no white space.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_ASSERT_ASSUME
 #define TOML_ASSERT_ASSUME(expr) static_assert(true)

@@ -5,7 +5,7 @@
 #include <sixstep.h>
 #include <stdio.h>
 
-/* Pair of the torque in positive direction by the Hall code H1 H2 H3. Codes 0 and 7 do not occur. */
+/* The pair that makes torque in positive direction, by the Hall code H1 H2 H3. Codes 0 and 7 do not occur. */
 static const uint8_t source[8] = {0, 2, 1, 1, 0, 2, 0, 0}, sink[8] = {0, 0, 2, 0, 1, 1, 2, 0};
 
 static void control(const sixstep_measured* seen, double setpoint_A, sixstep_answer* answer) {

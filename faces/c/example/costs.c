@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Measures what the calls cost on this machine: the first opening of the process, of all else the best of seven.
+/* Measures the time of calls on this machine: of the first opening in the process once, of all other calls the
+ * best of seven.
  *   cc -O2 costs.c $(pkg-config --cflags --libs sixstep) -o costs && ./costs SCENARIO */
 #define _POSIX_C_SOURCE 199309L
 #include <sixstep.h>

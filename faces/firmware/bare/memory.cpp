@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the three functions that compilers insert to copy and clear structs. They copy words where
+// Defines the three functions that compilers insert to copy and clear structs. The functions copy words where
 // possible, like a C library; otherwise the instruction counts would include code that no real firmware has.
 #include <cstdint>
 
 using Size = decltype(sizeof 0);
-using Address = std::uint32_t;  // as wide as a pointer here
+using Address = std::uint32_t;  // as wide as a pointer on these cores
 
 extern "C" {
 
-// The barrier keeps the compiler from replacing the loop by a call of memcpy.
+// The barrier prevents the compiler from replacing the loop by a call of memcpy.
 void* memcpy(void* to, const void* from, Size n) {
   auto* d = static_cast<std::uint8_t*>(to);
   const auto* s = static_cast<const std::uint8_t*>(from);

@@ -4,7 +4,7 @@
 #pragma once
 #include <cstdint>
 
-using Word = std::uint32_t;  ///< as wide as a pointer here
+using Word = std::uint32_t;  ///< as wide as a pointer on these cores
 
 extern "C" Word semihosting(Word operation, const void* words);
 
@@ -13,12 +13,12 @@ namespace target {
 inline void write_character(char c) { semihosting(0x03, &c); }
 
 [[noreturn]] inline void exit_with(Word code) {
-  const Word words[2] = {0x20026, code};  // the application ends by itself
+  const Word words[2] = {0x20026, code};  // the reason ADP_Stopped_ApplicationExit, and the exit code
   for (;;) semihosting(0x20, words);
 }
 
-/// fopen()'s modes by their number in the convention.
-enum class FileMode : Word { read = 1, write = 5 };  // "rb", "wb"
+/// Modes of fopen() by their number in Arm's convention.
+enum class FileMode : Word { read = 1, write = 5 };  // "rb" and "wb"
 
 /// The file's handle plus 1; 0 if the file cannot be opened.
 inline Word open_file(const char* name, Word length, FileMode mode) {

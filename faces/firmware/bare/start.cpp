@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs between reset and program on Cortex-M and RISC-V: prepares the memory, calls the program and exits.
+// Runs between reset and program on Cortex-M and RISC-V: prepares the memory, calls the program, and exits.
 #include "faces/firmware/bare/semihosting.hpp"
 
 namespace target {
-void run();  // the program
+void run();  // the program's function
 }
 
 extern "C" {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads commands typed on a terminal: r runs, s stops, c clears faults, a number and Enter sets the setpoint in
-// the mode's unit. An interrupt writes characters into a ring buffer, and the main loop reads them. After a
-// lost or invalid character everything except s is ignored up to the next Enter: "70" is never read as 7, "7"
-// and "30" never as 730, nor "1,5" as 5.
+// Reads commands typed on a terminal: r runs, s stops, c clears faults, and a number with Enter sets the
+// setpoint in the mode's unit. An interrupt writes characters into a ring buffer, and the main loop reads
+// them.
+//
+// After a lost or invalid character everything except s is ignored up to the next Enter. So "70" is never
+// read as 7, "7" and "30" never as 730, nor "1,5" as 5.
 #pragma once
 #include <cstdint>
 
@@ -11,17 +13,17 @@
 namespace firmware {
 
 struct Command {
-  /// `spoiled`: at the invalid character; `dropped`: at the Enter that ends its line.
+  /// `spoiled` is returned at an invalid character, `dropped` at the Enter that ends its line.
   enum class Kind : std::uint8_t { none, run, stop, clear, setpoint, spoiled, dropped } kind = Kind::none;
   std::int32_t thousandths = 0;
 };
 
 class Commands {
  public:
-  /// Takes the next character.
+  /// Reads the next character, and returns a command if it is complete.
   constexpr Command take(char c) {
     using Kind = Command::Kind;
-    if (c == 's') {  // at any place in a line
+    if (c == 's') {  // s is accepted at any place in a line
       if (begun_) spoiled_ = true;
       return {Kind::stop, 0};
     }
@@ -37,14 +39,16 @@ class Commands {
     begun_ = true;
     return {spoiled_ ? Kind::spoiled : Kind::none, 0};
   }
-  /// A character before the next one did not arrive.
+  /// Reports that a character before the next one was lost.
   constexpr void lost() { spoiled_ = true; }
 
  private:
-  static constexpr std::int32_t most = 200'000;  // with one more digit, the thousandths still fit in 31 bits
+  static constexpr std::int32_t most = 200'000;  // a number below this can get one more digit, and its
+                                                 // thousandths still fit into 31 bits
   static constexpr std::uint8_t no_point = 0xFF;
 
-  /// Part of a number such as -12.345: an optional sign, at most one point, and up to three digits after it.
+  /// Whether a character continues a number such as -12.345: an optional sign, at most one point, and up to
+  /// three digits after it.
   constexpr bool continues_number(char c) {
     if (c == '-') {
       negative_ = true;
@@ -80,7 +84,7 @@ class Commands {
 };
 
 /// Passes characters from an interrupt, which writes, to the main loop, which reads. Each index is written by
-/// only one of them.
+/// only one of the two.
 template <std::uint8_t size>
 class Ring {
   static_assert((size & (size - 1)) == 0, "its indices wrap");
@@ -92,7 +96,7 @@ class Ring {
     char character = 0;
   };
 
-  /// Called in the interrupt. A full buffer loses this character.
+  /// Called in the interrupt: stores a character. If the buffer is full, the character is lost.
   void put(char c) {
     const auto begin = begin_, end = end_;
     if (static_cast<std::uint8_t>(end - begin) >= size) return lose();
@@ -101,14 +105,14 @@ class Ring {
     barrier();
     end_ = static_cast<std::uint8_t>(end + 1);
   }
-  /// Called in the interrupt: a character after the last one was lost.
+  /// Called in the interrupt: reports that a character after the last one was lost.
   void lose() { losses_ = static_cast<std::uint8_t>(losses_ + 1); }
 
-  /// Called in the main loop: returns a mark for lost characters at their place, else the next character.
+  /// Called in the main loop: returns a mark at the place of lost characters, else the next character.
   Item take() {
     const auto begin = begin_;
-    std::uint8_t losses = losses_;  // read before the end index: a character received before the loss is then
-                                    // returned first
+    std::uint8_t losses = losses_;  // read before the end index, so that a character received before a loss
+                                    // is returned first
     const bool empty = begin == end_;
     barrier();
     if (!empty) losses = losses_before_[begin % size];
@@ -131,7 +135,7 @@ class Ring {
   volatile std::uint8_t begin_ = 0, end_ = 0;
 };
 
-/// Prints "# setpoint 70 rad/s", or 70.500: the setpoint from now on.
+/// Prints the setpoint that is in effect from now on: "# setpoint 70 rad/s", or 70.500.
 template <class Put>
 constexpr void put_setpoint(Put put, std::int32_t thousandths, const char* unit) {
   const std::int32_t whole = thousandths / 1000;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names the reasons why a board's drive is stopped, for its line "# fault: over-current": printed when it
-// happens, and about once a second during the stop. The reason is kept over a reset, in memory that the
-// start-up does not clear, so that a watchdog's reset does not hide it.
+// Names the reasons why a board's drive is stopped, for its line "# fault: over-current". The line is printed
+// when the fault happens, and about once a second during the stop. The reason is kept over a reset, in memory
+// that the start-up does not clear, so that a watchdog's reset does not hide it.
 #pragma once
 #include <cstdint>
 
@@ -11,22 +11,22 @@ namespace firmware {
 
 enum class Reason : std::uint8_t {
   none,
-  hall,            ///< a code that no rotor gives, or a jump over a sector
+  hall,            ///< a Hall code that no rotor gives, or a jump over a sector
   calibration,     ///< the offset of a current transducer is out of its tolerance
   over_current,    ///< in the samples
   current_sensor,  ///< a reading at the converter's full scale, or three currents whose sum is not zero
   setpoint_wire,   ///< the potentiometer reads beyond its ends
   comparator,      ///< the power stage's own, at the timer's break input
   clock,           ///< the external clock did not start, or stopped
-  converter,       ///< no conversion ends
+  converter,       ///< no conversion ends any more
   watchdog,        ///< the main loop or the control interrupt hung
   over_voltage,
   under_voltage,
   over_speed,
   stall,
   align,
-  board,   ///< the board stopped the drive for a reason that is over
-  program  ///< an unexpected interrupt or a fault of the core
+  board,   ///< the board stopped the drive, for a reason that is over
+  program  ///< an unexpected interrupt, or a fault of the core
 };
 
 constexpr const char* word(Reason reason) {
@@ -76,8 +76,8 @@ constexpr void put_fault(Put put, Reason reason) {
   put('\n');
 }
 
-/// The reason is in a section that the start-up does not clear. After power-up its content is random: it is
-/// valid only with the right key.
+/// A stored reason. It is in a section that the start-up does not clear. After power-up its content is
+/// random, and it is valid only with the right key.
 struct KeptReason {
   static constexpr std::uint32_t right_key = 0x5157E9A3;
   volatile std::uint32_t key;
@@ -85,7 +85,7 @@ struct KeptReason {
   volatile std::uint8_t check;  ///< the reason, inverted
 
   void keep(Reason why) {
-    key = 0;  // a reset in between leaves no half-written reason
+    key = 0;  // so that a reset during the writing leaves no half-written reason
     reason = why;
     check = static_cast<std::uint8_t>(~static_cast<unsigned>(why));
     key = right_key;

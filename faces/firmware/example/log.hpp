@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints lines of numbers for a serial line: the log of a board is a table that `sixstep run --compare LOG`
-// compares with its simulation. No division, no library: digits are found by subtraction, which takes an 8-bit
-// chip a few hundred cycles per number.
+// Prints lines of numbers for a serial line. The log of a board is a table that `sixstep run --compare LOG`
+// compares with its simulation. The functions use no division and no library: digits are found by
+// subtraction, which takes an 8-bit chip a few hundred cycles per number.
 #pragma once
 #include <cstdint>
 
@@ -15,12 +15,12 @@ template <>
 inline constexpr std::uint32_t tens<std::uint32_t>[10] = {
     1'000'000'000, 100'000'000, 10'000'000, 1'000'000, 100'000, 10'000, 1'000, 100, 10, 1};
 
-/// Prints the digits from a place on, in words of that width.
+/// Prints the digits from a place on, computing with integers of type Word.
 template <class Word, class Put>
 constexpr void put_digits(Put put, Word rest, unsigned decimals, unsigned first_place) {
   bool begun = false;
   for (unsigned place = first_place; place < 10; ++place) {
-    const unsigned behind = 9 - place;  // digits that follow
+    const unsigned behind = 9 - place;  // number of digits that follow
     char digit = '0';
     for (; rest >= tens<Word>[place]; rest = static_cast<Word>(rest - tens<Word>[place])) ++digit;
     begun = begun || digit != '0' || behind <= decimals;
@@ -29,13 +29,14 @@ constexpr void put_digits(Put put, Word rest, unsigned decimals, unsigned first_
   }
 }
 
-/// Prints decimals: "-0.123" is -123 with three decimals. `put` receives one character.
+/// Prints a number with decimals: -123 with three decimals is "-0.123". `put` receives one character at a
+/// time.
 template <class Put>
 constexpr void put_number(Put put, std::int32_t value, unsigned decimals = 0) {
   const std::uint32_t rest =
       value < 0 ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
   if (value < 0) put('-');
-  if (rest < 65536)  // the usual case; 16-bit words need half the time on an 8-bit chip
+  if (rest < 65536)  // the usual case; 16-bit integers need half the time on an 8-bit chip
     put_digits(put, static_cast<std::uint16_t>(rest), decimals, 5);
   else
     put_digits(put, rest, decimals, 0);
@@ -46,9 +47,9 @@ constexpr void put_text(Put put, const char* text) {
   for (; *text != '\0'; ++text) put(*text);
 }
 
-/// Time since the board began to count; a number of microseconds that wraps after 68 years.
+/// Time since the board began to count; its number of seconds wraps after 68 years.
 struct Instant {
-  std::uint32_t seconds = 0, microseconds = 0;  ///< the latter below a million
+  std::uint32_t seconds = 0, microseconds = 0;  ///< microseconds are below a million
 
   constexpr void pass(std::uint32_t more_microseconds) {
     for (; more_microseconds >= 1'000'000; more_microseconds -= 1'000'000) ++seconds;
@@ -59,7 +60,7 @@ struct Instant {
   }
 };
 
-/// Time in microseconds, without 64-bit numbers.
+/// Prints a time in microseconds, without 64-bit numbers.
 template <class Put>
 constexpr void put_instant(Put put, const Instant& t) {
   if (t.seconds == 0) return put_number(put, static_cast<std::int32_t>(t.microseconds));
@@ -72,12 +73,12 @@ constexpr void put_instant(Put put, const Instant& t) {
   }
 }
 
-/// Compiler barrier: data from an interrupt are read after it; data that the interrupt may write again are
-/// not used after it.
+/// Compiler barrier. Data from an interrupt are read only after the barrier; data that the interrupt may
+/// write again are not read after it.
 inline void barrier() { asm volatile("" ::: "memory"); }
 
-/// Passes one row from the control interrupt to the main loop, which requests the next row as soon as it has
-/// sent one. So the log has as many rows as the line can transmit, each with its instant.
+/// Passes one row at a time from the control interrupt to the main loop, which requests the next row as soon
+/// as it has sent one. So the log has as many rows as the line can transmit, each with its instant.
 template <class Row>
 class LogSlot {
  public:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs a firmware on an ATmega2560, in lock-step with a plant behind two pipes:
 //
-// sixstep-avr-board [--hall=K0,K1,K2] [--upper=B5,B6,B7] [--lower=A0,A1,A2] [--inputs=0,1,2,3] [--serial=FILE]
-// FIRMWARE.elf
+//   sixstep-avr-board [--hall=K0,K1,K2] [--upper=B5,B6,B7] [--lower=A0,A1,A2] [--inputs=0,1,2,3]
+//   [--serial=FILE] FIRMWARE.elf
 //
-// It reads runs from descriptor 3 and writes answers to 4 (sixstep/rig/chip_port.hpp). The options give the
-// connected pins, legs in the order a, b, c; inputs are the converter's, for the three currents and the
-// potentiometer. FILE gets the output of USART0, line by line.
+// The program reads runs from descriptor 3 and writes answers to 4 (sixstep/rig/chip_port.hpp). The options
+// state the connected pins, with legs in the order a, b, c. Inputs are those of the converter, for the three
+// currents and the potentiometer. FILE gets the output of USART0, line by line.
 //
-// It is a separate program because libsimavr is GPL-3, and no other part is linked with it.
+// It is a separate program because libsimavr is GPL-3, and no other part may be linked with it.
 #include <unistd.h>
 
 #include <cerrno>
@@ -24,7 +24,7 @@ namespace rig = sixstep::rig;
 constexpr int runs = 3, answers = 4;
 constexpr char serial_option[] = "--serial=";
 
-/// False at the end of the pipe.
+/// Reads exactly this number of bytes. Returns false at the end of the pipe.
 bool take(void* to, std::size_t bytes) {
   for (char* at = static_cast<char*>(to); bytes > 0;) {
     const ssize_t n = ::read(runs, at, bytes);
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "sixstep-avr-board: %s cannot be written\n", serial);
     return 2;
   }
-  // Line by line, because the parent process may end this one at any time.
+  // The file is written line by line, because the parent process may end this process at any time.
   if (sent != nullptr && std::setvbuf(sent, nullptr, _IOLBF, 4096) != 0) return 2;
   static board::Chip chip(pins, sent);
   if (!chip.load(argv[argc - 1])) {

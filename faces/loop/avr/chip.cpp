@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the events at an ATmega2560's pins and the effects of its software's writes.
+// Computes the events at an ATmega2560's pins, and the effects of writes by the firmware.
 #include "faces/loop/avr/chip.hpp"
 
 namespace board {
@@ -32,7 +32,8 @@ rig::ChipTimes Chip::times() const {
       .control = control_.times(), .hall = hall_.times(), .periods = periods_, .conversions = conversions_};
 }
 
-/// Executes all events up to the end of the last instruction, in their order, and then that instruction's write.
+/// Executes all events up to the end of the last instruction in their order, and then that instruction's
+/// write.
 void Chip::settle() {
   const std::uint64_t now = avr_->cycle;
   for (;;) {
@@ -121,7 +122,7 @@ void Chip::apply(Write write, std::uint64_t at) {
   }
 }
 
-/// Writing a one clears a flag. A flag that is set requests its interrupt as soon as that is enabled.
+/// Writing a one clears a flag. A set flag requests its interrupt as soon as that interrupt is enabled.
 void Chip::write_flags(Write write) {
   const struct {
     Address flags, mask;
@@ -137,7 +138,7 @@ void Chip::write_flags(Write write) {
     if (write.to == one.mask && flag(one.flags, one.bit)) avr_raise_interrupt(avr_, one.vector);
 }
 
-/// Writing a one clears ADIF. ADSC starts a conversion, and reads as one while it runs.
+/// Writing a one clears ADIF. Writing a one to ADSC starts a conversion; ADSC reads as one while it runs.
 void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((value & ADIF) != 0) avr_clear_interrupt(avr_, converted_);
   converter_.set((value & ADEN) != 0, value & 7, at);
@@ -149,7 +150,7 @@ void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((shown & ADIF) != 0) avr_raise_interrupt(avr_, converted_);
 }
 
-/// A newly selected trigger whose flag is set counts as an edge, too (26.4).
+/// If the flag of a newly selected trigger is set, this counts as an edge too (data sheet, 26.4).
 void Chip::write_adcsrb(std::uint8_t value, std::uint64_t at) {
   const bool before = (avr_->data[ADCSRB] & ADTS_bits) == ADTS_timer1_overflow;
   avr_->data[ADCSRB] = value;
@@ -160,14 +161,15 @@ std::uint16_t Chip::result() const {
   return static_cast<std::uint16_t>(flag(ADMUX, ADLAR) ? result_ << 6 : result_);
 }
 
-/// The instruction reads in its second cycle.
+/// An instruction reads a register in its second cycle.
 std::uint8_t Chip::read(Address from) {
   if (from != ADCL && from != ADCH) return timer_.read(from, avr_->cycle + 1);
   result_locked_ = from == ADCL;
   return static_cast<std::uint8_t>(from == ADCL ? result() : result() >> 8);
 }
 
-/// Whether the pin is an output and high: by the timer if it drives the pin, else by the port.
+/// Whether the pin is an output and high. Its level is that of the timer if the timer drives the pin, else
+/// that of the port.
 bool Chip::is_on(const Pin& pin) const {
   if (!flag(pin.DDR(), pin.mask())) return false;
   const int channel = pin.port == 'B' ? pin.bit - 5 : -1;

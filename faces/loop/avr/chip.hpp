@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models an ATmega2560 at 16 MHz: simavr's core, ports and interrupts, with a timer 1 and a converter of our
-// own. A gate is on if its pin is an output and high; PB5..PB7 also depend on timer 1.
+// Models an ATmega2560 at 16 MHz: simavr's core, ports and interrupts, with a timer 1 and a converter of this
+// project. A gate is on if its pin is an output and high; PB5..PB7 also depend on timer 1.
 //
-// Only code that links with simavr (GPL-3) may include this.
+// Only code that links with simavr (GPL-3) may include this file.
 #pragma once
 #include <cstdint>
 #include <cstdio>
@@ -25,12 +25,12 @@ class Chip {
  public:
   static constexpr std::uint32_t clock_Hz = 16'000'000;
 
-  /// `serial` null: the output of USART0 is lost.
+  /// If `serial` is null, the output of USART0 is lost.
   explicit Chip(const Pins& pins, std::FILE* serial) : pins_(pins), serial_(serial) {}
   Chip(const Chip&) = delete;
   Chip& operator=(const Chip&) = delete;
 
-  /// Call it once; false if the file cannot be read.
+  /// Loads the firmware; call it only once. Returns false if the file cannot be read.
   bool load(const char* elf);
 
   sixstep::rig::ChipAnswer run(const sixstep::rig::ChipRun& with);
@@ -39,7 +39,7 @@ class Chip {
  private:
   struct PortRegister {
     Chip* chip = nullptr;
-    avr_io_write_t write = nullptr;  ///< simavr's own function
+    avr_io_write_t write = nullptr;  ///< simavr's own function for writes to the register
     void* of_write = nullptr;
   };
   struct Write {
@@ -47,7 +47,7 @@ class Chip {
     std::uint8_t value = 0;
   };
 
-  // About the core: chip_core.cpp
+  // Functions for the core, in chip_core.cpp:
   void take_over();
   void register_pin_change();
   void take_over_port(atmega2560::Address at);
@@ -64,7 +64,7 @@ class Chip {
   void entered(unsigned number);
   void left(unsigned number);
 
-  // About its timer and its converter: chip.cpp
+  // Functions for timer and converter, in chip.cpp:
   void settle();
   void pass_timer();
   void pass_converter();
@@ -82,18 +82,19 @@ class Chip {
 
   avr_t* avr_ = nullptr;
   avr_int_vector_t *overflow_ = nullptr, *capture_ = nullptr, *converted_ = nullptr;
-  avr_int_vector_t pin_change_{};  ///< simavr 1.6 lacks it at port K
+  avr_int_vector_t pin_change_{};  ///< simavr 1.6 does not have this interrupt for port K
   avr_irq_t* hall_irqs_ = nullptr;
-  std::deque<PortRegister> ports_;  ///< registers that move gates; a deque keeps their addresses
+  std::deque<PortRegister> ports_;  ///< registers that set gates; a deque, so that their addresses stay valid
   Pins pins_;
   std::FILE* serial_;
 
-  bool stop_ = false;  ///< a register was written, or an interrupt entered: stop before the next instruction
+  bool stop_ = false;  ///< a register was written, or an interrupt entered: the core must stop before the
+                       ///< next instruction
   bool has_write_ = false;
-  Write write_{};  ///< write by the last instruction
+  Write write_{};  ///< write that the last instruction made
   bool ended_ = false, slept_ = false;
   bool was_reset_ = false;      ///< the watchdog reset the chip
-  std::uint64_t response_ = 0;  ///< cycles of entered interrupts that the core has not counted
+  std::uint64_t response_ = 0;  ///< cycles of entering interrupts that the core has not counted yet
 
   Timer1 timer_;
   Converter converter_;
@@ -103,11 +104,11 @@ class Chip {
   bool result_locked_ = false;  ///< true between the reads of ADCL and ADCH
 
   std::uint32_t gates_ = 0, told_gates_ = 0;
-  std::deque<sixstep::rig::ChipAnswer> told_;  ///< answers in the order of their cycles
+  std::deque<sixstep::rig::ChipAnswer> told_;  ///< answers to the plant in the order of their cycles
   bool asked_for_count_ = false;               ///< the last answer was a sample
   std::uint64_t reached_ = 0;                  ///< cycle of the last answer
 
-  Stopwatch control_{32}, hall_{32};  // a Hall interrupt may wait for a control interrupt
+  Stopwatch control_{32}, hall_{32};  // a Hall interrupt may have to wait for a control interrupt
   std::uint64_t periods_ = 0, conversions_ = 0;
 };
 

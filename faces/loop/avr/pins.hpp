@@ -24,13 +24,14 @@ struct Pin {
 };
 
 struct Pins {
-  Pin hall[3] = {{'K', 0}, {'K', 1}, {'K', 2}};  ///< must be of port K
+  Pin hall[3] = {{'K', 0}, {'K', 1}, {'K', 2}};  ///< the pins must be of port K
   Pin upper[3] = {{'B', 5}, {'B', 6}, {'B', 7}};
   Pin lower[3] = {{'A', 0}, {'A', 1}, {'A', 2}};
   std::uint8_t inputs[4] = {0, 1, 2,
-                            3};  ///< inputs of the converter: currents of legs a, b, c, potentiometer
+                            3};  ///< inputs of the converter: for the currents of legs a, b, c, and for the
+                                 ///< potentiometer
 
-  /// The signal at an input of the converter: 0 to 3 in the above order; -1: none.
+  /// The signal at an input of the converter: its index 0 to 3 in `inputs`; -1: none.
   int what_hangs_at(unsigned channel) const {
     for (int n = 0; n < 4; ++n)
       if (inputs[n] == channel) return n;
@@ -38,7 +39,7 @@ struct Pins {
   }
 };
 
-/// "K0,K1,K2"
+/// Reads three pins from a text such as "K0,K1,K2".
 inline bool take_three(const char* said, Pin (&pins)[3]) {
   if (std::strlen(said) != 8 || said[2] != ',' || said[5] != ',') return false;
   for (std::size_t n = 0; n < 3; ++n) {
@@ -49,7 +50,7 @@ inline bool take_three(const char* said, Pin (&pins)[3]) {
   return true;
 }
 
-/// Reads an option of the board's program; false if it is no such option.
+/// Reads an option of the board's program. Returns false if it is no such option.
 inline bool take_pins(const char* option, Pins& pins) {
   const auto behind = [option](const char* name) {
     return std::strncmp(option, name, std::strlen(name)) == 0 ? option + std::strlen(name) : nullptr;

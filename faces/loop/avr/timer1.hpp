@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models timer 1 of an ATmega2560 in its phase correct modes up to ICR1 (8 and 10), by data sheet 2549 (17).
-// In all other modes it does not count and its outputs are off. next() is the next cycle with an event; no
-// call is necessary before it.
+// Models timer 1 of an ATmega2560 in its phase correct modes up to ICR1 (8 and 10), according to data sheet
+// 2549 (17). In all other modes it does not count, and its outputs are off. next() is the next cycle with an
+// event; no call is necessary before this cycle.
 //
-// A phase is counted in ticks from the tick that leaves BOTTOM: there TOV1 is set, and a match shows at the tick
-// that leaves the matching count (figures 17-12 and 17-13). So the on-time is centred on phase 0, and the count
-// is one ahead of the phase.
+// A phase is counted in ticks from the tick that leaves BOTTOM. TOV1 is set at this tick, and a match takes
+// effect at the tick that leaves the matching count (figures 17-12 and 17-13). So the on-time is centred on
+// phase 0, and the count is one ahead of the phase.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -38,7 +38,7 @@ class Timer1 {
     return passed_ == 0 ? Event::bottom : passed_ == top_ ? Event::top : Event::match;
   }
 
-  /// False: the port drives the pin.
+  /// Whether the timer drives the pin; else the port drives it.
   bool connected(int channel) const { return (com(channel) & 2) != 0; }
   bool level(int channel) const {
     return has_outputs() && channel_[channel].latch != ((com(channel) & 1) != 0);
@@ -51,7 +51,7 @@ class Timer1 {
       tccr_a_ = value;
     } else if (to == TCCR1B) {
       tccr_b_ = value;
-    } else if ((to & 1) != 0) {  // high bytes wait for their low ones
+    } else if ((to & 1) != 0) {  // a high byte waits until its low byte is written
       temp_ = value;
       return;
     } else {
@@ -80,7 +80,7 @@ class Timer1 {
  private:
   struct Channel {
     std::uint16_t buffer = 0, compare = 0;
-    bool latch = false;  ///< OC1x
+    bool latch = false;  ///< level of OC1x before inversion
     int com_shift = 0;
   };
   struct Count {
@@ -104,8 +104,9 @@ class Timer1 {
     if (!has_outputs()) c.compare = word;
   }
 
-  /// The latch of a disconnected output does not change (17.8.1). At TOP the latch has the level that an upward
-  /// match leaves, even if there was none (16.7.4), so that a pulse is symmetric about BOTTOM.
+  /// Handles a match. The latch of a disconnected output does not change (17.8.1). At TOP the latch has the
+  /// level that a match while counting up leaves, even if there was none (16.7.4), so that a pulse is
+  /// symmetric about BOTTOM.
   void match(Channel& c) const {
     if ((tccr_a_ >> c.com_shift & 2) == 0) return;
     const std::int64_t compare = c.compare;
@@ -123,7 +124,8 @@ class Timer1 {
     return {ticks <= top_ ? ticks : period() - ticks, ticks < top_};
   }
 
-  /// Continues from a count, with the present registers. The prescaler runs on: its edges count from the reset.
+  /// Continues from a count, with the present registers. The prescaler is not reset: its edges are counted
+  /// from the chip's reset.
   void place(Count from, std::uint64_t now) {
     counted_ = counts();
     top_ = icr_;
@@ -155,10 +157,11 @@ class Timer1 {
   std::uint8_t tccr_a_ = 0, tccr_b_ = 0, temp_ = 0;
   std::uint16_t icr_ = 0;
   Channel channel_[channels] = {{.com_shift = 6}, {.com_shift = 4}, {.com_shift = 2}};
-  bool counted_ = false;  ///< whether it counts; place() derives this and the following from the registers
+  bool counted_ = false;  ///< whether the timer counts; place() derives this and the following members from
+                          ///< the registers
   std::int64_t top_ = 0, prescaler_ = 0;
   std::int64_t base_ = 0;                     ///< cycle of phase 0
-  std::int64_t passed_ = 0, next_phase_ = 0;  ///< ticks
+  std::int64_t passed_ = 0, next_phase_ = 0;  ///< in ticks
   std::uint64_t next_ = never;
   Count still_;
 };

@@ -15,7 +15,7 @@ using exported::Scalar;
 namespace control = sixstep::control;
 namespace rig = sixstep::rig;
 
-/// The library's drive, by the name that the header gives its configuration.
+/// Selects the drive of the library. The header's name for the drive's configuration determines the type.
 #ifdef SIXSTEP_PRODUCT_DRIVE
 using Call = rig::ProductCall<Scalar>;
 
@@ -96,7 +96,7 @@ control::BridgeCommand<Scalar> made(const Call& call) {
 
 using Answer = decltype(rig::answer_of(made(Call{})));
 
-/// Names of the pipes' ends that the emulator was given (faces/loop/emulator.cpp).
+/// Names of the pipes' ends in the emulator's process (faces/loop/emulator.cpp).
 constexpr char calls_name[] = "/dev/fd/3", answers_name[] = "/dev/fd/4";
 
 }  // namespace

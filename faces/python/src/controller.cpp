@@ -13,7 +13,8 @@ namespace py = pybind11;
 
 namespace {
 
-/// The interface's design function has no argument for the object; a run is designed in the thread that starts it.
+/// A variable of the thread, because the interface's design function has no argument for the object. A run is
+/// designed in the thread that starts it.
 thread_local Controller* designed = nullptr;
 
 struct Config {
@@ -55,7 +56,7 @@ py::dict as_dict(const sixstep_given& g) {
 
 }  // namespace
 
-/// Signed duty of the last step.
+/// State of a drive: the signed duty of its last step.
 struct Controller::State {
   double duty;
 };
@@ -107,7 +108,7 @@ void Controller::step(const void* config, void* state, const sixstep_measured* m
   if (own.error_) return;
   try {
     static_cast<State*>(state)->duty = own.answer_to(*measured, setpoint, *answer);
-    // For the report, which cannot know what the controller makes of its setpoint.
+    // Set for the report, because only the controller determines how it uses its setpoint.
     if (own.mode_ == SIXSTEP_CURRENT) answer->current_reference_A = setpoint;
     if (own.mode_ == SIXSTEP_SPEED) answer->speed_reference_rad_s = setpoint;
   } catch (py::error_already_set& error) {

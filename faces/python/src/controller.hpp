@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller written in Python. It replaces a user's controller in C (control/own/own_controller.h): the
-// same measurement, the same output, once per control period.
+// A controller written in Python. It replaces a user's controller in C (control/own/own_controller.h): it has
+// the same measurement and the same output, once per control period.
 //
-// The Python object has
-//   step(m, setpoint)   returns the output: a number is the duty of the driven pair, -1..1; three numbers are the duties
-//                       of the legs, 0..1; None turns the bridge off
-//   start(given)        optional; called before each run with the data that a controller in C designs itself from
+// The Python object has two methods:
+// - step(m, setpoint) returns the output. A number is the duty of the driven pair, -1..1; three numbers are
+//   the duties of the legs, 0..1; None turns the bridge off.
+// - start(given) is optional. It is called before each run with the data from which a controller in C designs
+//   itself.
 //
-// An exception stops the run and is raised again by its caller.
+// An exception stops the run, and the caller of the run raises it again.
 #pragma once
 #include <pybind11/pybind11.h>
 
@@ -26,7 +27,7 @@ class Controller {
 
   const sixstep_controller* functions() const { return &functions_; }
 
-  /// The exception that stopped the run; empty afterwards. Needs the GIL.
+  /// Returns the exception that stopped the run, and forgets it. Needs the GIL.
   std::optional<pybind11::error_already_set> take_error();
 
  private:
@@ -47,7 +48,7 @@ class Controller {
   sixstep_controller functions_;
 };
 
-/// While it lives, runs that this thread starts are designed for this controller.
+/// While this object lives, runs that this thread starts are designed for this controller.
 class Designing {
  public:
   explicit Designing(Controller* controller);

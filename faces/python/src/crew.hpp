@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads that share the work of many small, equal calls.
+// Threads that divide many small, equal calls among them.
 #pragma once
 #include <unistd.h>
 
@@ -14,13 +14,13 @@ namespace python {
 
 class Crew {
  public:
-  /// `workers`: threads with the calling one, at least 1.
+  /// `workers`: number of threads including the calling one, at least 1.
   explicit Crew(std::size_t workers) : gate_(static_cast<std::ptrdiff_t>(workers)) {
     for (std::size_t n = 1; n < workers; ++n) threads_.emplace_back([this] { serve(); });
   }
   ~Crew() {
     if (threads_.empty()) return;
-    if (!has_threads()) {  // after a fork the threads do not exist, so that joining would block
+    if (!has_threads()) {  // after a fork the threads do not exist, and joining them would block
       for (std::thread& thread : threads_) thread.detach();
       return;
     }
@@ -31,8 +31,8 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// False in a process that was forked from the one that made the threads, because a fork does not copy
-  /// threads.
+  /// Whether this process has the threads. A process that was forked from it does not, because a fork does
+  /// not copy threads.
   bool has_threads() const { return ::getpid() == process_; }
 
   /// Calls work(n) for each n < count, in any order, and returns when all have ended.
@@ -46,7 +46,8 @@ class Crew {
   }
 
  private:
-  static constexpr std::size_t at_once = 4;  // adjacent calls, to limit accesses to next_
+  static constexpr std::size_t at_once = 4;  // number of adjacent calls that a thread takes at once, to
+                                             // reduce accesses to next_
 
   void take() {
     for (std::size_t from = next_.fetch_add(at_once); from < count_; from = next_.fetch_add(at_once))

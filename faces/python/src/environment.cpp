@@ -34,7 +34,7 @@ constexpr std::array observed = {"i_a_A",        "i_b_A",           "i_c_A",    
 struct Drive {
   std::unique_ptr<Exchange> exchange = std::make_unique<Exchange>();
   std::optional<study::Session> session;
-  std::uint64_t periods = 0;  ///< since its reset
+  std::uint64_t periods = 0;  ///< number of periods since the drive's reset
   bool over = true;
 };
 
@@ -58,7 +58,8 @@ class Environment {
     return tried.current_A;
   }
 
-  /// Restarts drive which[k] as drive numbers[k] of the scenario's [spread] with this seed; none: as written.
+  /// Restarts drive which[k] as drive numbers[k] of the scenario's [spread] with this seed. If numbers[k] is
+  /// empty, the drive is as written.
   void reset(const std::vector<std::size_t>& which, std::uint64_t seed,
              const std::vector<std::optional<std::uint64_t>>& numbers) {
     for (std::size_t k = 0; k < which.size(); ++k) {
@@ -72,7 +73,8 @@ class Environment {
     }
   }
 
-  /// Advances each drive by `periods` control periods under its action. `over` is true if its run has ended.
+  /// Advances each drive by `periods` control periods under its action. A drive whose run has ended gets
+  /// `over`.
   void step(const Numbers& actions, std::uint64_t periods) {
     if (actions.ndim() != 2 || static_cast<std::size_t>(actions.shape(0)) != drives_.size() ||
         static_cast<std::size_t>(actions.shape(1)) != actions_)
@@ -117,7 +119,7 @@ class Environment {
   py::array_t<bool> over() const {
     return each([](const Drive& drive) { return drive.over; });
   }
-  /// Whether a fault ended the run before its time.
+  /// For each drive, whether a fault ended the run before its time.
   py::array_t<bool> failed() const {
     return each([this](const Drive& drive) {
       return drive.over && drive.session && drive.session->now_s() < scenario_.duration_s * (1.0 - 1e-9);
@@ -126,7 +128,7 @@ class Environment {
 
  private:
   static constexpr std::uint64_t between_looks =
-      1000;  ///< periods between two checks for Ctrl-C: a millisecond
+      1000;  ///< number of periods between two checks for Ctrl-C, which simulate a millisecond
 
   static study::Session opened(const study::Scenario& scenario, Exchange& exchange) {
     const Opening commanded(exchange);
@@ -140,7 +142,7 @@ class Environment {
       out.mutable_at(static_cast<py::ssize_t>(n)) = property(drives_[n]);
     return out;
   }
-  /// Advances to three quarters of the last period. This includes its tick, which is at the start or in the
+  /// Advances to three quarters of the last period, after the period's tick, which is at the start or in the
   /// middle of a period.
   void advance(Drive& drive, std::uint64_t periods) const {
     if (drive.over) return;

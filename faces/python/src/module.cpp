@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep._core: the library as the Python package calls it. Users call the functions of the package's own
-// files.
+// sixstep._core: the library's functions for the Python package. Users call the functions in the package's
+// own files instead.
 #include <pybind11/pybind11.h>
 
 #include "faces/python/src/controller.hpp"

@@ -13,7 +13,7 @@
 
 namespace python {
 
-/// Recorded rows, column by column. Arrays that Python holds keep it alive.
+/// Recorded rows, column by column. Arrays in Python keep this object alive.
 struct Rows {
   std::vector<std::vector<double>> columns;
 
@@ -28,7 +28,7 @@ struct Outcome {
   bool passed = false, complete = false;
   double simulated_s = 0.0;
   std::vector<study::Column> columns, event_columns;
-  std::shared_ptr<Rows> rows, events;  ///< events: empty unless requested
+  std::shared_ptr<Rows> rows, events;  ///< `events`: empty unless requested
   pybind11::object stopped_by;         ///< the exception that ended the run early, or None
 };
 

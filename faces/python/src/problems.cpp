@@ -9,7 +9,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// Bytes of a file that are no UTF-8 are shown by replacement characters.
+/// The text for Python. Bytes of a file that are not UTF-8 become replacement characters.
 py::str text_of(const std::string& text) {
   return py::reinterpret_steal<py::str>(
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));

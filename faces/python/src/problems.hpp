@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems of the library as Python exceptions.
+// Converts problems of the library to Python exceptions.
 #pragma once
 #include <pybind11/pybind11.h>
 
@@ -11,7 +11,7 @@
 
 namespace python {
 
-/// Thrown in this face only; becomes sixstep.ScenarioError with all problems in `.problems`.
+/// Thrown by this binding only. Python gets a sixstep.ScenarioError with all problems in `.problems`.
 struct Refused {
   base::Problems problems;
 };

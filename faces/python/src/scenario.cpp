@@ -24,7 +24,7 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Finds files as the command line does, and the given controller under any name.
+/// Finds files like the command line; any controller's name means the given controller.
 text::Resolve resolve_with(const std::string& data_dir, const std::shared_ptr<Controller>& controller) {
   return [on_disk = files::on_disk(data_dir), controller](const text::Naming& naming) {
     if (controller && naming.kind == text::Naming::Kind::controller)
@@ -42,7 +42,7 @@ HeldScenario read(const std::string& name, std::string source, const Settings& s
   return {std::move(scenario), std::move(controller)};
 }
 
-/// (key, its value as TOML, whether the same value holds without the key)
+/// A tuple for each key: the key, its value as TOML, and whether the value is the same without the key.
 std::vector<std::tuple<std::string, std::string, bool>> values(const HeldScenario& held) {
   std::vector<std::tuple<std::string, std::string, bool>> out;
   for (text::WrittenValue& value : text::scenario_values(held.scenario))
@@ -70,7 +70,7 @@ py::list entries(const std::vector<text::KeyEntry>& keys) {
   return out;
 }
 
-/// (name, unit, frame, meaning) of each column that a run of the scenario records.
+/// A tuple for each column that a run of the scenario records: name, unit, frame, meaning.
 std::vector<std::tuple<std::string, std::string, std::string, std::string>> columns(
     const HeldScenario& held) {
   std::vector<std::tuple<std::string, std::string, std::string, std::string>> out;

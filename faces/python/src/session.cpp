@@ -25,7 +25,8 @@ namespace py = pybind11;
 
 namespace {
 
-/// Allows one call at a time: while one advances without the GIL, another thread may call the same session.
+/// Allows one call at a time. A session advances without the GIL, and meanwhile another thread may call the
+/// same session.
 class Busy {
  public:
   explicit Busy(std::atomic<bool>& busy) : busy_(busy) {
@@ -41,8 +42,8 @@ class Busy {
   std::atomic<bool>& busy_;
 };
 
-/// Destination of the rows of this thread's call. A copied session keeps its own rows, but copies its
-/// listener with all that it holds.
+/// Rows to which this thread's call records. They are not in the listener: a copied session keeps its own
+/// rows, but copies its listener with everything in it.
 thread_local Rows* recording = nullptr;
 
 class Recording {
@@ -86,16 +87,16 @@ class Session {
     {
       const py::gil_scoped_release free;
       const Recording into(*rows_);
-      // Advances in parts and checks for Ctrl-C between them; the parts change no bit.
+      // Advances in parts, with a check for Ctrl-C after each part. The parts do not change a bit.
       while (goes_on && session.now_s() + part_s_ < to_s && watch.keep_going(session.now_s()))
         goes_on = session.skip(session.now_s() + part_s_);
-      // After Ctrl-C the values of the instant that was reached are read.
+      // After Ctrl-C, the values at the instant that was reached are read.
       if (goes_on) goes_on = session.advance(watch.stopped_by_nothing() ? to_s : session.now_s());
     }
     std::optional<py::error_already_set> raised;
     if (controller_) raised = controller_->take_error();
     if (raised) {
-      session_.reset();  // the controller's state does not allow to continue
+      session_.reset();  // the state of the Python controller does not allow the run to continue
       throw std::move(*raised);
     }
     if (!watch.stopped_by_nothing()) watch.raise();

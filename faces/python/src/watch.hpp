@@ -13,7 +13,8 @@ class Watch {
   /// `progress`: None, or a function of the simulated time in s.
   explicit Watch(pybind11::object progress) : progress_(std::move(progress)) {}
 
-  /// False: end the run; stopped_by() returns the reason. Acquires the GIL at most every `interval`.
+  /// Returns false if the run must end; stopped_by() then has the reason. Acquires the GIL at most once per
+  /// `interval`.
   bool keep_going(double t_s) {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < interval) return true;
@@ -35,7 +36,7 @@ class Watch {
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(stopped_by_.ptr())), stopped_by_.ptr());
     throw pybind11::error_already_set();
   }
-  /// None if nothing stopped the run.
+  /// The exception that stopped the run; None if nothing stopped it.
   pybind11::object stopped_by() const { return stopped_by_; }
 
  private:

@@ -22,8 +22,8 @@ using study::ColumnId;
 
 constexpr ColumnId phase_currents[] = {ColumnId::i_a, ColumnId::i_b, ColumnId::i_c};
 
-/// The lines go from a thirtieth of the crossover to thirty times it, at most to four fifths of half the sampling
-/// rate.
+/// The multisine's lines lie between 1/30 of the crossover and 30 times the crossover, but at most at four
+/// fifths of half the sampling rate.
 constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rate = 0.8;
 /// Samples in a period of the multisine.
 constexpr double fewest_samples = 64, most_samples = 262144, usual_samples = 4096;
@@ -34,8 +34,8 @@ study::Scenario as_at_the_end(const study::Scenario& s) {
   return study::settled(s, events.empty() ? nullptr : events.back());
 }
 
-/// Refuses a reference that never rests. One that moves until the run's end has reached its final value
-/// there; the drive's remaining error decays in the multisine's first period, as after a step.
+/// Refuses a reference that never rests. A reference that moves until the run's end has its final value
+/// there. The drive's remaining error then decays in the multisine's first period, as after a step.
 base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
@@ -50,7 +50,7 @@ base::Problems still_moving(const study::Scenario& run) {
            "set duration_s = " + base::written(*rests_s) + ", or make it constant: shape = \"constant\""}};
 }
 
-/// `run` is the scenario as written, `s` the one with the settings at its end.
+/// `run` is the scenario as written, `s` is the same with the settings at the run's end.
 base::Problems not_measurable(const study::Scenario& run, const study::Scenario& s) {
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
@@ -67,7 +67,7 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
   return problems;
 }
 
-/// Current across the magnet's axis.
+/// The current i_q in A, across the magnet's axis.
 double i_q_of(const study::FullRow& row, double pole_pairs) {
   const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
   const double a = at(ColumnId::i_a), b = at(ColumnId::i_b), c = at(ColumnId::i_c);
@@ -91,7 +91,7 @@ double controlled(const study::FullRow& row, const BodeStudy& b) {
   return field ? i_q_of(row, b.pole_pairs) : at(ColumnId::i_m);
 }
 
-/// The period and its lines, around the loop's crossover where it is known.
+/// The multisine's period and lines: around the loop's crossover if it is known.
 Multisine multisine_for(const std::optional<design::LoopFigures>& figures, double period_s,
                         std::size_t lines) {
   Multisine signal;
@@ -107,8 +107,8 @@ Multisine multisine_for(const std::optional<design::LoopFigures>& figures, doubl
   return signal;
 }
 
-/// The reference after the end of the run. It changes in the middle between two samples, so that each sample
-/// reads one value.
+/// The event that adds the multisine to the reference after the end of the run. Its values change in the
+/// middle between two samples, so that each sample reads one value.
 study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   study::Reference r;
   r.shape = study::Shape::csv;
@@ -165,9 +165,9 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
   return output;
 }
 
-/// A Problem where the drive drifts. A linear drift has the same lines in each period, so that the answers of
-/// all periods are equal, but the lines then show the drift. A drift per period of w times the amplitude adds
-/// about w/line of the multisine's line to the answer.
+/// A problem if the drive drifts. A linear drift is the same in each period, so that the answers of all
+/// periods are equal; but it adds to the answer at the lines. A drift per period of w times the amplitude
+/// adds about w/line of the multisine's line to the answer.
 base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output, double duration_s) {
   constexpr double most_way = 0.05;
   const std::size_t N = b.signal.samples, periods = output.size() / N;
@@ -201,7 +201,8 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   b.mode = last.control.mode;
   b.period_s = s.pwm.period_s;
   b.begin_s = std::ceil(s.duration_s / b.period_s * (1 - 1e-12)) * b.period_s;
-  if (s.pwm.sample == study::SampleAt::middle) b.begin_s += b.period_s / 2;  // it begins with a sample
+  // the multisine begins with a sample
+  if (s.pwm.sample == study::SampleAt::middle) b.begin_s += b.period_s / 2;
   b.stands_at = waveform.back().at(s.duration_s);
   b.amplitude = amplitude_of(order, b.stands_at);
   if (!(b.amplitude > 0.0))
@@ -224,8 +225,8 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   return {};
 }
 
-/// Shifts each measured phase by whole turns to be nearest to the designed one, which is exact and continuous
-/// over the lines. A wrong phase at one line then cannot shift later lines by a turn.
+/// Shifts each measured phase by whole turns until it is nearest to the designed phase, which is exact and
+/// continuous over the lines. A wrong phase at one line then cannot shift later lines by a turn.
 void lay_beside_the_designed(BodeStudy& b) {
   if (!b.designed) return;
   std::vector<double> angles;

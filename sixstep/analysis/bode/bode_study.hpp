@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the frequency response of a drive's outermost loop in the switching simulation. The scenario runs
 // as written; from its end on, a multisine is added to the reference's final value. The controlled quantity
-// at the controller's samples, over the multisine, is the closed loop's response. The linear loop that the
-// gains were designed on is computed for comparison.
+// at the controller's samples, divided by the multisine, is the closed loop's response. For comparison, the
+// linear loop is computed on which the gains were designed.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -20,16 +20,16 @@ struct BodeOrder {
   /// Amplitude of the multisine, in the mode's unit; empty: a twentieth of the reference's final value.
   std::optional<double> amplitude;
   std::size_t lines = 32;
-  std::size_t periods = 6;                       ///< evaluated, after one for the transient
-  std::function<bool(double t_s)> keep_going{};  ///< false ends the run early, which is a Problem
+  std::size_t periods = 6;                       ///< evaluated periods, after one for the transient
+  std::function<bool(double t_s)> keep_going{};  ///< false ends the run early, which is then a Problem
 };
 
 struct BodeStudy {
-  study::Scenario scenario;  ///< as it was run, the multisine included
-  study::Scenario at_end;    ///< with the settings that the events have left at the end
+  study::Scenario scenario;  ///< the scenario as it was run, including the multisine
+  study::Scenario at_end;    ///< the scenario with the settings that the events have left at the end
   control::Mode mode = control::Mode::current;
   double stands_at = 0.0,
-         amplitude = 0.0;                ///< operating point; of the multisine; in the mode's unit
+         amplitude = 0.0;                ///< of the operating point and of the multisine, in the mode's unit
   double begin_s = 0.0, period_s = 0.0;  ///< start of the multisine; control period
   double pole_pairs = 1.0;
   Multisine signal;
@@ -42,19 +42,24 @@ struct BodeStudy {
   ReadMargins measured;
   std::optional<design::Transfer> designed;    ///< empty: the loop is not linear
   std::string not_linear;                      ///< why `designed` is empty
-  std::optional<design::SpeedLag> lag;         ///< lag of the sensor's speed, at the reference's final value
+  std::optional<design::SpeedLag> lag;         ///< delay of the measured speed by the sensor, at the
+                                               ///< reference's final value
   std::optional<design::LoopFigures> figures;  ///< figures of `designed`, lag included
 
   /// Phase of the designed L at each point, unwrapped over all points. Each measured phase is taken in the turn
   /// nearest to it.
   std::vector<double> designed_phase_rad;
 
-  /// The designed L at a frequency, lag included; empty where `designed` is.
+  /// The designed L at a frequency, including the sensor's lag; empty if `designed` is empty.
   std::optional<design::Complex> designed_at(double w_rad_s) const;
 };
 
-/// Problems: those of the scenario, a mode without a loop, a reference that does not rest at the end, a setpoint
-/// that is ramped, a run that ends early, a drive that has not settled.
+/// Problems: those of the scenario, and
+/// - a mode without a loop,
+/// - a reference that does not rest at the end,
+/// - a setpoint with a slew limit,
+/// - a run that ends early,
+/// - a drive that has not settled.
 base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOrder& order = {});
 
 }  // namespace sixstep::analysis

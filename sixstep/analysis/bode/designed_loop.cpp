@@ -14,7 +14,7 @@ namespace {
 
 using control::Mode;
 
-/// Why the loop is not linear; empty: every block is linear while no limit acts.
+/// The reason why the loop is not linear. Empty if every block is linear while no limit acts.
 std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
                             const control::DriveConfig<double>& drive) {
   if (drive.current_control == control::CurrentControl::hysteresis) return "the current is held in a band";
@@ -30,8 +30,8 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
   return "";
 }
 
-/// Why the linear loop with half a period more of delay does not describe samples in the middle of a period;
-/// empty: it does.
+/// The reason why the linear loop with half a period more delay does not describe samples in the middle of a
+/// period. Empty if it does.
 std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bool predicts) {
   if (predicts) return "a current that is predicted from the middle of a period is not in the linear model";
   if (s.pwm.alignment == study::Alignment::edge && !c.field)
@@ -40,7 +40,7 @@ std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bo
   return "";
 }
 
-/// The speed loop that the measured response to the setpoint has.
+/// The speed loop to which the measured response to the setpoint belongs.
 design::Transfer speed_loop(const design::DriveLoops& loops, const control::DriveConfig<double>& drive) {
   const control::DriveExtras<double>& x = drive.extras;
   const control::SpeedLaw law = x.on ? x.speed_law : control::SpeedLaw::pi;
@@ -82,7 +82,7 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
     return out;
   }
   const design::DriveLoops loops = loops_of(s, c);
-  if (s.control.mode == Mode::current)  // a decoupled axis is that of a locked rotor
+  if (s.control.mode == Mode::current)  // a decoupled axis behaves like that of a locked rotor
     out.loop = s.load.locked || c.field ? open_current_loop(loops) : open_current_loop_turning(loops);
   else
     out.loop = s.control.mode == Mode::speed ? speed_loop(loops, drive) : open_position_loop(loops);

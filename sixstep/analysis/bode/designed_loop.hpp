@@ -11,9 +11,11 @@
 namespace sixstep::analysis {
 
 struct DesignedLoop {
-  std::optional<design::Transfer> loop;  ///< open, of the mode's outermost controller, inner loops closed
+  std::optional<design::Transfer> loop;  ///< open loop of the mode's outermost controller, with closed inner
+                                         ///< loops
   std::string not_linear;                ///< why `loop` is empty
-  std::optional<design::SpeedLag> lag;   ///< lag of the sensor's speed, in speed mode; empty: none
+  std::optional<design::SpeedLag> lag;   ///< delay of the measured speed by the sensor, in speed mode; empty:
+                                         ///< none
 };
 
 /// `speed_rad_s`: the speed at which the sensor's lag is computed; 0: no lag.

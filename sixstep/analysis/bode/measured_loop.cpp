@@ -10,7 +10,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// A value's fall through a level between two points. The value is linear over the logarithm of the frequency.
+/// The place between two points where a value falls below a level. The value is linear over the logarithm of
+/// the frequency.
 struct Fall {
   const LoopPoint& before;
   const LoopPoint& after;

@@ -13,7 +13,7 @@ using design::Complex;
 
 namespace {
 
-/// exp(j 2 pi n/N) for n = 0 .. N - 1: the phases of each line are among these.
+/// exp(j 2 pi n/N) for n = 0 .. N - 1. Every phase that a line has at a sample is one of these.
 std::vector<Complex> roots_of_one(std::size_t count) {
   std::vector<Complex> roots(count);
   for (std::size_t n = 0; n < count; ++n) {
@@ -23,7 +23,7 @@ std::vector<Complex> roots_of_one(std::size_t count) {
   return roots;
 }
 
-/// 2/N sum y[n] exp(-j 2 pi line n/N): amplitude and phase of a line.
+/// Amplitude and phase of a line: 2/N sum y[n] exp(-j 2 pi line n/N).
 Complex at_line(const std::vector<Complex>& roots, const double* y, std::size_t line) {
   Complex sum{};
   for (std::size_t n = 0, turn = 0; n < roots.size(); ++n, turn = (turn + line) % roots.size())
@@ -49,7 +49,7 @@ LineAnswer line_answer(const std::vector<Complex>& periods, Complex input) {
   return out;
 }
 
-/// Mean square about the mean.
+/// Mean square of y about its mean.
 double power_of(const double* y, std::size_t count) {
   double mean = 0.0, sum = 0.0;
   for (std::size_t n = 0; n < count; ++n) mean += y[n];

@@ -16,7 +16,7 @@
 namespace sixstep::analysis {
 
 struct Multisine {
-  std::size_t samples = 0;         ///< N, in a period
+  std::size_t samples = 0;         ///< N, samples in a period
   std::vector<std::size_t> lines;  ///< l_k: cycles in a period, rising, odd, below N/2
   double amplitude = 0.0;          ///< the largest |r|
 };
@@ -28,7 +28,7 @@ std::vector<std::size_t> odd_lines(std::size_t last, std::size_t count);
 std::vector<double> samples_of(const Multisine& signal);
 
 struct LineAnswer {
-  design::Complex gain;    ///< output over input, mean over the periods
+  design::Complex gain;    ///< output over input at each line, mean over the periods
   double coherence = 0.0;  ///< 1: all periods are equal; noise alone gives about 1/periods
   double scatter = 0.0;    ///< standard deviation of the mean |gain|, over |gain|
 };

@@ -16,8 +16,9 @@
 namespace sixstep::analysis {
 namespace {
 
-/// A usual board: offset and noise in counts, dead time, diodes, switches with a tenth of the phase's resistance.
-/// The ranges are twice the test's current, and a quarter above the bus.
+/// A usual board: offset and noise of the converters in counts, dead time, diodes, and switches with a tenth
+/// of the phase's resistance. The current range is twice the test's current, and the bus range a quarter
+/// above the bus.
 constexpr double offset_counts = 12.3, noise_counts = 1.0, dead_s = 0.5e-6, channel_part = 0.1, diode_V = 0.7,
                  most_diode_ohm = 0.01, current_room = 2.0, bus_room = 1.25;
 constexpr int adc_bits = 12;
@@ -29,8 +30,8 @@ struct Paces {
   double tau_s = 0.0;  ///< L/R
   double swing_rad_s =
       0.0;                 ///< angular frequency of the rotor's swing in the static field of the test current
-  double calming_s = 0.0;  ///< in which that swing decays by the factor e
-  double spin_turns_s2 = 0.0;     ///< electrical acceleration by the current
+  double calming_s = 0.0;  ///< time in which that swing decays by the factor e
+  double spin_turns_s2 = 0.0;     ///< electrical acceleration in turns/s^2 by the test current
   double half_emf_turns_s = 0.0;  ///< speed at which the back-EMF is half of the voltage vector
 };
 
@@ -45,26 +46,26 @@ Paces paces_of(const design::MotorModel& m, double flux_Vs, double R_ohm, double
           .half_emf_turns_s = R_ohm * I_A / (2 * flux_Vs) / base::turn_rad};
 }
 
-/// Settings of the test: long enough for these time scales, at least the usual ones.
+/// Settings of the test, long enough for these time scales and never shorter than the usual settings.
 control::CommissioningWish wish_of(const Paces& p, double I_A) {
   control::CommissioningWish w;
   w.test_A = I_A;
   w.settle_s = std::max(w.settle_s, 6 * p.calming_s);
   w.step_s = std::max(w.step_s, 12 * p.tau_s);
-  // The factor 18 keeps six times the turn's speed below a third of the swing (hall_survey.hpp).
+  // The factor 18 keeps six times the turn's speed below a third of the swing's frequency (hall_survey.hpp).
   w.slow_turns_s = std::min(w.slow_turns_s, p.swing_rad_s / (18 * base::turn_rad));
   w.fastest_turns_s = std::max(w.fastest_turns_s, 2 * p.half_emf_turns_s);
   w.spin_up_s = std::max(w.spin_up_s, 5 * w.fastest_turns_s / p.spin_turns_s2);
   return w;
 }
 
-/// Longest time of all phases together, with all tries of the fast turn.
+/// Longest time in s of all phases together, including all tries of the fast turn.
 double longest_of(const control::CommissioningWish& w, const Paces& p) {
   const double spun = w.spin_up_s * std::min(1.0, 1.5 * p.half_emf_turns_s / w.fastest_turns_s) + 1.0;
   return 2.0 + 2 * w.settle_s + 10 * w.step_s + 8.0 / w.slow_turns_s + 16 * spun + w.tries * w.settle_s;
 }
 
-/// Eight samples in L/R, within the 20 to 50 us of usual bridges.
+/// Control period in s: an eighth of L/R, within the 20 to 50 us of usual bridges.
 double period_of(double tau_s) {
   return std::clamp(base::shortened(tau_s / 8, 1, base::Towards::down), 20e-6, 50e-6);
 }
@@ -141,10 +142,10 @@ struct TestCurrentFrom {
   TestCurrent from = TestCurrent::asked_for;
 };
 
-/// Twice the nominal current, which a motor withstands for seconds, or half of the largest current that the
-/// bus can drive. At less current, the voltage of dead time and diodes would be a large part of the vector.
-/// Along a phase the vector reaches half of the bus (field_vector.hpp); a tenth of that is reserved for dead
-/// time and diodes.
+/// The test's current: twice the nominal current, which a motor withstands for seconds, or half of the
+/// largest current that the bus can drive if that is less. With a smaller current, the voltage of dead time
+/// and diodes would be a large part of the vector. Along a phase the vector reaches half of the bus
+/// (field_vector.hpp); a tenth of that is reserved for dead time and diodes.
 base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const design::MotorModel& motor,
                                          double V) {
   const double R = motor.machine.R_ohm;
@@ -169,7 +170,7 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
   return TestCurrentFrom{I, from};
 }
 
-/// Problems of the test's torque or time that no setting of it solves.
+/// Problems of the test's torque or duration that no setting of the test can solve.
 base::Problems too_weak(const CommissionBench& b, const design::MotorModel& motor) {
   const double torque = 1.5 * motor.machine.pole_pairs * b.truth.flux_linkage_Vs * b.wish.test_A;
   const double against = motor.shaft.coulomb_Nm + b.truth.cogging_Nm;

@@ -18,9 +18,9 @@ struct CommissionSubject {
   std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< sheet of the motor
   std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
-  std::optional<double> current_A{};  ///< test current; empty: see TestCurrent
+  std::optional<double> current_A{};  ///< test current; empty: chosen as TestCurrent says
   rig::Wiring wires{};                ///< how phases and Hall lines are plugged in
-  double hall_offset_deg = 0.0;       ///< common offset of all edges, electrical
+  double hall_offset_deg = 0.0;       ///< offset common to all edges, electrical degrees
   int seed = 0;                       ///< seed of the converters' noise
 };
 
@@ -28,8 +28,8 @@ struct CommissionSubject {
 enum class TestCurrent : std::uint8_t {
   asked_for,
   twice_nominal,
-  twice_tenth_of_stall,  ///< as the sheet names no nominal current (design/loops/operating_limits.hpp)
-  half_of_most           ///< half of the current that bus and rotor allow, because the other choices are more
+  twice_tenth_of_stall,  ///< the sheet has no nominal current (design/loops/operating_limits.hpp)
+  half_of_most  ///< half of the current that bus and rotor allow, because the other choices exceed it
 };
 
 /// The motor's true values at the board's terminals, with the winding at `degC`.
@@ -40,7 +40,7 @@ struct CommissionTruth {
   double flux_linkage_Vs = 0.0;  ///< flux linkage of the fundamental, peak
   bool sine = true;  ///< no harmonics of the back-EMF: a standing field holds the rotor in its direction
   double cogging_Nm = 0.0;  ///< sum of the orders' peaks
-  double beyond_L_H = 0.0;  ///< L_q - L_d, across the magnet's axis minus along it
+  double beyond_L_H = 0.0;  ///< L_q - L_d: inductance across the magnet's axis minus that along it
 };
 
 struct CommissionBench {
@@ -50,9 +50,9 @@ struct CommissionBench {
   CommissionTruth truth;
   double voltage_V = 0.0;
   TestCurrent from = TestCurrent::asked_for;  ///< how wish.test_A was chosen
-  bool nominal_printed = true;                ///< the sheet names a nominal current
+  bool nominal_printed = true;                ///< whether the sheet has a nominal current
   double noise_A = 0.0;                       ///< noise of each current's sample, rms
-  double longest_s = 0.0;                     ///< time by which the chip should have ended
+  double longest_s = 0.0;                     ///< time after which the chip should have ended
 };
 
 /// Problems name `voltage_V`, `current_A` or `hall_offset_deg`, or come from the sheet. A motor that cannot

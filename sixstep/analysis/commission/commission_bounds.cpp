@@ -9,29 +9,31 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Bound in standard deviations: one normal value in 370 exceeds it.
+/// Bound in standard deviations: a normally distributed value exceeds it once in 370.
 constexpr double deviations = 3.0;
 constexpr double per_rad = 180 / base::pi;
 
-/// Errors by noise: of the difference of the two levels' means, in counts, and of the area of the steps between
-/// them, in ticks.
+/// Errors by the converters' noise: of the difference of the two levels' means, in counts; and of the area of
+/// the steps between the levels, in ticks.
 struct OfNoise {
   double level_counts, area_ticks;
 
   OfNoise(const CommissionBench& b, const control::LevelStepsConfig& steps, double apart) {
     const double noise = deviations * b.noise_A / b.board.A_per_count, n = steps.ticks, pairs = steps.pairs;
-    // The current along a vector, (2 i_a - i_b - i_c)/3, has sqrt(2/3) of a sample's noise. A level's mean is over
-    // a quarter of its ticks, and the difference of two has the noise of both.
+    // The current along a vector, (2 i_a - i_b - i_c)/3, has sqrt(2/3) of a sample's noise. A level's mean is
+    // over a quarter of its ticks, and the difference of two means has the noise of both.
     const double along = noise * std::sqrt(2.0 / 3.0);
     level_counts = along * std::sqrt(2.0 / (n / 4 * pairs));
-    // The area has tails three times and the rest once (level_steps.hpp): 24 N in all of N tails, over 2 pairs steps.
+    // The area contains the tails with weight three and the rest with weight one (level_steps.hpp). With N
+    // ticks in all tails, its variance is that of 24 N samples; the result is divided by the 2 pairs steps.
     area_ticks = along * std::sqrt(6.0 * n * pairs) / (2 * pairs * apart);
   }
 };
 
-/// Angle error of the rotor in the field by cogging and by a shape that is no sine. The shape's 1.12 degrees
-/// apply at rest. During the turn they are a ripple near the rotor's resonance, which amplifies it by up to
-/// 1/(1 - 1/9) (commission_bench.cpp); friction changes that by a twentieth.
+/// Angle error of the rotor in the field by cogging and by a back-EMF that is no sine. A trapezoid shifts the
+/// rotor by 1.12 degrees at rest. During the turn this error is a ripple near the rotor's resonance, which
+/// amplifies it by up to 1/(1 - 1/9) (commission_bench.cpp); friction changes the amplification by a
+/// twentieth.
 double of_motor_deg(const CommissionBench& b) {
   constexpr double trapezoid_deg = 1.12 / (1 - 1.0 / 9) * 1.05;
   const double torque = 1.5 * b.compiled.motor.machine.pole_pairs * b.truth.flux_linkage_Vs * b.wish.test_A;
@@ -66,8 +68,8 @@ double of_signs(const CommissionBench& b, const control::CommissioningState& fou
 CommissionBounds bounds_of(const CommissionBench& b, const control::CommissioningState& found) {
   const control::CommissioningConfig config = control::commissioning_config(b.board, b.wish);
   CommissionBounds out;
-  // Resolution of the capture timer, in both directions and at both ends. Without a measured winding, the
-  // other bounds stay 0.
+  // Angle of one count of the capture timer, in both directions and at both ends. Without a measured winding,
+  // the other bounds stay 0.
   const double count_deg = 360.0 * b.wish.slow_turns_s / b.board.timer_Hz;
   out.edge_deg = 6 * count_deg + of_drop_deg(found) + of_motor_deg(b);
   if (!found.winding.usable) return out;
@@ -75,11 +77,12 @@ CommissionBounds bounds_of(const CommissionBench& b, const control::Commissionin
   const double bus = 0.5 * b.board.V_per_count / b.voltage_V;
   const OfNoise noise(b, config.steps, apart);
   out.R_part = (4.0 / 3.0 + noise.level_counts) / apart + bus;
-  // A period's ripple hides at most (T/tau)^2/4 of the step.
+  // The ripple within a period hides at most (T/tau)^2/4 of the step.
   const double ticks = found.winding.tau / 65536.0;
   out.L_part = out.R_part + base::log(2 * apart) / apart + 1 / (4 * ticks * ticks) + noise.area_ticks / ticks;
   if (found.magnet.emf <= 0 || found.magnet.flux <= 0) return out;
-  // psi = |v - R i - j w L i|/w: R's error counts by R i/e, at most v/e, and L's by L i/psi.
+  // psi = |v - R i - j w L i|/w. An error of R is weighted by R i/e, at most v/e, and an error of L by L
+  // i/psi.
   const auto si = control::commissioned<double>(control::commissioning_scale<double>(b.board), found);
   const double i_A = found.v * b.voltage_V / control::whole_bus / si.R_ohm;
   out.flux_part = static_cast<double>(found.magnet.applied) / found.magnet.emf * (out.R_part + bus) +

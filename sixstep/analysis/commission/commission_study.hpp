@@ -10,17 +10,21 @@
 
 namespace sixstep::analysis {
 
-/// Largest errors of the results, by the chip's own numbers: the converters' rounding and noise (level_steps.hpp,
-/// flux_turn.hpp), the capture timer's count, and the angle by which dead time and diodes turn the field. A
-/// trapezoid's field adds 1.12 degrees, and cogging shifts the rotor; the chip cannot measure these two, so
-/// the bench adds both. The gain error of a converter is not included.
+/// Largest errors of the results. The gain error of a converter is not included. Most errors follow from the
+/// chip's own numbers:
+/// - rounding and noise of the converters (level_steps.hpp, flux_turn.hpp),
+/// - the capture timer's count,
+/// - the angle by which dead time and diodes turn the field.
+///
+/// Two errors cannot be measured by the chip, and the bench adds them: a trapezoid's field adds 1.12 degrees,
+/// and cogging shifts the rotor.
 struct CommissionBounds {
   double R_part = 0.0, L_part = 0.0, flux_part = 0.0;  ///< relative to the value found
-  double edge_deg = 0.0;                               ///< electrical, of each Hall edge and of the offset
+  double edge_deg = 0.0;  ///< electrical degrees, of each Hall edge and of the offset
 };
 CommissionBounds bounds_of(const CommissionBench& bench, const control::CommissioningState& found);
 
-/// A phase with its begin and end.
+/// A phase of the test with its beginning and end.
 struct CommissionPhase {
   control::CommissioningPhase phase{};
   double from_s = 0.0, to_s = 0.0;
@@ -29,14 +33,14 @@ struct CommissionPhase {
 /// A row of the run, for a picture.
 struct CommissionRow {
   double t_s = 0.0;
-  std::array<double, 3> i_A{};  ///< at the legs
-  double turns = 0.0;           ///< electrical, of the rotor since the start
+  std::array<double, 3> i_A{};  ///< currents at the board's legs
+  double turns = 0.0;           ///< electrical turns of the rotor since the start
 };
 
 /// A Hall edge with the codes at the pins before and after it, in the board's forward direction.
 struct CommissionEdge {
   std::uint8_t before = 0, after = 0;
-  double found_deg = 0.0, true_deg = 0.0;  ///< electrical, 0 to 360, in the board's frame
+  double found_deg = 0.0, true_deg = 0.0;  ///< electrical degrees, 0 to 360, in the board's frame
 };
 
 struct CommissionStudy {
@@ -47,8 +51,8 @@ struct CommissionStudy {
   CommissionBounds bounds;
   std::vector<CommissionPhase> phases;
   std::vector<CommissionRow> rows;
-  std::array<CommissionEdge, 6> edges{};  ///< filled where the lines were found
-  double shown_offset_deg = 0.0;          ///< true offset: mean of the true edges against the board's sectors
+  std::array<CommissionEdge, 6> edges{};  ///< filled if the Hall lines were found
+  double shown_offset_deg = 0.0;  ///< true offset: mean deviation of the true edges from the board's sectors
   double seconds = 0.0;
 
   bool done() const { return state.phase == control::CommissioningPhase::done; }
@@ -61,10 +65,10 @@ struct CommissionStudy {
 
 struct CommissionOrder {
   CommissionSubject subject{};
-  std::function<bool()> keep_going{};  ///< false ends it early with a Problem "was interrupted"
+  std::function<bool()> keep_going{};  ///< false ends the study early with a Problem "was interrupted"
 };
 
-/// Problems are those of the bench. A value that the chip did not find is no Problem; the state shows it.
+/// Problems are those of the bench. A value that the chip did not find is no Problem; `state` shows it.
 base::Result<CommissionStudy> study_commission(const CommissionOrder& order);
 
 }  // namespace sixstep::analysis

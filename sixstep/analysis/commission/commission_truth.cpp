@@ -15,7 +15,7 @@ using plant::general::Machine;
 
 bool is_sine(const Machine& m) { return m.shape.harmonics.size() == 1; }
 
-/// Integral of a line n + r x times e^-j(begin + x), in closed form.
+/// Integral of (n + r x) e^-j(begin + x) over x, in closed form.
 struct Coefficient {
   double re = 0.0, im = 0.0;
   void add(double n, double r, double begin, double from, double to) {

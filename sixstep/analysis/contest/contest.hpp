@@ -10,7 +10,7 @@
 
 namespace sixstep::analysis {
 
-/// A contestant and its scenario, or the Problem why this motor has none.
+/// A contestant and its scenario, or the Problem that says why this motor has no such scenario.
 struct ContestEntry {
   const Contestant* who = nullptr;
   std::vector<ContestKey> keys;
@@ -22,17 +22,19 @@ struct ContestTrace {
   std::vector<double> t_s, speed_rad_s, torque_Nm, current_A;
 };
 
-/// All are NaN.
+/// Values that are all NaN.
 ContestValues no_contest_values();
 
 struct ContestRow {
   std::optional<RunRecord> nominal{};
   ContestTrace trace{};
-  /// Lowest speed that the nominal drive holds (lowest_speed.hpp); empty: not even the course's low speed.
+  /// Lowest speed in rad/s that the nominal drive holds (lowest_speed.hpp). Empty if it does not hold even
+  /// the course's low speed.
   std::optional<double> lowest_rad_s{};
-  ContestValues values = no_contest_values();  ///< nominal
+  ContestValues values = no_contest_values();  ///< figures of the nominal drive
   std::optional<ContestValues> worst{};        ///< largest over nominal and all drives; empty without drives
-  std::size_t drives = 0, held = 0;  ///< drives of the tolerances; those that meet every requirement
+  std::size_t drives = 0, held = 0;  ///< number of drives within the tolerances, and how many of them meet
+                                     ///< every requirement
   bool nominal_held = false;
 };
 
@@ -49,10 +51,10 @@ struct Contest {
 Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::size_t drives,
                    std::uint64_t seed, const UnitOfKey& unit_of = {});
 
-/// The largest peak current of a start within the torque limit: commutations add up to half of the limit's
-/// current to it, and PWM its ripple.
+/// The largest peak current in A of a start within the torque limit. Commutations add up to half of the
+/// limit's current to it, and the PWM adds its ripple.
 double most_peak_A(const ContestBench& bench);
-/// Whether a row's figures may be the least: its nominal drive follows the course, with a start current
+/// Whether a row's figures may count as the best: its nominal drive follows the course, with a start current
 /// within most_peak_A(). A larger current would be an unfair advantage.
 bool may_win(const Contest& contest, std::size_t row);
 
@@ -61,8 +63,8 @@ GaugeValues gauges_of(const RunRecord& record);
 
 /// Stores the run of an entry's nominal drive.
 void take_nominal(Contest& contest, std::size_t entry, const base::Result<study::Outcome>& result);
-/// Stores the figures of a drive of the tolerances; its number in the plan selects the entry. Only figures
-/// that are worse than the stored ones are kept.
+/// Stores the figures of a drive within the tolerances. Its number in the plan selects the entry. Only
+/// figures that are worse than the stored ones are kept.
 void take_drive(Contest& contest, const RunRecord& record);
 
 }  // namespace sixstep::analysis

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures by which controllers are compared. A scenario of the course measures gauges: its [[compare]], in this
-// order. A figure of the table is a sum of gauges, minus another gauge: the bridge's loss is conduction plus
-// switching, the dip at a commutation is mean minus least torque.
+// Figures by which controllers are compared. The [[compare]] list of a scenario of the course measures
+// gauges, in this order. A figure of the table is a sum of gauges, in some cases minus another gauge.
+// Examples: the bridge's loss is conduction plus switching; the dip at a commutation is mean minus least
+// torque.
 #pragma once
 #include <array>
 #include <iterator>
@@ -15,7 +16,7 @@ namespace sixstep::analysis {
 enum class CoursePart : std::uint8_t { start, high, load_step, brake, slow };
 
 struct ContestGauge {
-  std::string_view label;  ///< in the scenario
+  std::string_view label;  ///< in the scenario's [[compare]]
   study::MetricKind metric;
   study::Signal signal;
   CoursePart part;
@@ -70,8 +71,8 @@ inline constexpr ContestGauge contest_gauges[] = {
 enum class ContestGroup : std::uint8_t { moving, steady };
 
 struct ContestFigure {
-  std::string_view name;    ///< of a column
-  std::string_view phrase;  ///< in a sentence
+  std::string_view name;    ///< heading of the column
+  std::string_view phrase;  ///< name within a sentence
   std::string_view unit;
   ContestGroup group;
   std::array<Gauge, 3> sum;
@@ -161,7 +162,7 @@ static_assert(contest_figures[peak_figure].name == "peak" &&
               contest_figures[ripple_figure].name == "ripple rms" &&
               contest_figures[loss_figure].name == "losses");
 
-/// One value per gauge, and one per figure.
+/// GaugeValues has one value per gauge, ContestValues one per figure.
 using GaugeValues = std::array<double, std::size(contest_gauges)>;
 using ContestValues = std::array<double, std::size(contest_figures)>;
 

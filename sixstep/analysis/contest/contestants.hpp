@@ -9,14 +9,14 @@ namespace sixstep::analysis {
 
 struct Contestant {
   std::string_view name;
-  /// "key = value", separated by "; ", as for --set. contest_values() gives the values of <band_A> and the like. A
-  /// table in braces replaces the common one.
+  /// "key = value", separated by "; ", as for --set. contest_values() gives the values of <band_A> and other
+  /// names. A table in braces replaces the table of the common scenario.
   std::string_view keys;
-  std::string_view sentence;  ///< the difference and its effect: "it ..."
-  /// The drive of data/cores/ that has its blocks; empty: not counted yet.
+  std::string_view sentence;  ///< the difference and its effect, as a sentence that begins with "it"
+  /// The drive in data/cores/ that consists of the same blocks; empty: its cost is not counted yet.
   std::string_view core_drive = "";
-  /// For a user's own controller: most instructions of a step and bytes of flash, where counted
-  /// (text/contest/own_cost.hpp).
+  /// For a user's own controller: largest number of instructions of a step, and bytes of flash, if they are
+  /// counted (text/contest/own_cost.hpp).
   std::string_view tick = "", flash_bytes = "";
 };
 

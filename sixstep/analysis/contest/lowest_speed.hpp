@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the lowest speed at which a controller still turns the motor against the full load. The reference
-// halves repeatedly from the course's low speed, each step long enough to settle and to measure. A speed is
-// held where its mean is within a twentieth of it, and the motor is never below half of it or above one and a
-// half.
+// halves repeatedly from the course's low speed; each step is long enough to settle and to measure. A speed
+// counts as held if its mean is within a twentieth of the reference, and the motor is never slower than half
+// of the reference or faster than one and a half times the reference.
 #pragma once
 #include <optional>
 #include <span>
@@ -16,10 +16,10 @@ namespace sixstep::analysis {
 /// Six speeds in rad/s, from the course's low speed down to 1/32 of it.
 std::vector<double> slow_speeds(const Course& course);
 
-/// The scenario of a contestant that runs down through these speeds, with three requirements for each.
+/// The scenario of a contestant that runs at each of these speeds in turn, with three requirements for each.
 study::Scenario slow_scenario(const study::Scenario& contestant, const ContestBench& bench);
 
-/// The slowest speed that is held together with all faster ones; empty: not even the first is held.
+/// The slowest speed in rad/s that is held together with all faster ones. Empty if the first one is not held.
 std::optional<double> lowest_speed_rad_s(const Course& course, std::span<const study::Verdict> verdicts);
 
 }  // namespace sixstep::analysis

@@ -12,14 +12,14 @@ namespace sixstep::analysis {
 
 namespace {
 
-/// Most control periods until the start has decayed, for which a chopped point waits (operating_point.cpp): some
-/// seconds of computing for each of its runs.
+/// Largest number of control periods of a chopped point's settling time (operating_point.cpp): some seconds
+/// of computing for each of its runs.
 constexpr double most_periods = 1e6;
 
-/// Least duty: a pulse of 30 ps in 30 us.
+/// Least duty, corresponding to a pulse of 30 ps in 30 us.
 constexpr double least_duty = 1e-6;
 
-/// Refuses allowed numbers that together take too long to simulate.
+/// Refuses numbers that are each allowed but together take too long to simulate.
 void check_pace(const Bench& b, base::Problems& problems) {
   const plant::Machine& m = b.motor.machine;
   const auto refuse = [&](const char* where, double value, const std::string& limit, const char* cure) {

@@ -16,10 +16,10 @@ struct Bench {
   design::MotorModel motor;
   plant::Devices devices{};
   double voltage_V = 0.0;
-  double duty = 1.0;  ///< in [-1, 1], not 0; a negative one drives backwards
+  double duty = 1.0;  ///< in [-1, 1], not 0; a negative duty drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
-  /// Called repeatedly, on any thread; false ends the work, which is then a Problem. May be empty.
+  /// Called repeatedly, on any thread. If it returns false, the work ends with a Problem. May be empty.
   std::function<bool()> keep_going{};
 };
 
@@ -41,16 +41,17 @@ struct Asking {
 /// Problems of a bench without a curve; `where` is the member's name.
 base::Problems check(const Bench& bench);
 
-/// Mean voltage across the driven pair while current flows throughout, V: d U, or (2 |d| - 1) U where both
-/// switches chop and the off part of a period drives the current back into the bus.
+/// Mean voltage across the driven pair in V while current flows throughout. It is d U, or (2 |d| - 1) U with
+/// hard chopping, where both switches chop and the current flows back into the bus during the off part of a
+/// period.
 inline double mean_voltage_V(const Bench& b) {
   if (b.chopping != control::Chopping::hard) return b.duty * b.voltage_V;
   return b.duty > 0 ? (2 * b.duty - 1) * b.voltage_V : (2 * b.duty + 1) * b.voltage_V;
 }
 
-/// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with that voltage, N m: smooth
-/// current, no commutation time, no friction, ideal devices. Soft and hard chopping cannot drive the current
-/// backwards: there the line ends at zero.
+/// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with u = mean_voltage_V(), in N m:
+/// smooth current, no commutation time, no friction, ideal devices. Soft and hard chopping cannot drive the
+/// current backwards, so that the line ends at zero torque there.
 inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
   const double K_t = b.motor.K_t_Nm_A, R_tt = 2 * b.motor.machine.R_ohm;
   const double line = K_t * (mean_voltage_V(b) - K_t * speed_rad_s) / R_tt;
@@ -58,7 +59,7 @@ inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
   return one_way && line * b.duty < 0 ? 0.0 : line;
 }
 
-/// Speed at which that line meets the axis, rad/s; 0: the mean voltage does not drive.
+/// Speed in rad/s at which that line reaches zero torque; 0 if the mean voltage does not drive the motor.
 inline double ideal_no_load_rad_s(const Bench& b) {
   const double reached = mean_voltage_V(b) / b.motor.K_t_Nm_A;
   return reached * b.duty > 0 ? reached : 0.0;

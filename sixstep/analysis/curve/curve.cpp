@@ -23,7 +23,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
   const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
                                                          {"winding_degC", r.motor_degC.winding_degC},
                                                          {"housing_degC", r.motor_degC.housing_degC}};
-  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's temperature
+  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's limit
     if (!base::between(-200, 500).holds(degC))
       problems.push_back(
           {name, base::written(degC), "must be a temperature, -200 to 500 degC", "data sheets mean 25"});
@@ -37,7 +37,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
 
 base::Problems check(const CurveRequest& r) {
   base::Problems problems = check_temperatures(r);
-  // Without magnets there is no model to check.
+  // With lost magnets there is no model to check.
   if (!design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC))
     for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)
@@ -103,7 +103,7 @@ std::optional<double> printed_current(const design::MotorModel& motor) {
   return std::nullopt;
 }
 
-/// Sources of the ratings, each once, except the data sheet.
+/// The sources of the sheet's ratings, each once; the data sheet itself is left out.
 std::string rated_in(const design::Sheet& sheet) {
   std::string all;
   for (const auto* rating : {&sheet.nominal_torque_mNm, &sheet.nominal_speed_rpm, &sheet.nominal_current_A}) {

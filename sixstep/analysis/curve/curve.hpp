@@ -12,25 +12,27 @@
 
 namespace sixstep::analysis {
 
-/// Most points of a curve: some hundred megabytes, more rows than any screen or table shows.
+/// Largest number of points of a curve: they take some hundred megabytes, and no screen or table shows as
+/// many rows.
 inline constexpr int most_points = 200'000;
 
 struct CurveRequest {
   design::Sheet sheet;
-  Bench bench;  ///< its motor is at `motor_degC` (design::warmed)
+  Bench bench;  ///< bench with the motor at `motor_degC` (design::warmed)
   design::Temperatures motor_degC{};
   int points = 41;  ///< from standstill to no load, both included
   double ambient_degC = design::sheet_degC;
 };
 
-/// The sheet's nominal point, and the curve's point of the same torque. The points have equal torque because
-/// a load determines the torque, and the speed then differs from motor to motor. The torque at the printed
-/// speed would magnify the same difference by the curve's steepness.
+/// The sheet's nominal point, and the curve's point of the same torque. The points are compared at equal
+/// torque because a load determines the torque, and the speed then differs from motor to motor. A comparison
+/// of the torques at the printed speed would magnify the same difference by the curve's steepness.
 struct NominalPoint {
-  std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< as printed
-  std::string from;                                         ///< their source if it is not the data sheet
-  std::optional<OperatingPoint> at_torque;  ///< empty without a torque, or where the curve never reaches it
-  std::optional<OperatingPoint> at_speed;   ///< empty without a speed
+  std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< values as printed
+  std::string from;                         ///< source of these values if it is not the data sheet
+  std::optional<OperatingPoint> at_torque;  ///< empty if no torque is printed, or if the curve never reaches
+                                            ///< it
+  std::optional<OperatingPoint> at_speed;   ///< empty if no speed is printed
 };
 
 /// Loss of speed per torque, rad/s per N m, from no load to the nominal point.
@@ -41,23 +43,26 @@ struct SpeedDrop {
   std::optional<double> curve{};    ///< gradient between the same torques on the curve
 };
 
-/// Times for which short-time limits are given, s.
+/// Durations for which short-time limits are given, s.
 inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
 
-/// Thermal limits of the winding at one speed, as shaft torque of a drive that holds the current constant: block
-/// current through two phases, P = I^2 R_tt, and K_t I minus friction, with K_t at the resulting temperature of
-/// the magnets. Friction warms the housing. The temperature of the curve's own motor has no influence. NaN where
-/// the winding is above its limit without any current, by ambient temperature or friction alone.
+/// Thermal limits of the winding at one speed, given as the shaft torque of a drive that holds the current
+/// constant. Block current flows through two phases: P = I^2 R_tt. The torque is K_t I minus friction, with
+/// K_t at the resulting temperature of the magnets. Friction warms the housing. The temperature of the
+/// curve's own motor has no influence. NaN if the winding exceeds its limit without any current, by ambient
+/// temperature or friction alone.
 struct ThermalLimits {
   double continuous_A = 0.0, continuous_Nm = 0.0;
-  std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< from ambient temperature
+  std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< for short_times_s, starting at ambient
+                                                                   ///< temperature
 };
 
 /// Temperatures of a curve's point in steady operation. The current is assumed constant while the copper
 /// warms up.
 struct Warming {
-  std::optional<double> winding_degC;   ///< final one; empty: it rises without end
-  std::optional<double> permissible_s;  ///< from ambient temperature; empty: without limit
+  std::optional<double> winding_degC;   ///< final temperature; empty: it rises without end
+  std::optional<double> permissible_s;  ///< permissible time from ambient temperature on; empty: without
+                                        ///< limit
 };
 
 struct Curve {
@@ -74,9 +79,11 @@ struct Curve {
   base::Problems thermal_missing{};  ///< why `thermal` is empty
 };
 
-/// First step of a curve: the no-load point, and the speeds whose points can be computed independently. These are
-/// the speeds of the curve's points, then of the sweep for the marks, both without no load, then the sheet's
-/// nominal speed where it has one.
+/// First step of a curve: the no-load point, and the speeds whose points can be computed independently. In
+/// order, these are:
+/// - the speeds of the curve's points, without no load;
+/// - the speeds of the sweep for the marks, without no load;
+/// - the sheet's nominal speed, if there is one.
 struct CurvePlan {
   NoLoad no_load;
   std::vector<double> speeds_rad_s;
@@ -84,7 +91,7 @@ struct CurvePlan {
 
 base::Problems check(const CurveRequest& request);
 base::Result<CurvePlan> plan_curve(const CurveRequest& request);
-/// `found` are the points at the plan's speeds, in order.
+/// Second step of a curve. `found` are the points at the plan's speeds, in order.
 base::Result<Curve> curve_of(const CurveRequest& request, const CurvePlan& plan,
                              const std::vector<OperatingPoint>& found, const ForEach& for_each);
 SpeedDrop speed_drop(const CurveRequest& request, const Curve& curve);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates motor and bridge at duty 1: the gates follow the sector, without chopping. A System for sim::run.
+// Simulates motor and bridge at duty 1: the gates follow the sector, without chopping. The class is a System
+// for sim::run.
 #pragma once
 #include "sixstep/analysis/curve/bench.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"
@@ -9,11 +10,13 @@
 
 namespace sixstep::analysis {
 
-/// A shaft with constant speed: 1/J = 0 makes dw/dt exactly zero, whatever the torque. The caller subtracts
-/// friction from the shaft's torque; friction cannot act on the currents at a given speed.
+/// A shaft with constant speed: 1/J = 0 makes dw/dt exactly zero, whatever the torque is. The caller
+/// subtracts friction from the torque afterwards, because friction cannot act on the currents at a given
+/// speed.
 inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
 
-/// Starts without current, by default in the middle of a sector, so that neither direction starts on an edge.
+/// Starts without current. The default angle is the middle of a sector, so that neither direction starts on
+/// an edge.
 inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s,
                                      double sectors = 0.5) {
   const double angle = sectors * base::sector_rad / b.motor.machine.pole_pairs;
@@ -35,7 +38,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     commutate();
   }
 
-  /// The same as OpenLoop::run_for(), so that a template can run both.
+  /// Like OpenLoop::run_for(), so that a template can run both classes.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
     Asking<Observer> asking{keep_going_, observer};
@@ -46,8 +49,8 @@ class FullOn : public rig::UnscheduledPlant<double> {
     return run_for(seconds, none);
   }
 
-  /// Runs until edges() is `target`, with or without a recorder. Stop::observer: reached; Stop::end: keep_going
-  /// ended it; anything else is a defect.
+  /// Runs until edges() equals `target`, with or without a recorder. Stop::observer: the edge is reached.
+  /// Stop::end: keep_going ended the run. Any other value is a defect.
   sim::Stop run_to_edge(std::int64_t target, SumsRecorder* recorder = nullptr) {
     UntilEdge until{target, recorder, keep_going_, asked_};
     const sim::Stop stop = sim::run(*this, sim::Instant::never(), until).stop;
@@ -61,7 +64,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     std::int64_t target;
     SumsRecorder* recorder;
     const std::function<bool()>& keep_going;
-    std::uint32_t& asked;  // kept from call to call, because a sector has only a few segments
+    std::uint32_t& asked;  // counter kept from call to call, because a sector has only a few segments
     void segment(const FullOn& system, double s) {
       if (recorder) recorder->segment(system, s);
     }
@@ -75,7 +78,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     plant::Gates gates;
     gates.high[static_cast<std::size_t>(pair.source)] = true;
     gates.low[static_cast<std::size_t>(pair.sink)] = true;
-    plant_.set_gates(gates);  // two different legs: no shoot-through
+    plant_.set_gates(gates);  // two different legs, so that no leg is shorted
   }
 
   std::function<bool()> keep_going_;

@@ -11,7 +11,7 @@ namespace {
 using Sweep = std::vector<OperatingPoint>;
 using Value = std::function<double(const OperatingPoint&)>;
 
-/// Computes the points of a search; the first point that could not be computed ends it.
+/// Computes the points of a search. The first point that cannot be computed ends the search.
 struct Search {
   const Bench& bench;
   base::Problems problems{};
@@ -32,7 +32,7 @@ struct Search {
   }
 };
 
-/// Golden section between the neighbours of the sweep's best point.
+/// Golden-section search between the neighbours of the sweep's best point.
 std::optional<OperatingPoint> greatest(Search& search, const Sweep& sweep, const Value& value) {
   std::size_t top = 0;
   for (std::size_t n = 1; n < sweep.size(); ++n)
@@ -62,13 +62,14 @@ std::optional<OperatingPoint> greatest(Search& search, const Sweep& sweep, const
   return best;
 }
 
-/// Between two neighbours of different sign: false position with the kept end's value halved (Illinois).
+/// Root between two neighbours of different sign: false position in which the value of the retained end is
+/// halved (Illinois method).
 std::optional<OperatingPoint> root(Search& search, const OperatingPoint& a, const OperatingPoint& b,
                                    const Value& value, double goal) {
   double low = a.speed_rad_s, high = b.speed_rad_s, f_low = value(a), f_high = value(b);
   constexpr int most = 100;
   OperatingPoint found = b;
-  int kept = 0;  // the end that stayed: -1 low, 1 high
+  int kept = 0;  // the end that was retained: -1 low, 1 high
   for (int n = 0; n < most; ++n) {
     const double speed = (low * f_high - high * f_low) / (f_high - f_low), before = found.speed_rad_s;
     if (!search.take(speed, found)) return {};
@@ -89,7 +90,7 @@ std::optional<OperatingPoint> root(Search& search, const OperatingPoint& a, cons
   return found;
 }
 
-/// The crossing nearest to no load, where `value` is above zero; standstill where nothing crosses.
+/// The crossing nearest to no load, where `value` is above zero; standstill if there is no crossing.
 std::optional<OperatingPoint> crossing(Search& search, const Sweep& sweep, const Value& value) {
   const double goal = std::fabs(sweep.back().speed_rad_s) * search.near(1e-9, 1e-4);
   for (std::size_t n = sweep.size() - 1; n > 0; --n)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds speeds that lie between the curve's points: of greatest efficiency, from which on the winding is
-// permanently below its limit, and of the sheet's nominal torque. They are a maximum and roots on a separate
-// sweep, so that the number of drawn points has no influence.
+// Finds speeds that lie between the curve's points:
+// - the speed of greatest efficiency,
+// - the speed from which on the winding stays below its limit without end,
+// - the speed of the sheet's nominal torque.
+//
+// They are a maximum and roots on a separate sweep, so that the number of drawn points has no influence.
 #pragma once
 #include <optional>
 #include <vector>
@@ -14,13 +17,13 @@ namespace sixstep::analysis {
 
 struct Marks {
   std::optional<OperatingPoint> best_efficiency;  ///< empty: no point has an efficiency
-  /// The winding stays below its limit from this speed to no load; empty: not even at no load, or without
-  /// thermal data.
+  /// The winding stays below its limit from this point to no load. Empty if it exceeds the limit even at no
+  /// load, or without thermal data.
   std::optional<OperatingPoint> for_ever;
-  std::optional<OperatingPoint> nominal;  ///< the point of the required torque; empty: none
+  std::optional<OperatingPoint> nominal;  ///< the point of nominal torque; empty: none
 };
 
-/// Data for the other marks than the best efficiency.
+/// Data for the marks other than the best efficiency.
 struct MarksWanted {
   std::optional<design::ThermalModel> thermal;
   double ambient_degC = design::sheet_degC;
@@ -33,9 +36,9 @@ struct MarksWanted {
 inline constexpr int sweep_steps = 16;
 std::vector<double> sweep_speeds(double no_load_rad_s);
 
-/// `sweep` holds the points at these speeds. The searches are independent, and `for_each` runs them. At full duty,
-/// the speed of the flat maximum is found to 1e-6 of the no-load speed and that of a root to 1e-9. With chopping,
-/// to 2e-3 and 1e-4, because a point's mean is known only within its interval.
+/// `sweep` holds the points at the sweep's speeds. The searches are independent, and `for_each` runs them. At
+/// full duty, the speed of the flat maximum is found to 1e-6 of the no-load speed and that of a root to 1e-9.
+/// With chopping they are found to 2e-3 and 1e-4, because a point's mean is known only within its interval.
 base::Result<Marks> find_marks(const Bench& bench, const MarksWanted& wanted,
                                const std::vector<OperatingPoint>& sweep, const ForEach& for_each);
 

@@ -12,7 +12,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Shaft torque over speed, both counted in the direction the duty drives.
+/// Shaft torque over speed, both positive in the direction in which the duty drives.
 struct Sample {
   double speed = 0.0, torque = 0.0;
   OperatingPoint point;
@@ -31,7 +31,7 @@ class NoLoadSearch {
       return false;
     }
     into = {speed, direction_ * point->shaft_torque_Nm, *point};
-    if (speed == 0) into.torque -= bench_.motor.shaft.coulomb_Nm;  // friction of the first motion
+    if (speed == 0) into.torque -= bench_.motor.shaft.coulomb_Nm;  // dry friction against the first motion
     return true;
   }
 
@@ -40,7 +40,8 @@ class NoLoadSearch {
   double direction_;
 };
 
-/// Finds speeds below and above the crossing, from standstill up to seven times the ideal one at full voltage.
+/// Finds speeds below and above the crossing, from standstill up to seven times the ideal no-load speed at
+/// full voltage.
 bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   if (!search.take(0.0, low)) return false;
   if (!(low.torque > 0)) {
@@ -62,8 +63,8 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   return false;
 }
 
-/// False position with the kept end's value halved (Illinois). It ends where the speed changes by 1e-11 or less,
-/// or where the torque is within its interval of zero.
+/// False position in which the value of the retained end is halved (Illinois method). It ends when the speed
+/// changes by 1e-11 or less, or when zero lies within the torque's interval.
 bool narrow(NoLoadSearch& search, Sample low, Sample high, Sample& found, double& slope) {
   constexpr int most = 100;
   double f_low = low.torque, f_high = high.torque;
@@ -114,7 +115,8 @@ void run_free(const Bench& b, OpenLoop& system, double settle_s, double mean_s, 
   note_means(b, recorder.sums(), angle_of(system.plant()) - from, settle_s, out);
 }
 
-/// The same over a whole number of sectors, because the rotor's swing in a part of one would change the means.
+/// Runs the free rotor as above, but averages over a whole number of sectors, because the rotor's swing in a
+/// part of a sector would change the means.
 void run_free(const Bench& b, FullOn& system, double settle_s, double mean_s, NoLoad& out) {
   system.run_for(settle_s);
   const std::int64_t first = system.edges();
@@ -138,7 +140,7 @@ base::Result<NoLoad> no_load(const Bench& b) {
   if (!narrow(search, low, high, found, slope)) return search.problems;
   NoLoad out;
   out.point = found.point;
-  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // the remaining shaft power is rounding
+  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // the remaining shaft power is only rounding
   out.slope_Nm_s = slope;
   out.half_width_rad_s = found.point.half_width_Nm / std::fabs(slope);
   out.time_constant_s = b.motor.shaft.J_kg_m2 / std::fabs(slope);

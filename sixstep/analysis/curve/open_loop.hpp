@@ -13,7 +13,7 @@ class OpenLoop {
       : keep_going_(b.keep_going),
         rig_(plant, drive_of(b), board_of(b), {{sim::Instant{}, rig::ActionKind::setpoint, b.duty}}) {}
 
-  /// Stop::observer: Bench::keep_going ended it.
+  /// Runs for some seconds. Stop::observer: Bench::keep_going ended the run.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
     Asking<Observer> asking{keep_going_, observer};

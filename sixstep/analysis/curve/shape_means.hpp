@@ -8,17 +8,17 @@
 
 namespace sixstep::analysis {
 
-/// K_e (f_p - f_n) over a sector, N m/A: mean, mean of the square, extremes.
+/// K_e (f_p - f_n) over a sector, N m/A: its mean, the mean of its square, and its extremes.
 struct ShapeMeans {
   double mean = 0.0, square = 0.0, low = 0.0, high = 0.0;
 };
 ShapeMeans shape_means(const plant::Machine& machine);
 
-/// Sets torque and ripple over time and angle together: at standstill T = K_e g(theta) i_m(t) with theta and t
-/// independent.
+/// Sets torque and ripple of all times and angles together: at standstill T = K_e g(theta) i_m(t) with theta
+/// and t independent.
 void spread_over_angles(const design::MotorModel& motor, const Sums& sums, OperatingPoint& p);
 
-/// The torque of the same current with the rotor held; its ripple at the angle of least torque.
+/// The torque of the same current with a held rotor; its ripple is that at the angle of least torque.
 LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums);
 
 }  // namespace sixstep::analysis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrates currents, torque and energies over a stretch of a run, exactly on the segments' polynomials, and
-// finds their extremes: for mean values, ripple and energy balance of an operating point.
+// Integrates currents, torque and energies over part of a run, exactly on the segments' polynomials, and
+// finds their extremes. The results serve as mean values, ripple and energy balance of an operating point.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ struct Sums {
   double seconds = 0.0;
   double supplied = 0.0, copper = 0.0, devices = 0.0, air_gap = 0.0, magnetic = 0.0;
   double torque = 0.0, torque_square = 0.0;
-  double motor = 0.0, motor_size = 0.0, motor_square = 0.0;  ///< i_m, |i_m|, i_m^2
-  double winding = 0.0;                                      ///< (|i_a| + |i_b| + |i_c|)/2
+  double motor = 0.0, motor_size = 0.0, motor_square = 0.0;  ///< integrals of i_m, |i_m|, i_m^2
+  double winding = 0.0;                                      ///< integral of (|i_a| + |i_b| + |i_c|)/2
   double current_peak = 0.0;                                 ///< greatest |i| of any phase, A
   double torque_low = std::numeric_limits<double>::infinity(), torque_high = -torque_low;
   double motor_low = torque_low, motor_high = -torque_low;
@@ -82,7 +82,7 @@ class SumsRecorder {
     return out;
   }
 
-  /// (1/2) L_s sum i^2 at the fraction s, J.
+  /// Magnetic energy (1/2) L_s sum i^2 at the fraction s of the segment, J.
   template <class Plant>
   static double stored(const Plant& plant, double s) {
     const plant::Expansion<double>& y = plant.expansion();
@@ -94,7 +94,7 @@ class SumsRecorder {
     return squares / (2 * plant.constants().inv_L);
   }
 
-  /// Widens [low, high] to the values of y over [0, s]; most segments cannot change it, and are not searched.
+  /// Widens [low, high] to the values of y over [0, s]. Most segments cannot widen it, and are not searched.
   static void widen(const study::Series& c, int degree, double s, double& low, double& high) {
     const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
     if (low <= c[0] - reach && c[0] + reach <= high) return;

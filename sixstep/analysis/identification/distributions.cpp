@@ -10,12 +10,13 @@
 namespace sixstep::analysis {
 namespace {
 
-/// The deviations that leave 2.5 % on each side of a normal distribution.
+/// 95 % of a normal distribution lie within this many standard deviations of its mean, 2.5 % beyond on each
+/// side.
 constexpr double z_95 = 1.959963984540054;
 
 double normal_density(double x) { return base::exp(-0.5 * x * x) / std::sqrt(2.0 * base::pi); }
 
-/// Place at which the rising `below` reaches `p`, between `low` and `high`, by bisection.
+/// The argument between `low` and `high` at which the rising function `below` reaches `p`, by bisection.
 template <class Below>
 double where(Below below, double p, double low, double high) {
   for (int n = 0; n < 200 && high - low > 1e-10 * (std::fabs(low) + std::fabs(high)); ++n) {
@@ -25,14 +26,14 @@ double where(Below below, double p, double low, double high) {
   return 0.5 * (low + high);
 }
 
-/// Probability that a vector of that true length, read with deviation 1 in each coordinate, reads at most r:
-/// Rice's distribution, as the integral over the coordinate along the vector.
+/// Probability that a vector of the given true length, read with standard deviation 1 in each coordinate, is
+/// read as at most r long: Rice's distribution, as the integral over the coordinate along the vector.
 double length_below(double r, double length) {
   if (r <= 0.0) return 0.0;
-  constexpr int steps = 60;  // to 1e-9, because it converges as a periodic function's sum does
+  constexpr int steps = 60;  // error 1e-9, because the sum converges as for a periodic function
   const double from = std::max(-r, length - 9.0), to = std::min(r, length + 9.0);
   if (from >= to) return r < length ? 0.0 : 1.0;
-  // x = middle + half sin(a): the root at the ends is smooth in a.
+  // With x = middle + half sin(a), the integrand is smooth in a, although it has a square root at the ends.
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0.0;
   for (int n = 0; n < steps; ++n) {
@@ -92,12 +93,12 @@ Interval length_95(double length, double deviation) {
   if (!(deviation > 0.0)) return {length, length, length};
   const double r = length / deviation;
   if (r > 30.0) return around(length, z_95 * deviation);
-  // The longer the true vector, the less often its reading is so short.
+  // The longer the true vector is, the less often its reading is as short as r.
   const auto longer = [&](double p) {
     if (length_below(r, 0.0) <= p) return 0.0;
     return where([&](double a) { return 1.0 - length_below(r, a); }, 1.0 - p, 0.0, r + 10.0);
   };
-  // A length that is by chance far below its noise gives little information about the true one.
+  // A length that is by chance far below its noise says little about the true length.
   return {length, longer(0.975) * deviation, std::max(longer(0.025), r + 1.0) * deviation};
 }
 

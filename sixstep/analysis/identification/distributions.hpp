@@ -10,8 +10,9 @@ namespace sixstep::analysis {
 /// Distribution function of the normal distribution with mean 0 and deviation 1; error below 1e-14.
 double normal_cdf(double x);
 
-/// Half width of Student's central 95 % interval; fewer than 3 degrees of freedom count as 3. 3.18 for 3, 1.96 for
-/// many. By the expansion of Abramowitz and Stegun 26.7.5; within 1 % at 3, 1e-4 from 6 on.
+/// Half width of Student's central 95 % interval, in standard deviations: 3.18 for 3 degrees of freedom, 1.96
+/// for many. Fewer than 3 count as 3. From the expansion of Abramowitz and Stegun 26.7.5; within 1 % at 3,
+/// 1e-4 from 6 on.
 double student_95(double degrees_of_freedom);
 
 /// One of several normal distributions from which a number may be drawn.
@@ -19,15 +20,17 @@ struct Component {
   double weight = 0.0, mean = 0.0, deviation = 0.0;
 };
 
-/// Mean of the mixture and its central 95 %. The weights sum to 1; a deviation of 0 is a certain value.
+/// Mean of the mixture and its central 95 %. The weights sum to 1. A component with deviation 0 has one
+/// certain value.
 Interval mixture_95(std::span<const Component> mixture);
 
-/// Interval of a plane vector's true length, from the length that was read with that deviation in each coordinate.
-/// A vector of noise alone has a length too; its interval reaches down to 0. Each bound leaves 2.5 % (Rice's
-/// distribution inverted), so that a length of 0 is held at least as often.
+/// Interval of a plane vector's true length, from the length that was read with the given standard deviation
+/// in each coordinate. A vector of noise alone has a length too; its interval reaches down to 0. Each bound
+/// leaves 2.5 % (Rice's distribution inverted). The interval then contains a true length of 0 at least as
+/// often as it should.
 Interval length_95(double length, double deviation);
 
-/// The same with Student's width, for a deviation that was estimated.
+/// Like length_95() above, but with Student's width, for a standard deviation that was estimated.
 Interval length_95(double length, double deviation, double degrees_of_freedom);
 
 }  // namespace sixstep::analysis

@@ -4,8 +4,8 @@
 
 namespace sixstep::analysis {
 
-/// A value, and bounds that hold the true one with a probability of 95 %. tests/analysis/identification/ counts
-/// this over a thousand drawn recordings.
+/// A value, and bounds that contain the true value with a probability of 95 %. tests/analysis/identification/
+/// counts how often they do over a thousand drawn recordings.
 struct Interval {
   double value = 0.0, low = 0.0, high = 0.0;
 

@@ -11,7 +11,7 @@
 
 namespace sixstep::analysis {
 
-/// A Problem where times are not finite or do not rise.
+/// A Problem if times are not finite or do not rise.
 inline base::Problems check_times(const std::vector<double>& t_s) {
   for (std::size_t n = 0; n < t_s.size(); ++n)
     if (!std::isfinite(t_s[n]) || (n > 0 && !(t_s[n] > t_s[n - 1])))
@@ -22,7 +22,7 @@ inline base::Problems check_times(const std::vector<double>& t_s) {
   return {};
 }
 
-/// A Problem where the column does not have one finite number for each time.
+/// A Problem if the column does not have one finite number for each time.
 inline base::Problems check_column(const std::string& name, const std::vector<double>& values,
                                    std::size_t rows) {
   if (values.size() != rows)

@@ -8,7 +8,8 @@
 
 namespace sixstep::analysis {
 
-/// Holds all n x n values. The caller fills both halves, or the lower one and calls mirror().
+/// A symmetric matrix that holds all n x n values. The caller fills both halves, or the lower half and then
+/// calls mirror().
 class Symmetric {
  public:
   explicit Symmetric(std::size_t size = 0) : size_(size), values_(size * size) {}
@@ -20,7 +21,7 @@ class Symmetric {
     for (std::size_t i = 0; i < size_; ++i)
       for (std::size_t k = 0; k < i; ++k) at(k, i) = at(i, k);
   }
-  /// weights' M weights.
+  /// The quadratic form weights' M weights.
   double square(std::span<const double> weights) const;
 
  private:
@@ -28,10 +29,11 @@ class Symmetric {
   std::vector<double> values_;
 };
 
-/// M = L L'. Each unknown is scaled by its own diagonal, because unknowns may differ by many powers of ten.
+/// Factors M = L L'. Each unknown is scaled by its own diagonal, because unknowns may differ by many powers
+/// of ten.
 class Cholesky {
  public:
-  /// Empty where the matrix is not positive definite within rounding.
+  /// Empty if the matrix is not positive definite within rounding.
   static std::optional<Cholesky> of(const Symmetric& matrix);
 
   std::vector<double> solve(std::span<const double> right) const;
@@ -53,7 +55,7 @@ class NormalEquations {
   std::size_t rows() const { return rows_; }
   Symmetric left() const;
   const std::vector<double>& right() const { return right_; }
-  /// Weighted sum of the squared values: the residual where all unknowns are 0.
+  /// Weighted sum of the squared values: the residual if all unknowns are 0.
   double square() const { return square_; }
 
  private:
@@ -65,11 +67,11 @@ class NormalEquations {
 
 struct Solution {
   std::vector<double> unknowns;
-  Symmetric cofactors;  ///< the covariance where every row has a variance of its weight's inverse
+  Symmetric cofactors;  ///< the covariance if every row's variance is the inverse of its weight
   double residual_square = 0.0;
 };
 
-/// Empty where the rows do not determine the unknowns.
+/// Empty if the rows do not determine the unknowns.
 std::optional<Solution> solution_of(const NormalEquations& equations);
 
 }  // namespace sixstep::analysis

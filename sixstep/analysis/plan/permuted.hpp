@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Permutes numbers without a table: the place of a number is computed from it alone.
+// Permutes numbers without a table: the place of a number is computed from this number alone.
 #pragma once
 #include <bit>
 #include <cstddef>

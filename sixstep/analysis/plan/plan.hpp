@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lays out the runs of a plan: the varied keys of one scenario, their values, and the points between them.
+// Lists the runs of a plan: the varied keys of one scenario, their values, and the points that combine them.
 // Run n depends on the plan and n alone: it is the same in any order and on any machine.
 #pragma once
 #include <cstddef>
@@ -16,30 +16,31 @@ namespace sixstep::analysis {
 /// Spacing of an axis's numbers between its ends.
 enum class Spacing : std::uint8_t { linear, logarithmic };
 
-/// A key and its values: listed, or numbers from one end to the other.
+/// A key and its values: a list, or numbers from one end of a range to the other.
 struct Axis {
   std::string key;                  ///< as in the scenario, "pwm.period_s"
   std::vector<std::string> values;  ///< as a file writes them, "\"soft\"" or 0.5; empty: a range
-  double from = 0.0, to = 0.0;      ///< in the key's unit; a grid contains both
+  double from = 0.0, to = 0.0;      ///< range in the key's unit; a grid contains both ends
   std::size_t points = 0;           ///< number of values of a range on a grid, two or more
   Spacing spacing = Spacing::linear;
-  /// The drive differs, but its controller is designed without the difference, as with [[spread]]
+  /// The value changes only the drive: its controller is designed without the change, as with [[spread]]
   /// (study::strayed_to).
   bool strays = false;
   bool operator==(const Axis&) const = default;
 };
 
 enum class Sampling : std::uint8_t {
-  grid,             ///< every value of each axis with every one of the others, the last axis fastest
-  latin_hypercube,  ///< each axis has one part per point, and each part one point
+  grid,             ///< every value of each axis with every value of the others, the last axis fastest
+  latin_hypercube,  ///< each axis has as many parts as there are points, and each part has one point
   sobol,            ///< a sequence that fills the space evenly at any length
-  monte_carlo,      ///< at random
-  /// For Sobol indices: base points in blocks of k + 2 runs: A, B, and A with one column of B at a time.
+  monte_carlo,      ///< random points
+  /// For Sobol indices: base points in blocks of k + 2 runs for k axes: A, B, and A with one column of B at a
+  /// time.
   saltelli
 };
 
-/// `points`: number of points, except of a grid. `drives`: drives of the [[spread]] series at each point; 0: the
-/// drive as written.
+/// The varied keys and the number of runs. `points`: number of points, except for a grid. `drives`: number of
+/// drives of the [[spread]] series at each point; 0: the drive as written.
 struct Plan {
   std::vector<Axis> axes;
   Sampling sampling = Sampling::grid;
@@ -59,13 +60,13 @@ std::size_t runs_of(const Plan& plan);
 
 /// Values that run n sets, one per axis, as a file writes them.
 std::vector<std::string> point_of_run(const Plan& plan, std::size_t run);
-/// Index of run n's drive; empty where the plan has none.
+/// Index of run n's drive; empty if the plan has no drives.
 std::optional<std::size_t> drive_of_run(const Plan& plan, std::size_t run);
 
 /// A value without the quotes that a file writes around a word.
 std::string_view bare(std::string_view value);
 
-/// The value of an axis at u, from 0 at its begin to 1 at its end, as a file writes it.
+/// The value of an axis at u, from 0 at its beginning to 1 at its end, as a file writes it.
 std::string on_axis(const Axis& axis, double u);
 
 /// Place of point n on each axis, 0 to 1; the listed values divide an axis into equal parts.

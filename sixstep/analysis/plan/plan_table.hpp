@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of a plan's runs: a row per run, a column per varied key, value of [[spread]] and figure of merit.
-// The columns are known before the first run.
+// Table of a plan's runs. It has a row per run, and a column per varied key, per value of [[spread]] and per
+// figure of merit. The columns are known before the first run.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace sixstep::analysis {
 /// A column of a figure of merit.
 struct FigureColumn {
   std::string name, unit;
-  bool required = false;  ///< else only compared
+  bool required = false;  ///< true: a requirement; false: only compared
   std::optional<double> min, max;
 
   /// Whether the figure holds as in the verdict of a single run: it has a value within its bounds. A compared
@@ -39,7 +39,7 @@ struct InputColumn {
 
 struct PlanColumns {
   std::vector<InputColumn> keys;      ///< keys of the plan's axes
-  std::vector<InputColumn> strayed;   ///< keys of [[spread]]; none where the plan has no drives
+  std::vector<InputColumn> strayed;   ///< keys of [[spread]]; none if the plan has no drives
   std::vector<FigureColumn> figures;  ///< requirements first, then comparisons, in the scenario's order
   bool operator==(const PlanColumns&) const = default;
 };
@@ -47,19 +47,19 @@ struct PlanColumns {
 /// Shared by a table and all of its rows.
 using TableColumns = std::shared_ptr<const PlanColumns>;
 
-/// The unit of a scenario's key; empty where it has none.
+/// The unit of a scenario's key; empty if it has none.
 using UnitOfKey = std::function<std::string(const std::string& key)>;
 
-/// `scenario`: with its spread, before any value deviates.
+/// The columns of a plan's table. `scenario` has its [[spread]], before any value deviates.
 TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const UnitOfKey& unit_of = {});
 
 /// A value drawn by [[spread]], with its key.
 struct Strayed {
   std::string key;
-  double value = 0.0;  ///< in the key's unit; NaN where it could not be drawn
+  double value = 0.0;  ///< in the key's unit; NaN if it could not be drawn
 };
 
-/// The scenario of a planned run, and its values drawn by [[spread]].
+/// The scenario of a planned run, and the values that [[spread]] has drawn for it.
 struct PlannedRun {
   study::Scenario scenario;
   std::vector<Strayed> strayed;
@@ -76,29 +76,29 @@ inline constexpr base::Choice<RunEnd> run_ends[] = {
     {"refused", RunEnd::refused, "could not start: no figures"},
 };
 
-/// The values of a row. RunRecord joins them with the columns, which have their meanings.
+/// The values of a row. RunRecord joins them with the columns, which say what each value means.
 struct RunValues {
   std::size_t number = 0;
   std::vector<std::string> point;  ///< value of each key, as a file writes it
-  std::vector<double> strayed;     ///< in the keys' units; NaN where it could not be drawn
+  std::vector<double> strayed;     ///< in the keys' units; NaN if it could not be drawn
   RunEnd end = RunEnd::whole;
   std::string problem;                 ///< text of a fault or a refusal, in one line
-  std::vector<std::string> remarks{};  ///< the outcome's
-  std::vector<double> figures;         ///< NaN where there is none
+  std::vector<std::string> remarks{};  ///< remarks of the outcome
+  std::vector<double> figures;         ///< NaN for a figure without a value
   std::uint64_t digest = 0;            ///< digest of the trajectory
 };
 
 /// A row with its columns. of() checks that each column has exactly one value; a row does not change afterwards.
 class RunRecord {
  public:
-  /// A Problem where there are more or fewer values of a kind than columns.
+  /// A Problem if there are more or fewer values of a kind than columns.
   static base::Result<RunRecord> of(TableColumns columns, RunValues values);
   /// The row of a run without figures: it could not start, or ended with the program.
   static RunRecord without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
                                    RunEnd end, std::string problem);
 
   const PlanColumns& columns() const { return *columns_; }
-  /// Whether it is a row of that table.
+  /// Whether this is a row of that table.
   bool fits(const TableColumns& columns) const { return columns_ == columns || *columns_ == *columns; }
   const RunValues& operator*() const { return values_; }
   const RunValues* operator->() const { return &values_; }
@@ -111,7 +111,7 @@ class RunRecord {
 };
 
 /// The row of a run. Its values are found by the names of deviating keys and figures. If these names are not
-/// those of the columns, the row is that of a run which could not start, with the reason.
+/// those of the columns, the row becomes that of a run which could not start, with the reason.
 RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector<std::string> point,
                     const base::Result<PlannedRun>& planned, const base::Result<study::Outcome>& result);
 

@@ -10,9 +10,9 @@ namespace sixstep::analysis {
 namespace {
 
 constexpr std::size_t resamples = 400;
-constexpr std::size_t outside = 40;  ///< one in 40 values lies beyond either end of the interval
+constexpr std::size_t outside = 40;  ///< bootstrap values beyond each end of the 95 % interval: one in 40
 
-/// The figures of one row, about the mean of all.
+/// The figures of one row of runs, relative to the mean of all.
 struct Row {
   double a, b;
   std::vector<double> f;

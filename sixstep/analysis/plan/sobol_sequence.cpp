@@ -12,13 +12,14 @@ namespace {
 constexpr int bits = 32;
 using Directions = std::array<std::uint32_t, bits>;
 
-/// A primitive polynomial over two elements, its coefficients as bits, and the first direction numbers.
+/// A primitive polynomial over the field of two elements, with its coefficients as bits, and the first
+/// direction numbers.
 struct Primitive {
   std::uint32_t polynomial;
   std::uint32_t first[9];
 };
 
-/// new-joe-kuo-6.21201, dimensions 2 to 64.
+/// From the file new-joe-kuo-6.21201, dimensions 2 to 64.
 constexpr Primitive primitives[] = {
     {3, {1}},
     {7, {1, 3}},
@@ -86,7 +87,8 @@ constexpr Primitive primitives[] = {
 };
 static_assert(std::size(primitives) + 1 == sobol_dimensions);
 
-/// Bratley and Fox: m_k = m_(k-s) xor, over the polynomial's coefficients, 2^i a_i m_(k-i).
+/// Direction numbers by Bratley and Fox: m_k = m_(k-s) xor, over the polynomial's coefficients, 2^i a_i
+/// m_(k-i).
 constexpr Directions directions_of(const Primitive& p) {
   const int degree = std::bit_width(p.polynomial) - 1;
   Directions m{};

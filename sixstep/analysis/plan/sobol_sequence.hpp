@@ -16,8 +16,8 @@ inline constexpr std::size_t sobol_dimensions = 64;
 /// Coordinate `dimension` < sobol_dimensions of point `number`, as 32 bits after the binary point.
 std::uint32_t sobol_bits(std::size_t dimension, std::uint32_t number);
 
-/// The same in (0, 1), with its digits shifted at random by the seed. The points of all seeds are equally even;
-/// the spread between seeds is an estimate of the error.
+/// The same coordinate as a number in (0, 1), with its digits shifted at random by the seed. The points of
+/// each seed are equally even. The spread between seeds is an estimate of the error.
 double sobol(std::size_t dimension, std::uint32_t number, std::uint64_t seed);
 
 }  // namespace sixstep::analysis

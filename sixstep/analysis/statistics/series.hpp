@@ -12,17 +12,19 @@
 
 namespace sixstep::analysis {
 
-/// Distance to the nearer bound in the figure's unit, negative beyond it; minus infinity for a figure that never
-/// comes or has no value, infinity without a bound.
+/// Distance from the nearer bound in the figure's unit, negative beyond it. Minus infinity for a figure whose
+/// event never occurs or that has no value; infinity without a bound.
 double margin(const FigureColumn& column, double x);
 
 struct SpreadFigure {
   FigureColumn column;
-  std::size_t holds = 0;  ///< runs whose value meets the requirement; a faulted run counts too
-  /// Of a requirement: the run with the least margin(), the first of several. A run that could not start is none.
+  std::size_t holds = 0;  ///< number of runs whose value meets the requirement, including runs that a fault
+                          ///< stopped
+  /// For a requirement: the run with the least margin(), the first if several have it. Runs that could not
+  /// start do not count.
   std::optional<std::size_t> worst;
-  double least_margin = 0.0;  ///< that run's
-  bool missed = false;        ///< whether a run that could start misses it
+  double least_margin = 0.0;  ///< margin of that run
+  bool missed = false;        ///< whether a run that could start does not meet the requirement
   Statistics statistics;
 };
 
@@ -34,24 +36,24 @@ struct Casualty {
 
 /// A remark that some runs have, perhaps with other numbers in it.
 struct SeriesRemark {
-  std::string text;                  ///< as its first run has it
-  std::vector<std::size_t> numbers;  ///< its runs
+  std::string text;                  ///< text as its first run has it
+  std::vector<std::size_t> numbers;  ///< numbers of the runs that have it
 };
 
 struct Series {
-  std::size_t runs = 0;               ///< all: ended, stopped by a fault, or could not start
-  std::size_t passed = 0;             ///< meet every requirement
-  std::vector<SpreadFigure> figures;  ///< a figure each, in the columns' order
-  std::vector<Casualty> faults;       ///< stopped by a fault
-  std::vector<Casualty> refused;      ///< could not start
+  std::size_t runs = 0;               ///< all runs: ended, stopped by a fault, or could not start
+  std::size_t passed = 0;             ///< runs that meet every requirement
+  std::vector<SpreadFigure> figures;  ///< one per figure, in the columns' order
+  std::vector<Casualty> faults;       ///< runs that a fault stopped
+  std::vector<Casualty> refused;      ///< runs that could not start
   std::vector<SeriesRemark> remarks;  ///< in the order of their first runs
   std::uint64_t digest = 0;           ///< digest of all runs' digests, in the order of their numbers
 };
 
 Series series_of(const PlanColumns& columns);
 
-/// Adds a row, in the order of the runs' numbers. Figures of a run that a fault stopped count as they were at the
-/// stop.
+/// Adds a row; rows come in the order of the runs' numbers. If a fault stopped a run, its figures count with
+/// their values at the stop.
 void add(Series& series, const RunRecord& record);
 
 }  // namespace sixstep::analysis

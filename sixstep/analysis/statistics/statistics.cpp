@@ -19,7 +19,8 @@ bool Statistics::all_finite() const {
 
 std::optional<double> Statistics::mean() const {
   if (values_.empty() || !all_finite()) return {};
-  // The sum of differences from the first value keeps the digits of figures that hardly differ.
+  // The mean is computed from differences to the first value, which keeps the digits of figures that hardly
+  // differ.
   double sum = 0.0;
   for (const double x : values_) sum += x - values_[0];
   return values_[0] + sum / static_cast<double>(values_.size());
@@ -39,7 +40,7 @@ std::optional<double> Statistics::median() const {
   const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), upper, values.end());
   if (values.size() % 2 == 1) return *upper;
-  // Halves are added, because the sum of two values may exceed the largest double.
+  // Halves are added, because the sum of the two values may exceed the largest double.
   return *std::max_element(values.begin(), upper) / 2 + *upper / 2;
 }
 

@@ -20,7 +20,8 @@ using design::DesignSpec;
 using design::DriveDesign;
 using design::Warning;
 
-/// Control periods of all trials together: some seconds to make a design usable, one to make it better.
+/// Largest number of control periods of all trials together: some seconds of computing to make a design
+/// usable, one second to improve it.
 constexpr double rescue_periods = 4e6, advice_periods = 8e5;
 bool is_grave(const std::vector<Warning>& warnings) {
   return std::any_of(warnings.begin(), warnings.end(), [](const Warning& w) { return w.grave; });
@@ -33,14 +34,14 @@ bool warns_of(const std::vector<Warning>& warnings, Concern of) {
 /// Whether only a run can show the concern.
 bool of_a_run(Concern of) { return of >= Concern::settling; }
 
-/// Whether a change may remove a warning, judged by its design in closed form.
+/// Whether a changed design may remove a warning, judged in closed form without a run.
 bool promises(const std::vector<Warning>& found, const DriveDesign& next) {
   return std::any_of(found.begin(), found.end(), [&](const Warning& w) {
     return w.cure.empty() && (of_a_run(w.of) || !warns_of(next.warnings, w.of));
   });
 }
 
-/// Runs of a study, counted as whole ones; a position's gain needs a search.
+/// Number of runs of a study, as whole runs. A position's gain needs a search.
 double runs_of_study(const DesignOrder& order) {
   const double motors =
       order.tolerances.empty() ? 1.0 : static_cast<double>(variations(order.tolerances).size());
@@ -64,7 +65,7 @@ void add_cure(std::string& cure, const std::string& words) {
 void advise_usable(const DesignOrder& order, DesignStudy& s) {
   TrialBudget budget{advice_periods};
   std::vector<DesignSpec> changes = single_changes(order, s.design);
-  // First, so that each warning gets its own longest period.
+  // This change is inserted first, so that each warning is tried with its own longest period first.
   if (const auto longer = longer_of_periods(order.spec, s.design)) changes.insert(changes.begin(), *longer);
   for (const DesignSpec& spec : changes) {
     const std::optional<DriveDesign> d = in_closed_form(order, spec);
@@ -85,21 +86,21 @@ bool holds(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget
   return study && study->usable();
 }
 
-/// Whether the bus is above the sheet's. This changes the drive, so that it is offered only if nothing else
-/// helps.
+/// Whether the bus is above the sheet's nominal voltage. A lower bus changes the drive, so that it is offered
+/// only if nothing else helps.
 bool above_nominal(const DesignSpec& spec, const DriveDesign& d) {
   return spec.voltage_V && d.motor.nominal_voltage_V > 0.0 && *spec.voltage_V > d.bus_V &&
          *spec.voltage_V > d.motor.nominal_voltage_V;
 }
 
-/// Changes that may make it usable, the likeliest first.
+/// Changes that may make the design usable, the likeliest first.
 std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = single_changes(order, d);
   for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
   if (!order.spec.rotor.hall || !decodes_encoders(order.subject.board)) return all;
   if (order.spec.mode == Mode::position) {
     std::vector<DesignSpec> first;
-    // A slow drive needs no short period, and a trial with a longer one takes a fraction of the time.
+    // A slow drive needs no short period, and a trial with a longer period takes a fraction of the time.
     if (order.spec.period_s < unhurried_period_s) first.push_back(unhurried(order.spec, d.motor));
     for (const DesignSpec& spec : on_encoders(order, d)) first.push_back(spec);
     first.push_back(unhurried(on_encoder(order, order.spec.period_s), d.motor));
@@ -113,7 +114,8 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
 std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = rescues(order, d);
   if (order.subject.board) {
-    // The board's program requires its period: a slower loop at this period comes first, another period last.
+    // The board's program requires its period. So slower loops at this period come first, and other periods
+    // last.
     const auto keeps_period = [&](const DesignSpec& s) { return s.period_s == order.spec.period_s; };
     const auto slower_alone = [&](const DesignSpec& s) {
       return keeps_period(s) && s.mode == Mode::current && s.settle_s != order.spec.settle_s;
@@ -127,8 +129,8 @@ std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const Dr
 
 /// Result of a search for a change. Slower loops may take longer to simulate than the budget of an advice.
 struct Rescue {
-  std::string words;      ///< the first change that makes it usable; empty where none does
-  bool too_long = false;  ///< some change, or its tolerances, was too long to try
+  std::string words;      ///< the first change that makes the design usable; empty if none does
+  bool too_long = false;  ///< a change, or its run over the tolerances, was too long to try
 };
 
 /// Tries each change first with the sheet's motor alone, because this is quick and most changes fail there. A
@@ -156,7 +158,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
     if (order.keep_going && !order.keep_going()) return out;
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
-    // Changes that would take most of the budget are tried after the cheap ones.
+    // Changes that would take most of the budget are tried after the short ones.
     if (periods_of(order, *next) > rescue_periods / 4 && !position) {
       dear.emplace_back(spec, *next);
       continue;
@@ -171,7 +173,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   return out;
 }
 
-/// No loop reaches an impossible target: tries a smaller step, a tenth below the reached value.
+/// A smaller step, for a setpoint that no loop can reach: a tenth below the reached value.
 std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   const double first = s.scenario.reference.values.front(), held = s.outcome.verdicts.front().measured;
   DesignOrder next = order;
@@ -182,7 +184,7 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   return "usable with step = " + base::written(*next.subject.step);
 }
 
-/// Words for all that was tried in vain.
+/// Words for the changes that were all tried without success.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
   std::string text = "no tried change makes it usable: chopping, period, sensor, slower loops, less torque";
   if (too_long) text += "; changes that take longer to simulate were left out";
@@ -192,7 +194,7 @@ std::string nothing_tried(const DriveDesign& d, bool too_long) {
   return text;
 }
 
-/// Words for a cause on the board: without it the same loops are usable.
+/// Words for a cause on the board: without this board the same loops are usable.
 std::string board_is_the_cause(const DesignOrder& order) {
   if (!order.subject.board) return {};
   const study::Scenario &board = *order.subject.board, usual;
@@ -240,7 +242,7 @@ void advise_unusable(const DesignOrder& order, DesignStudy& s) {
 
 }  // namespace
 
-/// Control periods of a study. A position's gain is taken as braking_gain() at most.
+/// Number of control periods of a study. For a position, the gain counts as at most braking_gain().
 double periods_of(const DesignOrder& order, DriveDesign d) {
   if (d.spec.mode == Mode::position) {
     double& gain = d.loops.back().gains.d1;
@@ -273,7 +275,7 @@ void advise(const DesignOrder& order, base::Problems& problems) {
       std::find_if(d->warnings.begin(), d->warnings.end(), [](const Warning& w) { return w.grave; });
   if (const std::string words = rescue(order, *d).words; !words.empty())
     problems.front().cure = "take " + words;
-  else if (grave != d->warnings.end())  // independent of the gain
+  else if (grave != d->warnings.end())  // the gain has no influence
     problems.front().cure = "correct the design's first problem: " + grave->what;
 }
 

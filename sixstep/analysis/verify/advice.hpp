@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds changes that improve a design: it designs, runs and judges it again with one change, or several. It
-// advises only changes that were tried and found better.
+// Finds changes that improve a design. It designs, runs and judges the design again with one or several
+// changes. It advises only changes that were tried and found better.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,14 +13,15 @@ namespace sixstep::analysis {
 /// Least number of control periods of a study of this design, approximately.
 double periods_of(const DesignOrder& order, design::DriveDesign design);
 
-/// The study of another specification; empty where its closed form is unusable, or the budget is too small.
+/// The study of another specification. Empty if its design is unusable in closed form, or if the budget is
+/// too small.
 std::optional<DesignStudy> tried(const DesignOrder& order, const design::DesignSpec& spec,
                                  TrialBudget& budget);
 
-/// Adds changes to the warnings of a study: those that make an unusable design usable, and those that remove
-/// a warning of a usable one without another warning.
+/// Adds advice to the warnings of a study: changes that make an unusable design usable, or changes that
+/// remove a warning of a usable design without causing another one.
 void advise(const DesignOrder& order, DesignStudy& study);
-/// Adds changes for a position for which no gain was found.
+/// Adds advice to the problems of a position mode for which no gain was found.
 void advise(const DesignOrder& order, base::Problems& problems);
 
 }  // namespace sixstep::analysis

@@ -13,7 +13,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Peak to peak of the speed at the end of the test without its load; empty: the run was ended early.
+/// Peak to peak swing of the speed at the end of the test without its load; empty if the run was ended early.
 std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s) {
   study::Scenario idle = s.scenario;
   idle.load.torque_Nm = 0.0;

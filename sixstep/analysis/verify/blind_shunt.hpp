@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks designs on boards with one shunt, which measures a current only while a pulse lasts long enough. The
-// usual test runs under load; here the currents with shorter pulses are checked.
+// usual test runs under load, where pulses are long. This check covers the currents with shorter pulses.
 #pragma once
 #include "sixstep/analysis/verify/design_study.hpp"
 
 namespace sixstep::analysis {
 
-/// Largest current in A at which one shunt measures nothing with the rotor at rest; 0 for other boards.
+/// The current in A below which one shunt measures nothing with the rotor at rest; 0 for other boards.
 double unseen_current_A(const design::DriveDesign& design, const study::Scenario& scenario);
 
-/// For a board with one shunt: warns of the currents that it does not measure with the rotor at rest; for a speed
-/// loop, it also runs the test without its load. The warning is grave where the step of a current loop is below
-/// that current, or where the speed's swing exceeds its limit.
+/// For a board with one shunt: warns of the currents that it does not measure with the rotor at rest. For a
+/// speed loop, it also runs the test without its load. The warning is grave in two cases: the step of a
+/// current loop is below that current, or the speed's swing exceeds its limit.
 void look_at_blind_shunt(const DesignOrder& order, DesignStudy& study);
 
 }  // namespace sixstep::analysis

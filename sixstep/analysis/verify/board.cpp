@@ -16,7 +16,7 @@ double range_from(double least) { return base::shortened(least, 2, base::Towards
 
 constexpr double sectors_until_standstill = 20.0;
 
-/// Step of the measured position, in degrees of the motor's shaft; 0: without steps.
+/// Step of the measured position, in degrees of the motor's shaft; 0: the position has no steps.
 double position_step_deg(const design::DriveDesign& d) {
   const design::ShaftSensing& shaft = d.spec.rotor.shaft;
   switch (shaft.kind) {
@@ -75,7 +75,7 @@ study::Sensors board_sensors(const design::DriveDesign& d, std::optional<double>
 
 namespace {
 
-/// Largest current that a drive requests; for a current loop also the overshoot of the given step.
+/// Largest current in A that a drive requests; for a current loop including the overshoot of the given step.
 double measured_current_A(const design::DriveDesign& d, std::optional<double> step) {
   if (d.spec.mode != control::Mode::current) return d.current_at_full_torque_A;
   const double usual = design::usual_overload * d.nominal_current_A;

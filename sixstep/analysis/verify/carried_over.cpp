@@ -14,8 +14,8 @@ bool bounds_anything(const study::Limits& l) {
   return l.current_A || l.torque_Nm || l.speed_rad_s || l.gain_A_s_per_rad;
 }
 
-/// Why the run is slower than the designed one; empty: it is not. The step of a speed comes after the start, so
-/// that the limits are the cause of a longer settling time.
+/// Says why the run is slower than the designed run; empty if it is not slower. The step of a speed comes
+/// after the start, so that limits are the cause of a longer settling time.
 std::string slower(const study::Scenario& s, const study::Outcome& run, const study::Outcome& designed) {
   if (s.control.mode != control::Mode::speed) return {};
   const auto of = [](const study::Outcome& out, const char* figure) {
@@ -30,13 +30,14 @@ std::string slower(const study::Scenario& s, const study::Outcome& run, const st
          base::three_digits(1e3 * before) + " ms without them";
 }
 
-/// "0.0418" and "s" as "41.8 ms".
+/// Returns, for example, "41.8 ms" for 0.0418 and "s".
 std::string in_words(double value, const std::string& unit) {
   const bool milliseconds = unit == "s" && std::fabs(value) < 1.0;
   return base::three_digits(milliseconds ? 1e3 * value : value) + (milliseconds ? " ms" : " " + unit);
 }
 
-/// "settling time 41.8 ms instead of 50.1 ms": the figures of a design that differ by more than a twentieth.
+/// The figures that differ from the design's by more than a twentieth: "settling time 41.8 ms instead of 50.1
+/// ms".
 std::string others(const study::Outcome& run, const study::Outcome& designed) {
   std::string out;
   for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start",
@@ -50,7 +51,7 @@ std::string others(const study::Outcome& run, const study::Outcome& designed) {
   return out;
 }
 
-/// Why the scenario does not pass; empty: it passes.
+/// The reason why the scenario does not pass; empty: it passes.
 std::string against(const study::Scenario& s, const study::Outcome& designed,
                     std::string* differs = nullptr) {
   const base::Result<study::Outcome> run = study::run(s);
@@ -63,8 +64,8 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   return slower(s, *run, designed);
 }
 
-/// The reason why a motor of the tolerances trips; empty: none does. The protection is active for every
-/// motor.
+/// The reason why the drive trips with a motor within the tolerances; empty: it never does. The protection is
+/// active with every motor.
 std::string trips_within_tolerances(const DesignStudy& study, const study::Scenario& s) {
   const std::optional<double>& trip_A = s.protection.over_current_A;
   if (s.control.drive != study::FirmwareKind::product || !trip_A || !study.robustness) return {};
@@ -76,8 +77,8 @@ std::string trips_within_tolerances(const DesignStudy& study, const study::Scena
   return {};
 }
 
-/// Copies the current loop's settings other than its gains and its limit. False: there are none, or the
-/// board's loop is no PI.
+/// Copies the current loop's settings except its gains and its limit. Returns false if there are none, or if
+/// the board's loop is no PI.
 bool take_current_loop(const study::Control& board, study::Control& to) {
   study::CurrentLoop current = board.current;
   if (current.type != study::CurrentLoopType::pi) return false;
@@ -105,7 +106,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;
     s.sensors.hall_stable_samples = board.sensors.hall_stable_samples;
-    s.protection.off_at_s.reset();  // applies to the board's own course
+    s.protection.off_at_s.reset();  // belongs to the reference of the board's own scenario
     keep("control.drive and [protection]");
   }
   if (bounds_anything(board.control.limits)) {

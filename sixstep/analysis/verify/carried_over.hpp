@@ -11,21 +11,23 @@ struct CarriedOver {
   study::Scenario scenario;
   std::string kept;     ///< names of the copied settings; empty: none
   std::string lost;     ///< why nothing was copied, although the board has settings
-  std::string differs;  ///< figures that the run with them changes
+  std::string differs;  ///< figures that change if the run has these settings
 };
 
-/// Copies into a study's scenario the board's product drive, protection, limits, regeneration, full scale and
-/// its loops' settings except gains, and runs that. The scenario stays as designed, with the reason in
-/// not_usable, if the run does not pass or settles later by a quarter, or if the board's drive is sensorless,
-/// unlike the design's. A drive that has lost its protection must not become a header.
+/// Copies settings of the board into a study's scenario, and runs it: product drive, protection, limits,
+/// regeneration, full scale and settings of loops except gains. A drive that has lost its protection must not
+/// become a header. Therefore the scenario stays as designed, with the reason in not_usable, in three cases:
+/// - the run does not pass;
+/// - it settles later by a quarter;
+/// - the board's drive is sensorless, unlike the design's.
 CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const study::Scenario& board);
 
 /// Keys of the board's scenario that the design does not choose and that the written scenario does not have:
 /// "control.slew, heat.motor". Empty: there are none.
 std::string left_out(study::Scenario board, study::Scenario written);
 
-/// The board's course and judgement that the design's own test replaces in the written scenario: "reference (at
-/// most 300, now 105 rad/s), require (greatest current)". Empty: nothing.
+/// The board's reference and requirements that the design's own test replaces in the written scenario:
+/// "reference (at most 300, now 105 rad/s), require (greatest current)". Empty: nothing.
 std::string replaced(const study::Scenario& board, const study::Scenario& written);
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts that the courses of a design's test share: round numbers, windows, and the board's limits.
+// Parts that are common to the tests of a design: round numbers, windows, and the board's limits.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -11,10 +11,10 @@
 
 namespace sixstep::analysis {
 
-/// One digit, rounded down: 10.9 -> 10.
+/// A number with one digit, rounded down: 10.9 -> 10.
 inline double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
 
-/// Whole microseconds, rounded up, so that the file stays short.
+/// A time in whole microseconds, rounded up, so that the file stays short.
 inline double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
 
 inline study::Measure window_measure(study::MetricKind metric, study::Signal signal, double from_s,
@@ -36,7 +36,7 @@ inline study::Measure step_measure(study::MetricKind metric, study::Signal signa
   return m;
 }
 
-/// Limit where no board bounds it.
+/// Limit of a quantity that the board does not bound.
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 inline double allowed_current_A(const design::DriveDesign& d, const DesignSubject& subject) {
@@ -52,7 +52,7 @@ inline std::string at_most_current(const design::DriveDesign& d) {
   return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
 }
 
-/// Adds a position's course: one move, as in design_scenario.hpp.
+/// Adds the test of a position: one move, as in design_scenario.hpp.
 void add_position(const design::DriveDesign& design, const DesignSubject& subject, study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

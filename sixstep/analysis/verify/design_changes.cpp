@@ -18,15 +18,16 @@ using control::Mode;
 using design::DesignSpec;
 using design::DriveDesign;
 
-/// No timer of a drive is faster.
+/// Shortest tried period, s: no drive has a faster timer.
 constexpr double shortest_period_s = 1e-6;
 
 double plain(double x, base::Towards towards) { return base::shortened(x, 2, towards); }
 
-/// Shorter periods with a low ripple, or with a usable one, and with 45 degrees of phase at one period of delay.
+/// Shorter periods: for a low ripple, for a usable ripple, and for 45 degrees of phase margin at one period
+/// of delay.
 std::vector<double> shorter_periods(const DesignSpec& w, const DriveDesign& d) {
   if (w.rotor.shaft.kind == design::ShaftSensorKind::resolver)
-    return {};  // its carrier is tied to the period
+    return {};  // the resolver's excitation depends on the period
   std::vector<double> out;
   for (const double part : {design::greatest_ripple, usable_ripple}) {
     const double ripple = period_for_ripple_s(d.motor, d.bus_V, w.chopping, part * d.nominal_current_A);
@@ -55,13 +56,13 @@ design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   return rotor;
 }
 
-/// Clock of the timer that captures the sensor's edges; null where it has none.
+/// Clock of the timer that captures the sensor's edges; null if the sensor has none.
 double* capture_of(design::RotorSensing& rotor) {
   if (rotor.shaft.kind == design::ShaftSensorKind::encoder) return &rotor.shaft.capture_Hz;
   return rotor.hall ? &rotor.capture_Hz : nullptr;
 }
 
-/// Adds a faster capture timer, which makes the steps of the measured speed smaller.
+/// Adds a faster capture timer, which reduces the steps of the measured speed.
 void add_finer(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!design::is_grainy(d)) return;
   DesignSpec next = w;
@@ -82,7 +83,7 @@ void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
   w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
 }
 
-/// A loop that is faster than torque limit and inertia allow only runs into the limit.
+/// Adds a settling time that torque limit and inertia allow. A faster loop only runs into the limit.
 void add_what_torque_allows(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!has_speed_loop(w) || !d.spec.settle_s || !(d.settle_by_torque_s > *d.spec.settle_s)) return;
   DesignSpec next = w;
@@ -111,7 +112,8 @@ void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpe
     with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
 }
 
-/// A current loop made slower alone comes too close to the speed loop, so that both are made slower.
+/// Adds slower loops. A slower current loop alone would come too close to the speed loop, so that both are
+/// made slower.
 void add_slower_together(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   const auto& inner = d.loops.front().placed;
   if (!has_speed_loop(w) || !inner) return;
@@ -197,7 +199,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
   if (w.rotor.hall && w.mode == Mode::position && decodes_encoders(order.subject.board))
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
-  // A damping that the user chose applies to placed poles; the other method does not use it.
+  // A damping that the user chose applies to placed poles only, so that cancellation is not tried with it.
   if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current &&
       w.damping == design::usual_damping)
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });

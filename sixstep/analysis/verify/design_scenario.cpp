@@ -22,10 +22,11 @@ using control::Mode;
 using design::DriveDesign;
 using design::LoopDesign;
 
-/// Part of the bus that a first command may use; the rest prevents clamping.
+/// Fraction of the bus voltage that a first command may use; the rest prevents clamping.
 constexpr double part_of_bus = 0.8;
 
-/// Placed poles are written as settling time and damping, from which the run places them again, to the same bits.
+/// Placed poles are written as settling time and damping. From these the run computes the same gains, to the
+/// last bit.
 template <class Gains>
 void set_gains(const LoopDesign& loop, Gains& to) {
   if (loop.placed) {
@@ -52,7 +53,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.sensors.hall_stable_samples = study::Sensors{}.hall_stable_samples;
     s.sensors.terminal_gain_error.clear();
     s.sensors.comparators = {};
-    s.sensors.hall_break = {};  // a fault of the board's own course
+    s.sensors.hall_break = {};  // a fault that belongs to the board's own scenario
     s.control.current.limit_A = d.spec.current_limit_A;
     s.control.position.speed_limit_rad_s = subject.board->control.position.speed_limit_rad_s;
     s.sensors.encoder.referenced = true;  // a move begins where the position is known
@@ -85,8 +86,9 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   return s;
 }
 
-/// Ripple at a mean current and a mean voltage across the pair. While the chopped switch is off, its leg's
-/// diode carries the current, under complementary chopping the other switch. The dead time is neglected.
+/// Ripple in A at a mean current and a mean voltage across the pair. While the chopped switch is off, its
+/// leg's diode carries the current; with complementary chopping it is the other switch. The dead time is
+/// neglected.
 double expected_ripple_A(const DriveDesign& d, const study::Bridge& b, double current_A, double mean_V) {
   const double on = b.saturation_V + b.on_resistance_ohm * current_A,
                diode = b.diode_drop_V + b.diode_resistance_ohm * current_A;
@@ -127,17 +129,18 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
        expected_ripple_A(d, s.bridge, std::fabs(step), std::fabs(step) * R), "PWM at this duty"},
   };
   expect_step(d, s);
-  const double band = 0.02 * std::fabs(step);  // the band of settling
+  const double band = 0.02 * std::fabs(step);  // band of the settling time
   study::Measure mean = window_measure(study::MetricKind::mean, study::Signal::current, last, end,
                                        "mean of the last ten samples");
-  mean.sampled = true;  // the controller samples the lowest point of the ripple and holds that
+  mean.sampled = true;  // the controller samples the lowest point of the ripple and controls that
   s.require = {{mean, step - band, step + band}};
 }
 
-/// Start from rest, then a small step.
+/// The test of a speed loop: a start from rest, then a small step.
 struct SpeedTest {
   double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
-  double begin = 0.0, end = 0.0, calm = 0.0;     // s: the step, the end, and where it must have settled
+  double begin = 0.0, end = 0.0, calm = 0.0;     // in s: time of the step, end of the run, and beginning of
+                                                 // the window in which the speed must have settled
 };
 
 SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
@@ -149,8 +152,8 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const bool lags = d.lag.delay_s() > 0;
   if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
   t.first = std::min(t.first, allowed_speed_rad_s(subject));
-  // A step first requests d1 (speed) times the current at full torque. Per ampere, this takes d1 (current)
-  // volts at once, and R when it flows.
+  // At a step, the speed controller first requests d1 (speed) times the current at full torque. Per ampere of
+  // this, the current loop needs d1 (current) volts at once, and R once the current flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
       lags ? d.lowest_speed_rad_s - t.first
@@ -158,10 +161,11 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
                                                          std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
-  // Limits may hold up a step that the user chose, and any step of a loop that is faster than the torque.
+  // Limits may delay a step that the user chose, and any step of a loop that is faster than the torque
+  // allows.
   const double travel = travel_time(d, t.first, t.first + t.step, K * t.load_A);
   const double held_up = subject.step || travel > settle ? 2 * travel : 0.0;
-  // The end is judged over at least an electrical turn: a shorter window contains no commutation.
+  // The end is judged over at least an electrical turn, because a shorter window may contain no commutation.
   const double slow = std::fabs(t.first + t.step) * d.motor.machine.pole_pairs;
   const double window = slow > 0.0 ? std::max(settle, 2 * base::pi / slow) : settle;
   t.end = plain_time(t.begin + 4 * settle + held_up + window);
@@ -169,8 +173,8 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   return t;
 }
 
-/// Whether the speed loop requests more than its torque limit at the step: at once d1 of the step, and the
-/// load's torque.
+/// Whether the speed loop requests more than its torque limit at the step. It requests d1 times the step
+/// immediately, in addition to the load's torque.
 bool step_is_limited(const DriveDesign& d, const SpeedTest& t) {
   const double load = d.motor.K_t_Nm_A * t.load_A / d.torque_limit_Nm;
   return std::fabs(load + d.loop("speed").gains.d1 * t.step) > d.most_torque_Nm() / d.torque_limit_Nm;
@@ -238,7 +242,7 @@ bool samples_in_middle(const DesignSubject& subject) {
 
 void expect_step(const DriveDesign& design, study::Scenario& s) {
   const design::StepResponse& step = design.loop("current").step;
-  // The setpoint steps at a period's start; the first sample with it is in the middle of that period.
+  // The setpoint steps at a period's start. The first sample that sees it is in the middle of that period.
   const double first_s = design.spec.sampled_in_middle ? design.spec.period_s / 2 : 0.0;
   for (study::Comparison& c : s.compare) {
     if (c.measure.metric == study::MetricKind::settling_time) {
@@ -260,10 +264,10 @@ study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& 
   s.record.columns = {"i_m_A"};
   if (design.spec.mode != Mode::current) s.record.columns.push_back("speed_rad_s");
   if (design.spec.mode == Mode::position) s.record.columns.push_back("angle_rad");
-  // Some 2000 rows, on the samples.
+  // Record some 2000 rows, at the instants of samples.
   const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
   if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
-  // The design predicts no value for an unstable loop.
+  // The design predicts no value for an unstable loop, so that its comparisons are removed.
   std::erase_if(s.compare, [](const study::Comparison& c) { return !std::isfinite(c.value); });
   say_in_metres(s);
   return s;

@@ -23,7 +23,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Most control periods of a run: some seconds of computing.
+/// Largest number of control periods of a run: some seconds of computing.
 constexpr double most_periods = 2e6;
 
 base::Problems too_long(const study::Scenario& s) {
@@ -51,7 +51,8 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   return {};
 }
 
-/// Swing of the speed by the commutations alone: a second run with ideal sensors, if the first had others.
+/// Swing of the speed that the commutations alone cause: from a second run with ideal sensors, if the first
+/// had others.
 std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
   if (!swing) return std::nullopt;
@@ -64,7 +65,7 @@ std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool
   return found ? std::optional(found->measured) : std::nullopt;
 }
 
-/// Derivation of the sensorless drive in the board's own scenario; empty: the board has none.
+/// Derivation of the sensorless drive in the board's own scenario; empty if the board has none.
 base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignSubject& subject) {
   if (!subject.board || subject.board->control.drive != study::FirmwareKind::sensorless)
     return std::vector<design::DerivationStep>();
@@ -77,8 +78,9 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
   return compiled->sensorless_steps;
 }
 
-/// The linear loop holds its voltage over a period, of which a sample in the middle measures one half. A pulse
-/// that begins with the period is measured whole, or without its end.
+/// Warns of edge-aligned pulses with samples in the middle of a period. The linear loop holds its voltage
+/// over a period, and a sample in the middle measures the effect of one half. A pulse that begins with the
+/// period is measured whole, or without its end.
 void look_at_pulses(DesignStudy& s) {
   if (!s.design.spec.sampled_in_middle || s.scenario.pwm.alignment != study::Alignment::edge) return;
   const double sooner = s.design.spec.late_periods() - 0.5;
@@ -92,7 +94,7 @@ void look_at_pulses(DesignStudy& s) {
        .of = design::Concern::delay});
 }
 
-/// The study in the words of a rotary motor; only the numbers of the outcome are in the units of the motor's kind.
+/// The study in the words of a rotary motor; only the outcome's numbers are in the units of the motor's kind.
 base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
@@ -112,7 +114,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
   if (base::Problems found = study::check(s.scenario); !found.empty()) {
-    for (base::Problem& p : found)  // the spec's name, not that of the scenario
+    for (base::Problem& p : found)  // the member of the spec, not the scenario's key
       if (p.where == "supply.voltage_V") p.where = "voltage_V";
     return found;
   }
@@ -129,7 +131,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
                               .keep_books = true});
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
-  // A quick search has lowered the gain until all motors hold.
+  // A quick search has already lowered the gain until it holds for all motors within the tolerances.
   if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);
@@ -144,8 +146,8 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   return s;
 }
 
-/// Swing that the places of Hall edges alone may make at this speed: neighbouring edges 3 deg off to opposite sides, and the
-/// loop follows.
+/// Swing in rad/s that the places of Hall edges alone may cause at this speed, if the loop follows the
+/// measured speed: neighbouring edges are 3 deg off in opposite directions.
 double swing_by_edges_rad_s(const design::DriveDesign& d, double speed_rad_s) {
   if (!d.spec.rotor.hall) return 0.0;
   design::RotorSensing placed = d.spec.rotor;
@@ -172,7 +174,7 @@ void require_swing(const DesignStudy& study, study::Scenario& s) {
   study::Measure swing = s.require.front().measure;
   swing.metric = study::MetricKind::peak_to_peak;
   swing.label = "swing of the speed at the end";
-  // A drive of the tolerances has displaced Hall edges and must meet the limit, too.
+  // A drive within the tolerances has displaced Hall edges and must meet the limit, too.
   const double by_edges = swing_by_edges_rad_s(study.design, s.reference.values.back());
   s.require.push_back({swing, std::nullopt, std::max(*study.allowed_swing_rad_s, by_edges)});
 }

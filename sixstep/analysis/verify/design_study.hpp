@@ -17,15 +17,17 @@ namespace sixstep::analysis {
 
 struct DesignStudy {
   design::DriveDesign design;
-  std::optional<PositionGain> position;  ///< position mode: how its gain was found
-  study::Scenario scenario;              ///< with which the design was run
+  std::optional<PositionGain> position;  ///< position mode: search for the gain
+  study::Scenario scenario;              ///< scenario with which the design was run
   study::Outcome outcome;
   study::Trace trace;  ///< trace of that run, with the columns of its [record]
   std::optional<Robustness> robustness;
-  std::optional<double> ideal_swing_rad_s;  ///< peak to peak of the speed in steady state, with ideal sensors
-  std::optional<double> allowed_swing_rad_s;  ///< above it the speed loop oscillates (board.hpp)
-  /// Start, range and delay of a board with a sensorless drive. Its loops are run with Hall edges in place of
-  /// crossings.
+  std::optional<double> ideal_swing_rad_s;    ///< peak to peak swing of the speed in steady state, with ideal
+                                              ///< sensors
+  std::optional<double> allowed_swing_rad_s;  ///< a larger swing is an oscillation of the speed loop
+                                              ///< (board.hpp)
+  /// Derivation of start, range and delay of a board with a sensorless drive. The study runs the loops with
+  /// Hall edges in place of crossings.
   std::vector<design::DerivationStep> sensorless;
   std::vector<design::Warning> warnings;  ///< warnings of the design and of its runs
 
@@ -35,19 +37,20 @@ struct DesignStudy {
 struct DesignOrder {
   DesignSubject subject{};
   design::DesignSpec spec{};
-  std::vector<Tolerance> tolerances{};  ///< empty: not tested
+  std::vector<Tolerance> tolerances{};  ///< tolerances of the motor to run; empty: not tested
   ForEach for_each = one_after_the_other;
-  std::function<bool()> keep_going{};  ///< false ends it early; the result is then meaningless
+  std::function<bool()> keep_going{};  ///< false ends the study early; the result is then meaningless
   GainSearch gain{};                   ///< position: search for its gain
-  TrialBudget* budget = nullptr;       ///< each run is subtracted from it; a search ends when it is empty
-  bool advises = true;                 ///< tries changes against each warning (advice.hpp)
+  TrialBudget* budget = nullptr;       ///< each run's periods are subtracted from it; a search ends when none
+                                       ///< are left
+  bool advises = true;                 ///< whether changes are tried against each warning (advice.hpp)
 };
 
-/// Adds to a speed design's scenario the requirement that the speed's swing stays within its limit, because
-/// no mean shows this. A position's scenario has it.
+/// Adds to a speed design's scenario the requirement that the speed's swing stays within its limit. The means
+/// that are required otherwise do not show a swing. A position's scenario already has the requirement.
 void require_swing(const DesignStudy& study, study::Scenario& scenario);
 
-/// The first grave warning; empty where the design is usable.
+/// The first grave warning; empty if the design is usable.
 std::string found_against(const DesignStudy& study);
 
 /// Problems are those of sheet, spec and scenario.

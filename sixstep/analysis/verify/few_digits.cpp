@@ -16,7 +16,7 @@ double shortened(double x, double factor, int digits, base::Towards towards) {
   return base::shortened(x * factor, digits, towards) / factor;
 }
 
-/// Rounds all times up, so that their order stays and adjacent windows remain adjacent. Default bounds of a
+/// Rounds all times up, so that their order is kept and adjacent windows remain adjacent. Default bounds of a
 /// window are omitted.
 void shorten_times(study::Measure& m, double duration_s) {
   for (std::optional<double>* time : {&m.from_s, &m.to_s})
@@ -47,7 +47,8 @@ void write_in_few_digits(study::Scenario& s) {
   if (s.control.mode != Mode::position) return;
   double& gain = s.control.position.gain_rad_s_per_deg;
   const double of_gain = design::motion_of(s.sheet).unit("rad/s/deg").factor;
-  gain = shortened(gain, of_gain, 2, base::Towards::down);  // a lower one overshoots less
+  gain = shortened(gain, of_gain, 2, base::Towards::down);  // rounded down, because a lower gain overshoots
+                                                            // less
 }
 
 }  // namespace sixstep::analysis

@@ -4,8 +4,8 @@
 
 namespace sixstep::analysis {
 
-/// Shortens the numbers of a scenario for a reader: times, limits and expectations get as few digits as serve,
-/// each rounded to the side on which a requirement that held still holds.
+/// Shortens the numbers of a scenario for a reader. Times, limits and expectations get as few digits as
+/// possible. Each is rounded in the direction in which a requirement that held still holds.
 void write_in_few_digits(study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

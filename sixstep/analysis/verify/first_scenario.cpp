@@ -23,14 +23,14 @@ namespace {
 
 using control::Mode;
 
-/// Tolerance of the straight line, which neglects commutation time and PWM ripple: some percent. At another
-/// duty the requirement fails.
+/// Tolerance of the straight line that predicts the speed. The line neglects commutation time and PWM ripple,
+/// some per cent. With another duty the requirement fails.
 constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
 
-/// Control periods of a trial, and of all together: half a second, and one and a half, of one core. If none
-/// succeeded, a last round of five seconds follows.
+/// Largest number of control periods of a trial, and of all trials together: half a second, and one and a
+/// half, of one core. If no trial succeeded, a last round of five seconds follows.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6, last_trial_periods = 4e6;
 
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
@@ -49,13 +49,13 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  // A three-phase bridge commutates like this: the voltage falls by 3/pi w_el L_s per ampere, here at the
-  // reached speed. For a motor with many pole pairs this exceeds R.
+  // The commutation acts like that of a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere,
+  // here at the reached speed. For a motor with many pole pairs this exceeds R.
   const auto line = [&](double duty, double ohm) {
     return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
   };
-  // During the dead time the current continues to flow through a diode. The duty loses the dead time's part
-  // if the current keeps its sign, and nothing if it changes sign in every period.
+  // During the dead time the current continues to flow through a diode. The duty loses the dead time's
+  // fraction if the current keeps its sign. It loses nothing if the current changes its sign in every period.
   const double speed = line(d, R),
                commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
   const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
@@ -77,7 +77,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
                          "check the inertia and the torque constant of its sheet"};
-  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the way is left where the window begins
+  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the run-up is left when the window begins
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
       measure(study::MetricKind::mean, study::Signal::speed, calm, "speed at the end");
@@ -100,8 +100,8 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
   return order;
 }
 
-/// Largest mechanical angle between Hall edges for a position drive. With larger steps the rotor rests tens
-/// of degrees from its target.
+/// Largest mechanical angle between Hall edges for a position drive. With larger steps the rotor comes to
+/// rest tens of degrees from its setpoint.
 constexpr double coarsest_step_deg = 20.0;
 
 /// Specifications to try, in turn: the usual design, then changes for a motor that it does not suit.
@@ -116,8 +116,8 @@ std::vector<design::DesignSpec> candidates(const DesignOrder& order, const desig
   return all;
 }
 
-/// The tolerances with the largest effect: inductance, because a winding saturates, and inertia, for an unknown
-/// load.
+/// The two tolerances with the largest effect: inductance, because a winding saturates, and inertia, because
+/// the load is unknown.
 std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   std::erase_if(tolerances, [](const Tolerance& t) {
     return t.quantity != Strays::inductance && t.quantity != Strays::inertia;
@@ -125,9 +125,9 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Limits the periods of a trial by a higher lowest speed, whose loop is faster, by fewer motors of the
-/// tolerances, a shorter move, or a longer period. A design in closed form takes a tenth of a second, for
-/// each specification.
+/// Reduces the number of periods of a trial to `longest`. It uses a higher lowest speed, whose loop is
+/// faster, fewer motors within the tolerances, a shorter move, or a longer period. The design in closed form
+/// takes a tenth of a second for each specification.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
   base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
   const auto fits = [&] { return d && periods_of(order, *d) <= longest; };
@@ -162,8 +162,8 @@ bool runs_and_passes(const study::Scenario& s) {
   return outcome && outcome->passed() && !outcome->fault;
 }
 
-/// Words for an alternative where this mode has no usable design: a bus that drives the nominal current, else the
-/// motor without a loop.
+/// Words for an alternative if this mode has no usable design: a bus that drives the nominal current, or else
+/// the motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
   std::string more = "a design shows more";
@@ -181,8 +181,8 @@ std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& mot
   return more;
 }
 
-/// Predicts the step for the same gains with samples in the middle of a period, by the linear loop with half a
-/// period more of delay. False where that loop is not usable.
+/// Predicts the step for the same gains with samples in the middle of a period, by the linear loop with half
+/// a period more delay. Returns false if that loop is not usable.
 bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
   spec.sampled_in_middle = true;
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
@@ -253,7 +253,8 @@ study::Scenario own_scenario(const FirstScenarioSpec& spec, const DesignStudy& s
   return s;
 }
 
-/// A usable design on a board's sensors and over the sheet's tolerances, as far as a short trial shows.
+/// A design that is usable with a board's sensors and over the sheet's tolerances, as far as a short trial
+/// shows.
 base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
   const DesignOrder order = order_of(spec);
   const base::Result<design::DriveDesign> usual = design::design_drive(motor, order.spec);
@@ -261,7 +262,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
   std::string why;
   for (const design::Warning& w : usual->warnings)
     if (w.grave) why = w.what;
-  // The longest trial is for slow motors, where no shorter one succeeded.
+  // The longest trial is for slow motors, for which no shorter trial succeeded.
   for (const double longest : {trial_periods, all_trials_periods, last_trial_periods}) {
     TrialBudget budget{std::max(longest, all_trials_periods)};
     for (const design::DesignSpec& candidate : candidates(order, *usual)) {

@@ -16,15 +16,15 @@ struct FirstScenarioSpec {
   std::string motor;                          ///< name or path, for the scenario
   design::Sheet sheet;                        ///< sheet of the motor
   std::optional<double> voltage_V;            ///< bus voltage; empty: nominal voltage of the sheet
-  ForEach for_each = one_after_the_other;     ///< runs the motors of the tolerances
+  ForEach for_each = one_after_the_other;     ///< runs the motors within the tolerances
 };
 
-/// - current, speed, position: the design's own test (design_scenario.hpp) on a board's sensors, with the
-///   settling time that the design chooses; where that is not usable over the sheet's tolerances, the shortest
-///   of 2, 5, 10 .. times as long that is.
-/// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current is
+/// Makes the scenario. Problems: those of the sheet; no design that is usable.
+/// - Current, speed, position: the design's own test (design_scenario.hpp) with a board's sensors. The
+///   settling time is that of the design if it is usable over the sheet's tolerances, else the shortest
+///   usable one of 2, 5, 10 .. times this time.
+/// - Duty: a run-up from rest at half the voltage. Chopping is complementary, so that the current is
 ///   continuous and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
-/// Problems: those of the sheet, no design that suits.
 base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec);
 
 }  // namespace sixstep::analysis

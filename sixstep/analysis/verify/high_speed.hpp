@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a speed drive near its highest speed. Its usual test runs near the lowest speed, where the sensor's speed
-// is oldest; where a step of the measured speed grows with the speed, the same test is run up to the highest one.
+// Tests a speed drive near its highest speed. Its usual test runs near the lowest speed, where the measured
+// speed is oldest. If the steps of the measured speed grow with the speed, the same test is run at the
+// highest speed as well.
 #pragma once
 #include "sixstep/analysis/verify/design_study.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares a board's scenario with the one designed for it, key by key of the descriptions.
+// Compares a board's scenario with the scenario designed for it, key by key of the descriptions.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -29,8 +29,8 @@ std::string as_text(const std::optional<T>& x) {
   return x ? as_text(*x) : "";
 }
 
-/// Each key's value as text, without lists of tables, which are a scenario's course and judgement, and without the
-/// sheet, which is the motor's.
+/// The value of each key as text. Lists of tables, which hold a scenario's events and requirements, and the
+/// sheet, which belongs to the motor, are left out.
 class KeyTexts final : public base::Visitor {
  public:
   std::map<std::string, std::string> of;
@@ -52,8 +52,8 @@ class KeyTexts final : public base::Visitor {
   std::string path_;
 };
 
-/// Whether a key is part of the design: a run's name, length, reference and record, the gains, and the spec's
-/// choices.
+/// Whether a key is part of the design: a run's name, length, reference and record, the gains, and the
+/// choices of the spec.
 bool is_the_designs(std::string_view key) {
   constexpr std::string_view tables[] = {"reference.", "record.", "initial.", "sensors.hall_break."};
   constexpr std::string_view keys[] = {"title",
@@ -92,7 +92,7 @@ std::string in(const std::map<std::string, std::string>& all, const std::string&
   return found == all.end() ? std::string() : found->second;
 }
 
-/// "require (mean speed, greatest current)".
+/// The names of the scenario's requirements: "require (mean speed, greatest current)".
 std::string named(const study::Scenario& s) {
   std::string out;
   for (const study::Requirement& r : s.require)

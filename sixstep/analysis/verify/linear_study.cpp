@@ -15,7 +15,8 @@ struct LinearStep {
   std::string_view symbol, told_symbol, formula;
 };
 
-/// Steps that the words of base/linear.hpp do not convert. An empty formula stays.
+/// Steps that the words of base/linear.hpp do not convert. If the formula is empty here, the step keeps its
+/// own.
 constexpr LinearStep linear_steps[] = {
     {"w_low", "v_low", ""},
     {"w_high", "v_high", ""},
@@ -43,8 +44,8 @@ void tell(std::vector<design::DerivationStep>& steps) {
   }
 }
 
-/// Converts a loop's steps. Their rad/s is a frequency and becomes 1/s; only a position's gains change their
-/// value.
+/// Converts a loop's steps. Their rad/s is an angular frequency and becomes 1/s; only a position's gains
+/// change their value.
 void tell_loop(design::LoopDesign& loop) {
   for (design::DerivationStep& s : loop.steps) {
     if (s.formula == "J w_c / T_max") s.formula = "m w_c / F_max";
@@ -60,12 +61,12 @@ void tell_loop(design::LoopDesign& loop) {
 
 void tell_sensing(std::vector<design::DerivationStep>& steps) {
   for (design::DerivationStep& s : steps) {
-    if (s.symbol == "w_c") {  // a frequency, and no speed
+    if (s.symbol == "w_c") {  // a frequency, not a speed
       s.formula = "d1 F_max/m, where the speed loop crosses over by d1 alone";
       s.unit = "1/s";
     }
     const bool speed = s.unit == "rad/s" && s.symbol != "w_n";
-    if (!speed && s.symbol != "q") continue;  // the phase of a loop stays in degrees
+    if (!speed && s.symbol != "q") continue;  // a loop's phase margin stays in degrees
     const base::LinearUnit unit = base::in_linear(s.unit);
     s.value *= unit.factor;
     s.unit = std::string(unit.linear);
@@ -109,7 +110,7 @@ void tell_in_metres(DesignStudy& study) {
 
 base::Problems told_in_metres(base::Problems problems) {
   for (base::Problem& p : problems) {
-    if (p.where == "bandwidth_rad_s") continue;  // a frequency
+    if (p.where == "bandwidth_rad_s") continue;  // a frequency keeps its unit
     p.where = base::linear_words(p.where);
     p.limit = base::linear_words(p.limit);
     p.cure = base::linear_words(p.cure);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rewrites the design of a linear motor in metres and newtons; it is computed as that of a rotary one
-// (base/linear.hpp).
+// Rewrites the design of a linear motor in metres and newtons. The design itself is computed as that of a
+// rotary motor (base/linear.hpp).
 #pragma once
 #include "sixstep/analysis/verify/design_study.hpp"
 
@@ -10,8 +10,8 @@ namespace sixstep::analysis {
 void say_in_metres(study::Scenario& scenario);
 
 /// Rewrites derivation steps, warnings and tolerances of a design in the words, symbols and units of a linear
-/// motor. The other numbers stay those of the rotary one; design::motion_of() gives the unit for showing them. A
-/// rotary motor's study stays as it is.
+/// motor. All other numbers stay those of the rotary motor; design::motion_of() gives the unit in which to
+/// show them. A rotary motor's study stays as it is.
 void tell_in_metres(DesignStudy& study);
 
 /// Replaces the rotary motor's words and units in each Problem by the linear motor's.

@@ -15,8 +15,9 @@ using design::LoopDesign;
 
 namespace {
 
-/// Largest speed that the loop may request: the bus's; or, if it is less, a fifth below the sheet's greatest
-/// speed or the board's, because a speed from Hall edges overshoots its reference by that part.
+/// Largest speed that the loop may request: the speed that the bus allows; or, if it is less, a fifth below
+/// the greatest speed of sheet or board, because a speed from Hall edges overshoots its reference by that
+/// fraction.
 double bounded_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   constexpr double below = 0.8;
   const double reached = d.bus_V / d.motor.K_t_Nm_A;
@@ -41,14 +42,14 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   const double step = subject.step.value_or(usual_move(d)) / unit.factor;
   const double height = std::fabs(step) * base::pi / 180;
   const double J = d.motor.shaft.J_kg_m2;
-  // Time bound: full torque half of the way forth, half of it back. The bus ends the acceleration at U/K_t,
-  // and a bus-limited start soon reaches a third of that. The P loop's exponential follows, down to 1e-9 of
-  // the step.
+  // Upper bound of the move's duration: full torque over half of the distance, and braking over the other
+  // half. The bus ends the acceleration at U/K_t, and a start that the bus limits soon reaches a third of
+  // that. Then follows the P loop's exponential, down to 1e-9 of the step.
   const double forth_and_back = 2 * std::sqrt(height * J / d.most_torque_Nm()),
                top = bounded_speed(d, subject, s);
   const std::string of_top =
       top < d.bus_V / d.motor.K_t_Nm_A ? "control.position.speed_limit_rad_s" : "bus/K_t";
-  // The bus may end the acceleration before half of the way: the speed is then a trapezoid.
+  // The bus may end the acceleration before half of the distance: the speed is then a trapezoid over time.
   const double to_top = top * J / d.most_torque_Nm();
   const double fastest = forth_and_back / 2 > to_top ? height / top + to_top : forth_and_back;
   const double travel = 2 * forth_and_back + 3 * height / top + 4 * start_time(d, top / 2, 0.0);
@@ -59,7 +60,8 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   s.reference.unit.emplace(unit.linear);
   study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
                                          step, "settling time");
-  const bool counts = d.spec.rotor.lags();  // the position rests only within steps of the sensor, if at all
+  const bool counts = d.spec.rotor.lags();  // the position comes to rest only within some steps of the
+                                            // sensor, if at all
   const bool hall = d.spec.rotor.hall;
   const double steps = allowed_overshoot_deg(d, step);
   settling.band = counts ? steps / std::fabs(step) : 0.0005;

@@ -43,7 +43,7 @@ base::Problem none_found(const design::DesignSpec& spec, const DesignSubject& su
 constexpr const char* the_drive = "the drive was";
 constexpr const char* all_motors = "the motors of the tolerances were";
 
-/// Runs the move with a gain; only the overshoot is judged.
+/// Runs the move with a gain, and judges only the overshoot.
 class Trial {
  public:
   Trial(const design::DriveDesign& design, const DesignSubject& subject,
@@ -81,7 +81,7 @@ class Trial {
   Left left_;
 };
 
-/// All motors of the tolerances, each making the move with a gain.
+/// Runs the move with a gain for all motors within the tolerances.
 class Field {
  public:
   Field(const design::DriveDesign& design, const DesignSubject& subject,

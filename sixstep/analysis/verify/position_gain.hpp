@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the largest gain of a position controller with which the drive does not overshoot, while its torque, bus
-// and speed limits act.
+// Finds the largest gain of a position controller with which the drive does not overshoot, including the
+// effect of its torque, bus and speed limits.
 #pragma once
 #include <functional>
 
@@ -12,43 +12,45 @@ namespace sixstep::analysis {
 
 struct PositionGain {
   double gain_rad_s_per_deg = 0.0;
-  double estimate = 0.0;    ///< closed form of braking from full speed; the search begins there
-  double linear = 0.0;      ///< the linear loop's own, the upper end of the search
-  double overshoots = 0.0;  ///< the smallest gain tried that overshoots; 0 where none did
-  /// Largest gain for the sheet's motor; the tolerances may need a lower one.
+  double estimate = 0.0;    ///< gain in closed form of braking from full speed, where the search begins
+  double linear = 0.0;      ///< gain of the linear loop, the upper end of the search
+  double overshoots = 0.0;  ///< the smallest tried gain that overshoots; 0 if none did
+  /// Largest gain for the sheet's motor. The tolerances may require a lower one.
   double nominal = 0.0;
   int runs = 0;
 };
 
-/// Control periods that may still be simulated. A search's cost is known only afterwards.
+/// Control periods that may still be simulated. They are counted down, because a search's cost is known only
+/// afterwards.
 struct TrialBudget {
   double periods = 0.0;
   /// Subtracts the periods of this number of runs. False if fewer periods are left.
   bool takes(const study::Scenario& s, std::size_t runs);
 };
 
-/// Limits of a search. They are needed because a lower gain makes a longer move.
+/// Limits of a search. They are needed because a move with a lower gain takes longer.
 struct GainSearch {
-  bool quick = false;            ///< returns the first of the closed form and its halves that holds
-  double longest_periods = 2e6;  ///< limit of one run
-  double periods = 1.5e7;        ///< limit of all runs together: half a minute of one core
+  bool quick = false;            ///< takes the closed form's gain or, if it overshoots, the first of its
+                                 ///< halves that does not
+  double longest_periods = 2e6;  ///< limit of one run, in control periods
+  double periods = 1.5e7;  ///< limit of all runs together, in control periods: half a minute of one core
 };
 
-/// Near the end of the way the P controller requests w = k x, which decelerates by k^2 x = k w. This is at
-/// most T_max/J at the highest speed for k = T_max/(J U/K_t). Returned in rad/s per degree.
+/// Near the end of the move the P controller requests w = k x, which decelerates by k^2 x = k w. This
+/// deceleration is at most T_max/J at the highest speed if k = T_max/(J U/K_t). Returned in rad/s per degree.
 double braking_gain(const design::DriveDesign& design);
 
 /// The overshoot grows with the gain between braking_gain() and the linear loop's gain. Bisection with full
-/// simulations finds the gain at which it begins, to a part in 1000. Problems: those of a run, no gain found
-/// within the search. The runs are subtracted from `budget`, where there is one.
+/// simulations finds the gain at which overshoot begins, to a part in 1000. Problems: those of a run; no gain
+/// found within the search's limits. The runs are subtracted from `budget`, if there is one.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going = {},
                                                  const GainSearch& search = {},
                                                  TrialBudget* budget = nullptr);
 
-/// Lowers the gain until no motor of the tolerances overshoots by more than allowed_overshoot_deg
-/// (board.hpp), to a part in 50. The nominal gain stays if a sixteenth of it overshoots too.
+/// Lowers the gain until no motor within the tolerances overshoots by more than allowed_overshoot_deg()
+/// (board.hpp), to a part in 50. The nominal gain stays if even a sixteenth of it overshoots.
 base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
                                                   const DesignSubject& subject, const PositionGain& nominal,
                                                   const std::vector<Tolerance>& tolerances,

@@ -37,7 +37,7 @@ design::MotorModel varied_motor(const design::MotorModel& motor, const std::vect
   return m;
 }
 
-/// The model as a sheet, in one form for all forms of the motor's own sheet.
+/// The motor model as a sheet. It has one form of each value, whichever form the motor's own sheet has.
 design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   design::Sheet s;
   s.name = from.name;
@@ -60,7 +60,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.cogging_phase_deg = from.cogging_phase_deg;
   if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
   s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
-  if (design::is_salient(from)) {  // both deviate equally
+  if (design::is_salient(from)) {  // both inductances deviate equally
     const double d = from.d_axis_inductance_mH->value, q = from.q_axis_inductance_mH->value;
     const double by = 2e3 * m.machine.L_H / (d + q);
     s.d_axis_inductance_mH = base::Quantity{d * by, "phase", ""};
@@ -72,13 +72,13 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.saturation_current_A = from.saturation_current_A;
   s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};
   s.inertia_gcm2 = {1e7 * m.shaft.J_kg_m2, "", ""};
-  // One friction for bearings and iron, because no figure of merit distinguishes them.
+  // Bearings and iron get one common friction, because no figure of merit distinguishes them.
   s.viscous_friction_Nm_s = base::Quantity{m.shaft.B_Nm_s, "", ""};
   s.coulomb_friction_mNm = base::Quantity{1e3 * m.shaft.coulomb_Nm, "", ""};
   return s;
 }
 
-/// Outermost levels of a tolerance: below and above the nominal value.
+/// The outermost levels of a tolerance, below and above the nominal value.
 std::vector<Tolerance::Level> ends(const Tolerance& t) {
   Tolerance::Level low{"", 1.0}, high{"", 1.0};
   for (const Tolerance::Level& level : t.levels) {
@@ -106,7 +106,8 @@ void add_corners(const std::vector<Tolerance>& tolerances, std::vector<Variation
   out.insert(out.end(), corners.begin(), corners.end());
 }
 
-/// values[v] of each variation, nominal first; larger is worse.
+/// Finds the worst variation of a figure. values[v] is that of variation v, the nominal first; a larger value
+/// is worse.
 void find_worst(RobustFigure& figure, const std::vector<Variation>& all, const std::vector<double>& values) {
   figure.nominal = figure.worst = values.front();
   figure.alone = values.front();
@@ -139,13 +140,13 @@ std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
     RobustFigure figure{.figure = "phase margin of the " + design.loops[n].name + " loop", .unit = "deg"};
     find_worst(figure, all, lost[n]);
     for (double* lost_deg : {&figure.nominal, &figure.worst, &figure.alone})
-      *lost_deg = 0.0 - *lost_deg;  // no -0
+      *lost_deg = 0.0 - *lost_deg;  // avoids -0
     out.push_back(figure);
   }
   return out;
 }
 
-/// The measured value of each comparison; `never` where the run has none.
+/// The measured value of each comparison; `never` if the run has no value.
 std::vector<double> measured(const study::Scenario& scenario, const std::function<bool()>& keep_going) {
   std::vector<double> values(scenario.compare.size(), never);
   const base::Result<study::Outcome> outcome = study::run(
@@ -159,7 +160,7 @@ std::vector<double> measured(const study::Scenario& scenario, const std::functio
   return values;
 }
 
-/// Limit of a winding whose sheet names none: insulation class E.
+/// Limit of a winding whose sheet has none, degC: insulation class E.
 constexpr double hot_winding_degC = 120;
 
 std::string at_degC(const char* quantity, double degC) {
@@ -191,7 +192,7 @@ std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet) {
   std::vector<study::Spread> spreads;
   for (const Tolerance& tolerance : sheet_tolerances(sheet, control::Mode::speed)) {
     const double least = tolerance.levels.front().factor;
-    if (least >= 1.0) continue;  // to one side only
+    if (least >= 1.0) continue;  // a tolerance to one side only
     const char* key = tolerance.quantity == Strays::resistance   ? "motor_override.resistance_ohm"
                       : tolerance.quantity == Strays::inductance ? "motor_override.inductance_mH"
                       : sheet.back_emf_mV_s && !sheet.torque_constant_mNm_A
@@ -245,7 +246,8 @@ study::Scenario varied_scenario(const study::Scenario& nominal, const design::Mo
   study::Scenario s = nominal;
   s.designed_for = study::Nominal{nominal.sheet, nominal.supply, nominal.load};
   design::MotorModel varied = varied_motor(motor, tolerances, variation);
-  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // the load does not vary with the rotor
+  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // load.inertia_kg_m2 stays nominal, so that the
+                                                       // rotor's inertia has the whole deviation
   s.sheet = sheet_of(nominal.sheet, varied);
   return s;
 }

@@ -26,10 +26,13 @@ struct Tolerance {
   std::vector<Level> levels;
 };
 
-/// R +-10 %, L +-20 %, K_t +-8 %: the tolerances that makers print or admit. Also R with the winding at its limit
-/// (design/sheet/thermal.hpp; without one 120 degC), and K_t with the magnets at the housing's temperature then,
-/// where the sheet has the thermal lines. J doubled: an unknown load. With the rotor held, in current mode, only R
-/// and L matter.
+/// The tolerances of a sheet's motor:
+/// - R +-10 %, L +-20 %, K_t +-8 %: what makers print or admit.
+/// - R with the winding at its limit (design/sheet/thermal.hpp; 120 degC if the sheet has none).
+/// - K_t with the magnets at the housing's temperature then, if the sheet has the thermal values.
+/// - J doubled, for an unknown load.
+///
+/// With the rotor held, in current mode, only R and L matter.
 std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode);
 
 /// The same for [[spread]], each quantity evenly to both sides: deviations in a series of drives that no
@@ -37,11 +40,11 @@ std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mod
 /// rotor have no key that could deviate.
 std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet);
 
-/// Largest displacement of a probe's edge from its place, in electrical degrees.
+/// Largest displacement of a Hall edge from its place by the mounting of a probe, in electrical degrees.
 inline constexpr double mounted_hall_edge_deg = 3.0;
 
-/// Spread of six Hall edges for a drive that reads probes, each by this displacement to both sides. It models
-/// the mounting of probes, but not a common delay of all edges.
+/// Spread of six Hall edges for a drive that reads probes, each by mounted_hall_edge_deg to both sides. It
+/// models the mounting of probes, but not a common delay of all edges.
 std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario);
 
 /// What neither of the two spreads has for this scenario, each with its reason; empty: nothing is missing.
@@ -50,31 +53,31 @@ std::string tolerances_not_drawn(const study::Scenario& scenario);
 /// A motor that deviates within the tolerances.
 struct Variation {
   std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal
-  std::vector<double> factors;  ///< one per tolerance
+  std::vector<double> factors;  ///< a factor per tolerance
   bool single = false;          ///< only one tolerance deviates
 };
-/// The nominal motor, each level alone, then every corner of the outermost levels (of a tolerance to one side
-/// only, that level and the nominal).
+/// The nominal motor; each level alone; then every combination of outermost levels. If a tolerance is to one
+/// side only, its levels there are that side and the nominal value.
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances);
 
-/// The motor deviates; the controller stays as designed for the sheet. `motor` is DriveDesign's: with the
-/// load's inertia, which deviates with the rotor's.
+/// The scenario with a motor that deviates; the controller stays as designed for the sheet. `motor` is that
+/// of DriveDesign. Its inertia includes the load's, and the sum of both deviates.
 study::Scenario varied_scenario(const study::Scenario& nominal, const design::MotorModel& motor,
                                 const std::vector<Tolerance>& tolerances, const Variation& variation);
 
 struct RobustFigure {
   std::string figure{}, unit{};
   double nominal = 0.0;
-  double worst = 0.0;     ///< the largest: infinite where it never settles, or a fault ended the run
-  std::string at{};       ///< the variation, in words; empty where none is worse than nominal
-  std::string culprit{};  ///< the level that alone has the largest effect
-  double alone = 0.0;     ///< the figure with the culprit alone
+  double worst = 0.0;     ///< the largest value; infinite if a run never settles, or if a fault ended it
+  std::string at{};       ///< the variation in words; empty if none is worse than nominal
+  std::string culprit{};  ///< the level that has the largest effect alone
+  double alone = 0.0;     ///< the figure with this level alone
 };
 
 struct Robustness {
   std::vector<RobustFigure> figures;  ///< figures of the scenario's comparisons, in their order
-  /// Phase margin of each loop in degrees, with the later of the delays and the sensor of the speed; the least is
-  /// worst.
+  /// Phase margin of each loop in degrees, with the longer of the delays and with the sensor of the speed.
+  /// The least margin is worst.
   std::vector<RobustFigure> phases;
   std::size_t runs = 0;
 };

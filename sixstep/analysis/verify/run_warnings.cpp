@@ -17,10 +17,10 @@ void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
   s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
 }
 
-/// Part of a user's step that may be missed: an integral leaves no error, unless a limit holds it up.
+/// Fraction of a user's step by which it may be missed. An integral part leaves no error unless a limit acts.
 constexpr double missed_part = 0.02;
 
-/// Warns of a target that bus and load do not allow, or that is not reached by the end of the run.
+/// Warns of a setpoint that bus and load do not allow, or that is not reached by the end of the run.
 void look_at_reach(DesignStudy& s) {
   const std::vector<double>& levels = s.scenario.reference.values;
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
@@ -47,24 +47,26 @@ bool out_of_reach(const DesignStudy& s) {
 
 constexpr const char* within = "within the tolerances";
 
-/// Words for the motor of the tolerances, and for the one tolerance with the largest effect.
+/// Words for the worst motor within the tolerances, and for the one tolerance with the largest effect.
 std::string with_which(const RobustFigure& f) {
   const bool one = f.culprit.empty() || f.culprit == f.at;
   return ": with " + f.at + (one ? "" : ", chiefly for " + f.culprit);
 }
 
-/// Hard chopping at a duty below one half has no mean voltage that drives.
+/// Whether the mean voltage can drive only from a duty of one half: with hard chopping, a duty below one half
+/// has no such voltage.
 bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
-/// The chopping decides whether a small negative duty brakes by that or by the whole bus.
+/// Names the chopping, because it decides whether a small negative duty brakes by its own voltage or by the
+/// whole bus.
 std::string in_simulation(const DesignStudy& s) {
   return "in the simulation, with " +
          std::string(base::word(study::chopping_choices, s.design.spec.chopping)) + " chopping,";
 }
 
-/// A loop whose run avoids all limits must settle as designed; a quarter more is a warning.
+/// Warns if a loop settles a quarter later than designed, although its run avoids all limits.
 void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
   if (!c || s.design.spec.mode == control::Mode::position || out_of_reach(s)) return;
@@ -87,7 +89,7 @@ void look_at_settling(DesignStudy& s) {
          false);
 }
 
-/// A limit cycle swings further than the commutations do.
+/// Warns of a limit cycle: it swings further than the commutations do.
 void look_at_swing(DesignStudy& s) {
   const std::optional<double> allowed = s.allowed_swing_rad_s;
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
@@ -98,8 +100,8 @@ void look_at_swing(DesignStudy& s) {
        true);
 }
 
-/// A second-order loop overshoots by less than its step with any damping; one that overshoots by more is hardly
-/// stable.
+/// A second-order loop overshoots by less than its step with any damping. Warns of a loop that overshoots by
+/// more, because it is hardly stable.
 void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when,
                        const std::string& where = "") {
   const std::vector<double>& levels = s.scenario.reference.values;
@@ -112,7 +114,8 @@ void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when
        true);
 }
 
-/// A drive on Hall probes may stop anywhere within some 60 electrical degrees.
+/// Warns of a position that does not rest. A drive on Hall probes may stop anywhere within some 60 electrical
+/// degrees.
 void look_at_rest(DesignStudy& s, double swing, const std::string& when, const std::string& where = "") {
   const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
   const double move = std::max(usual_move(s.design), unit.factor * std::fabs(s.scenario.reference.value));
@@ -139,13 +142,13 @@ void look_at_run(DesignStudy& s, bool asked_step) {
   if (const study::ComparisonResult* swing = figure_of(s.outcome, swing_at_target))
     look_at_rest(s, swing->measured, "in the simulation");
   for (const study::Verdict& v : s.outcome.verdicts)
-    if (!v.ok && s.usable())  // else another warning gives the reason
+    if (!v.ok && s.usable())  // otherwise another warning gives the reason
       warn(s, design::Concern::requirement,
            "in the simulation the " + v.figure + " is " + base::three_digits(v.measured) + " " + v.unit,
            true);
 }
 
-/// Warns of the move of the worst motor.
+/// Warns of the move with the worst motor.
 void look_at_worst_move(DesignStudy& s, const RobustFigure& f, const std::string& where) {
   if (s.design.spec.mode != control::Mode::position) return;
   const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");

@@ -6,8 +6,8 @@
 
 namespace sixstep::analysis {
 
-/// The loops of the configuration at the end of the run. A field-oriented drive has those of the axis across
-/// the magnet.
+/// The loops of the configuration at the end of the run. For a field-oriented drive they are those of the
+/// axis across the magnet.
 design::DriveLoops loops_of(const study::Scenario& scenario, const study::Compiled& compiled);
 
 }  // namespace sixstep::analysis

@@ -17,7 +17,8 @@ namespace {
 
 using control::Mode;
 
-/// The lowest speed other than standstill that a reference requests; empty: it is no speed.
+/// The lowest speed other than standstill that a reference requests, rad/s; empty if the reference is no
+/// speed.
 std::optional<double> lowest_speed(const study::Scenario& s) {
   if (s.control.mode != Mode::speed) return std::nullopt;
   std::optional<double> least;
@@ -26,7 +27,7 @@ std::optional<double> lowest_speed(const study::Scenario& s) {
   return least;
 }
 
-/// Sets the loop that follows a resolver, by bandwidth and damping.
+/// Sets the loop that tracks a resolver, by bandwidth and damping.
 void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
   const study::Resolver& r = s.sensors.resolver;
   const bool sampled = r.reading == rig::ResolverReading::sampled;
@@ -35,8 +36,8 @@ void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
   to.step_s = study::tracking_period_s(s);
   if (const auto loop = design::tracking_loop({2 * base::pi * r.bandwidth_Hz, r.damping, to.step_s}))
     to.natural_rad_s = loop->natural_rad_s;
-  // Two samples, a step apart, give one reading: their middle is half a step ago, and half of their noise's
-  // power is left.
+  // Two samples, a step apart, give one reading: it is half a step old, and has half of the samples' noise
+  // power.
   to.latency_s = sampled ? to.step_s / 2 : r.latency_s;
   to.noise_rad = r.noise_V / r.amplitude_V / (sampled ? std::sqrt(2.0) : 1.0);
 }
@@ -74,7 +75,7 @@ design::ShaftSensing shaft_sensing(const study::Scenario& s) {
   return to;
 }
 
-/// Largest error of the length of any k successive sectors together, rad.
+/// Largest error of the length of k successive sectors together, rad.
 double stray_of(const std::vector<double>& edges_deg, std::size_t k) {
   double most = 0.0;
   for (std::size_t n = 0; n < edges_deg.size(); ++n)
@@ -100,13 +101,13 @@ base::Problems passed_over(const study::Scenario& s) {
 
 design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   design::RotorSensing to;
-  // The product drive has no sensor except its Hall probes, and the sensorless one uses crossings as their
-  // edges.
+  // The product drive has no sensor except Hall probes, and the sensorless drive has crossings in place of
+  // Hall edges.
   const study::FirmwareKind drive = s.control.drive;
   to.hall = s.sensors.rotor == study::RotorSensing::hall || drive == study::FirmwareKind::product ||
             drive == study::FirmwareKind::sensorless;
   to.edges = s.sensors.speed_edges;
-  // Edges with learned places need no whole turn for their errors to cancel.
+  // If the edges' places are learned, their errors need not cancel over a whole turn.
   if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) to.edges = std::max(to.edges, 1);
   if (!to.hall) to.shaft = shaft_sensing(s);
   if (s.sensors.rotor != study::RotorSensing::hall) return to;
@@ -137,7 +138,7 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   w.voltage_V = s.supply.voltage_V;
   w.torque_limit_Nm = s.control.speed.torque_limit_Nm;
   w.load_inertia_kg_m2 =
-      s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops are of the motor's shaft
+      s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops refer to the motor's shaft
   w.delay_periods = s.pwm.delay_periods;
   w.sampled_in_middle = s.pwm.sample == study::SampleAt::middle;
   // Smooth chopping counts as complementary: while current flows, both modes put the same voltage on the pair.
@@ -149,7 +150,8 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   if (const std::optional<double> most = most_current_A(s, motor->K_t_Nm_A); most && w.mode != Mode::current)
     w.current_limit_A = std::min(*most, w.current_limit_A.value_or(*most));
   if (!w.lowest_speed_rad_s) return w;
-  // A reference near the largest speed of the bus or of the board leaves no room for a step down to it.
+  // A reference near the largest speed of the bus or of the board leaves no room for a step down to this
+  // speed.
   if (const double most = most_lowest_speed_rad_s(*motor, w); most > 0.0)
     w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, most);
   if (const std::optional<double> most = most_speed_rad_s(s))

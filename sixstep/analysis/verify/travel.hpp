@@ -5,13 +5,13 @@
 
 namespace sixstep::analysis {
 
-/// Longest time of a start at the limits, s, with the torque that the bus allows at its end; 0: it allows
-/// none.
+/// Longest time of a start at the limits, s, computed with the torque that the bus allows at the end of the
+/// start; 0 if it allows none.
 double start_time(const design::DriveDesign& design, double to_rad_s, double load_Nm);
 
-/// Time from one speed to another at the limits of torque and bus, s, computed in a hundred parts. Where the
-/// bus allows no more torque, five of the time constants J R/K_t^2 with which the speed then approaches its
-/// limit are added.
+/// Time from one speed to another at the limits of torque and bus, s, computed in a hundred steps. If the bus
+/// allows no more torque before the end, five time constants J R/K_t^2 are added, with which the speed then
+/// approaches its limit.
 double travel_time(const design::DriveDesign& design, double from_rad_s, double to_rad_s, double load_Nm);
 
 }  // namespace sixstep::analysis

@@ -14,10 +14,10 @@ rig::WireOrder after(rig::WireOrder order, const Moves& moves) {
   for (std::size_t place = 0; place < 3; ++place) to[moves[place]] = from[place];
   for (const rig::Wiring& w : all_wirings())
     if (rig::ends_of(w.phases) == to) return w.phases;
-  return order;  // the six orders are all there are
+  return order;  // unreachable, because the six orders are all that exist
 }
 
-/// 0: phases alone, 1: Hall lines alone, 2: both.
+/// Order of cures: 0 moves phases alone, 1 Hall lines alone, 2 both.
 int kind_of(const Cure& c) { return moved(c.pins) == 0 ? 0 : moved(c.legs) == 0 ? 1 : 2; }
 
 }  // namespace
@@ -31,7 +31,7 @@ std::vector<Cure> shortest_cures(const rig::Wiring& wiring) {
   for (const Moves& legs : all_moves)
     for (const Moves& pins : all_moves) {
       const Cure cure{legs, pins};
-      if (sectors_ahead(cured(wiring, cure)) != 0) continue;  // each pair in its own sector
+      if (sectors_ahead(cured(wiring, cure)) != 0) continue;  // each pair must be driven in its own sector
       if (!best.empty() && cure.wires() > best.front().wires()) continue;
       if (!best.empty() && cure.wires() < best.front().wires()) best.clear();
       best.push_back(cure);

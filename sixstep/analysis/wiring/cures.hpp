@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how to correct a wrongly connected motor: the fewest wires to move, and the next step for a person
-// who can observe the motor's motion but not the wires' order.
+// Finds how to correct a wrongly connected motor: the cure that moves the fewest wires, and the next step for
+// a person who can observe the motor's motion but not the wires' order.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -27,15 +27,17 @@ struct Cure {
 
 rig::Wiring cured(const rig::Wiring& wiring, const Cure& cure);
 
-/// All cures with the fewest wires that make the motor run forward with its whole torque; first those that
-/// move phases alone, then Hall lines alone. The three correct wirings have one cure that moves no wire.
-/// Phases alone cannot cure two swapped probes: the best result is then a motor that runs well backward.
+/// All cures with the fewest wires that make the motor run forward with its whole torque. Cures that move
+/// phases alone come first, then those that move Hall lines alone. The three correct wirings have one cure,
+/// which moves no wire. Phases alone cannot cure two swapped probes: the best result is then a motor that
+/// runs well backward.
 std::vector<Cure> shortest_cures(const rig::Wiring& wiring);
 
-/// Next step, by what the motor does; after at most four steps it runs well forward:
-///   hums                       swap two phases: it runs
-///   runs early or late         move all three phases on: after one or two times it runs well, the other way round
-///   runs backward well         swap phases a and b, and Hall lines 2 and 3: it runs forward
+/// Next step, by what the motor does. After at most four steps it runs well forward.
+/// - The motor hums: swap two phases. It then runs.
+/// - It runs early or late: shift all three phases cyclically. After one or two times it runs well in the
+///   opposite direction.
+/// - It runs well backward: swap phases a and b, and Hall lines 2 and 3. It then runs forward.
 Cure next_step(WiringDoes does);
 
 }  // namespace sixstep::analysis

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the 36 ways to connect a motor to a drive that commutates by Hall probes, and finds which pair of its
-// phases the drive then drives in each sector: by the drive's own table (control/commutation.hpp) and the rig's
-// wires (rig/wiring.hpp).
+// Lists the 36 ways to connect a motor to a drive that commutates by Hall probes, and finds which pair of the
+// motor's phases the drive drives in each sector. The drive's own table (control/commutation.hpp) and the
+// rig's wires (rig/wiring.hpp) determine this pair.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -21,11 +21,11 @@ struct Commutation {
 };
 Commutation commutation(std::uint8_t sector);
 
-/// All wirings, with phases in the outer and probes in the inner loop; first the orders that keep the sequence a,
-/// b, c, then those that swap two.
+/// All wirings, with phases in the outer and probes in the inner loop. In each loop the orders that keep the
+/// sequence a, b, c come first, then those that swap two.
 std::array<rig::Wiring, ways_to_plug_in> all_wirings();
 
-/// Whether the order keeps the sequence of the three ends: shifted, not swapped.
+/// Whether the order keeps the sequence of the three wires: they may be shifted, but not swapped.
 constexpr bool keeps_the_turn(rig::WireOrder order) {
   return order == rig::WireOrder::abc || order == rig::WireOrder::bca || order == rig::WireOrder::cab;
 }
@@ -34,14 +34,15 @@ constexpr bool keeps_the_turn(rig::WireOrder order) {
 struct Driven {
   std::uint8_t seen = 0;             ///< the sector of the code at the pins
   std::size_t source = 0, sink = 0;  ///< phases of the motor
-  int ahead = 0;                     ///< sectors, 0..5, from the rotor's sector to that of this pair
+  int ahead = 0;                     ///< number of sectors, 0..5, from the rotor's sector to the sector to
+                                     ///< which this pair belongs
   bool operator==(const Driven&) const = default;
 };
 
 /// The driven pair for a positive command, 120 degree probes and no inverted pin.
 Driven driven(const rig::Wiring& wiring, std::uint8_t sector);
 
-/// Driven::ahead where it is the same in all six sectors; empty: phases and probes have opposite sequences.
+/// Driven::ahead if it is the same in all six sectors. Empty if phases and probes have opposite sequences.
 std::optional<int> sectors_ahead(const rig::Wiring& wiring);
 
 }  // namespace sixstep::analysis

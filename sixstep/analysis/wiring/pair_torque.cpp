@@ -13,8 +13,8 @@ namespace {
 /// Angle from theta_e to the magnet's axis (model.md 7).
 constexpr double axis_rad = 2.5 * base::sector_rad;
 
-/// Eight Gauss points on each eighth of a sector: exact for the lines of a trapezoid, and to 1e-9 of its size
-/// for the square of a harmonic of order 25, which turns by 6.5 rad there.
+/// Eight Gauss points on each eighth of a sector. This is exact for the lines of a trapezoid, and to 1e-9 of
+/// its size for the square of a harmonic of order 25, which turns by 6.5 rad within an eighth.
 constexpr int stretches = 8;
 
 }  // namespace

@@ -19,10 +19,11 @@ class PairTorque {
  public:
   PairTorque(const plant::general::Machine& machine, double current_A);
 
-  /// Torque per current at x rad after the begin of a sector, x in [0, pi/3]; N m/A.
+  /// Torque per current at x rad after the beginning of a sector, x in [0, pi/3]; N m/A.
   double at(std::uint8_t sector, double x_rad, std::size_t source, std::size_t sink) const;
 
-  /// Back-EMF of a phase per mechanical rad/s there, V s; of a delta that of its star.
+  /// Back-EMF of a phase per mechanical rad/s at the same angle, V s; for a delta, that of the equivalent
+  /// star.
   double emf_V_s(std::uint8_t sector, double x_rad, std::size_t phase) const;
 
   /// Means over a part of a sector.

@@ -19,38 +19,42 @@ struct WiringSubject {
   std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< sheet of the motor
   std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
-  /// Current of the stalled motor; empty: nominal, or a tenth of the largest that the bus can drive.
+  /// Current of the stalled motor; empty: the nominal current, or a tenth of the largest that the bus can
+  /// drive.
   std::optional<double> current_A{};
 };
 
 enum class BenchCurrent : std::uint8_t { asked_for, nominal, tenth_of_stall };
 
-/// A stiff bus, ideal switches, soft chopping, no load. Two tests: the motor runs free from rest, or is
-/// turned slowly from outside.
+/// A stiff bus, ideal switches, soft chopping, no load. There are two tests: the motor runs free from rest,
+/// or it is turned slowly from outside.
 struct WiringBench {
   design::MotorModel motor;
   double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
   BenchCurrent from = BenchCurrent::nominal;
   double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, continuous current
-  double free_s = 0.0;  ///< 18 mechanical time constants and an ideal motor's turn, then the measured part
+  double free_s = 0.0;  ///< 18 mechanical time constants and one turn of an ideal motor, then the measured
+                        ///< part
   double watched_from_s = 0.0;
   double row_s = 0.0;  ///< time between two recorded rows of a free run
-  /// PWM period of the slow turn. It is short, because rows lie at the begin of a period, and a current that
-  /// has decayed by then does not show the torque.
+  /// PWM period of the slow turn. It is short: rows lie at the beginning of a period, and a current that has
+  /// decayed by then would not show the torque.
   double turned_pwm_s = 0.0;
-  double turned_rad_s = 0.0;  ///< slow: the back-EMF uses a twentieth of the bench's current, or less
-  /// A sector in which the start decays, then one electrical turn, 0 to 360 degrees.
+  double turned_rad_s = 0.0;  ///< so slow that the back-EMF reduces the bench's current by at most a
+                              ///< twentieth
+  /// First a sector in which the start decays, then one electrical turn, 0 to 360 degrees.
   double turned_from_s = 0.0, turned_s = 0.0;
 };
 
-/// Problems name `voltage_V` or `current_A`, or are the sheet's.
+/// Problems name `voltage_V` or `current_A`, or are those of the sheet.
 base::Result<WiringBench> wiring_bench(const WiringSubject& subject);
 
 /// Scenario of a motor that is released from rest at an electrical angle.
 study::Scenario free_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring,
                          double electrical_deg);
 
-/// Scenario of a motor that a dynamometer turns through one electrical turn, with `turned_rows` rows of torque.
+/// Scenario of a motor that a dynamometer turns through one electrical turn. It records `turned_rows` rows of
+/// torque.
 inline constexpr int turned_rows = 180;
 study::Scenario turned_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring);
 

@@ -31,8 +31,8 @@ Sums over_turn(const PairTorque& torque, const WiringTheory& t) {
   return s;
 }
 
-/// Angle at which the torque changes sign between the middles of two sectors, of which the first pushes forward
-/// and the second back.
+/// Electrical angle at which the torque changes its sign, between the middles of two sectors: the first one
+/// drives forward and the second one back.
 double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_t sector) {
   const std::uint8_t next = static_cast<std::uint8_t>((sector + 1) % 6);
   const auto in = [&](std::uint8_t s, double x) {
@@ -50,13 +50,13 @@ double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_
   return next * 60.0;
 }
 
-/// The torque of a pair that is driven before its turn rises from 0 while the rotor passes a sector. The
-/// torque of a pair that is driven after its turn falls.
+/// The behaviour of a rotor that turns. The torque of a pair that is driven too early rises from 0 while the
+/// rotor passes a sector; the torque of a pair that is driven too late falls.
 WiringDoes running(int direction, double part, double least_part, const Sums& s) {
   const bool forward = direction > 0, falls = direction * (s.first_half - s.second_half) > 0;
   if (part >= well_above_part && least_part >= well_above_least)
     return forward ? WiringDoes::forward : WiringDoes::backward;
-  const bool early = falls != forward;  // backward, a sector's second half comes first
+  const bool early = falls != forward;  // if the rotor turns backward, it passes a sector's second half first
   if (forward) return early ? WiringDoes::forward_early : WiringDoes::forward_late;
   return early ? WiringDoes::backward_early : WiringDoes::backward_late;
 }
@@ -75,7 +75,7 @@ WiringTheory wiring_theory(const PairTorque& torque, const rig::Wiring& wiring) 
     most = std::max(most, t.torque_Nm_A[sector]);
   }
   const Sums own = over_turn(torque, t), best = over_turn(torque, straight);
-  const bool nothing = std::fabs(own.mean) < 1e-12 * best.mean;  // the rounding of cancelling terms
+  const bool nothing = std::fabs(own.mean) < 1e-12 * best.mean;  // terms that cancel leave only rounding
   t.mean_Nm_A = nothing ? 0.0 : own.mean;
   t.part = t.mean_Nm_A / best.mean;
   t.idle_speed_part = (t.mean_Nm_A / own.square) / (best.mean / best.square);

@@ -10,8 +10,8 @@
 
 namespace sixstep::analysis {
 
-/// Behaviour that a person sees at the bench. "Early" and "late" drive each pair 60 degrees, a sector, before or
-/// after its turn.
+/// Behaviour that a person observes at the bench. "Early" and "late" mean that each pair is driven 60
+/// degrees, a sector, before or after its own sector.
 enum class WiringDoes : std::uint8_t {
   forward,
   forward_early,
@@ -24,42 +24,44 @@ enum class WiringDoes : std::uint8_t {
 };
 inline constexpr std::size_t kinds_of_wiring = 7;  ///< without `unclear`
 
-/// +1 forward, -1 backward, 0 for hums and unclear.
+/// Direction of rotation: +1 forward, -1 backward, 0 for hums and unclear.
 constexpr int direction_of(WiringDoes does) {
   if (does >= WiringDoes::hums) return 0;
   return does < WiringDoes::backward ? 1 : -1;
 }
-/// Runs with its whole torque.
+/// Whether the motor runs with its whole torque.
 constexpr bool runs_well(WiringDoes does) {
   return does == WiringDoes::forward || does == WiringDoes::backward;
 }
 
-/// Lower bounds for a wiring that runs well, as fractions of straight wiring's mean torque: of its mean, and of
-/// its least torque. A shift by one sector halves the mean. Reluctance torque can raise this mean, but the
-/// torque still falls to 0 at one end of each sector.
+/// Lower bounds for a wiring that runs well, as fractions of straight wiring's mean torque: for its mean
+/// torque, and for its least torque. A shift by one sector halves the mean. Reluctance torque can raise this
+/// mean, but the torque still falls to 0 at one end of each sector.
 inline constexpr double well_above_part = 0.75, well_above_least = 0.2;
 
-/// Each torque is per ampere through the driven pair.
+/// What a wiring does, by theory. Each torque is per ampere through the driven pair.
 struct WiringTheory {
   WiringDoes does = WiringDoes::hums;
-  std::array<Driven, 6> driven{};       ///< in the rotor's sectors
-  std::array<double, 6> torque_Nm_A{};  ///< mean over each of them
-  double mean_Nm_A = 0.0;               ///< over the turn
-  double part = 0.0;                    ///< over the mean of straight wires
-  double least_part = 0.0;  ///< least torque in its direction at any angle, the same way; 0 where it hums
-  /// At one duty, without inductance and friction and with continuous current: the speed at which the mean torque is 0,
-  /// over that of straight wires, and the rms of the pair's current there, over the stalled one. From dU - w g = R
-  /// i and mean(g i) = 0:
+  std::array<Driven, 6> driven{};       ///< pair in each of the rotor's sectors
+  std::array<double, 6> torque_Nm_A{};  ///< mean over each sector
+  double mean_Nm_A = 0.0;               ///< mean over the turn
+  double part = 0.0;                    ///< mean over that of straight wires
+  double least_part = 0.0;  ///< least torque in the direction of rotation at any angle, over the mean of
+                            ///< straight wires; 0 if it hums
+  /// Speed and current without load at one duty, without inductance and friction and with continuous current.
+  /// The speed is that at which the mean torque is 0, over that of straight wires. The current is the rms of
+  /// the pair's current at this speed, over the stalled one. From dU - w g = R i and mean(g i) = 0:
   ///   w = dU mean(g)/mean(g^2), i_rms^2 = (dU/R)^2 (1 - mean(g)^2/mean(g^2)).
   double idle_speed_part = 0.0, idle_current_part = 0.0;
-  /// Electrical angles, where it hums, to which the torque drives from both sides.
+  /// Electrical angles to which the torque drives from both sides, if the motor hums.
   std::vector<double> rests_deg;
 };
 
-/// A torque with one sign in all sectors turns the rotor that way; a torque with both signs holds it.
+/// The behaviour of a wiring. A torque with one sign in all sectors turns the rotor in its direction; a
+/// torque with both signs holds the rotor.
 WiringTheory wiring_theory(const PairTorque& torque, const rig::Wiring& wiring);
 
-/// The torque over an electrical turn, N m/A: both sides of each sector's edge.
+/// The torque over an electrical turn, N m/A. Each sector's edge has two points, one for each side.
 struct TorquePoint {
   double electrical_deg = 0.0, torque_Nm_A = 0.0;
 };

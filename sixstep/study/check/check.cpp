@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds contradictions that no single value's range shows: keys that contradict each other or need something
-// absent.
+// Finds contradictions that no single value's range shows: keys that contradict each other, or that need
+// something absent.
 #include "sixstep/study/check/check.hpp"
 
 #include <algorithm>
@@ -140,7 +140,8 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
                    "give the limit of the drive's torque"});
 }
 
-/// Checks the controller as each event leaves it. Problems that it has from the start are not repeated.
+/// Checks the controller's configuration after each event. Problems that exist from the start are not
+/// repeated.
 void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   const auto wrong = [&motor](const Scenario& then) {
     base::Problems found;
@@ -184,7 +185,7 @@ void check_linear(const Scenario& s, base::Problems& out) {
 }
 
 base::Problems check(const Scenario& s) {
-  // The checks below compute with the numbers, and cannot use one that is out of range.
+  // The checks below compute with the numbers. A number out of range would make their results meaningless.
   if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
   base::Problems out;
   std::optional<design::MotorModel> model;

@@ -50,7 +50,7 @@ NoValue no_value(ColumnId id, const Scenario& s) {
 base::Problems check_columns(const Scenario& s) {
   base::Problems out;
   const auto columns = record_indices(s);
-  if (!columns || s.record.columns.empty()) return out;  // check() reports unknown ones
+  if (!columns || s.record.columns.empty()) return out;  // check() reports unknown columns
   for (const std::size_t n : *columns) {
     const auto id = static_cast<ColumnId>(n);
     if (applies(id, s) || id == ColumnId::loop_A) continue;  // a star's loop current is 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds requests of [[at]] that the scenario's run cannot do.
+// Finds requests of [[at]] that the scenario's run cannot carry out.
 #include <cmath>
 
 #include "sixstep/base/written.hpp"
@@ -56,7 +56,7 @@ struct Event {
 
 void check_mode(const Event& e) {
   if (e.at.control.mode == AtMode::same) return;
-  std::string word(1, '"');  // GCC 12 warns of a literal before it
+  std::string word(1, '"');  // not a literal, because GCC 12 warns of a literal in front of +
   word += base::word(mode_choices, e.mode);
   word += '"';
   if (e.mode == e.before) return e.say(".control.mode", word, "is the present mode already", "remove it");

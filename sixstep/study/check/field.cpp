@@ -71,7 +71,7 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
   refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
 }
 
-/// Refuses keys of a measured angle, because the angle is estimated.
+/// Refuses keys that apply to a measured angle, because this drive estimates the angle.
 void check_unsensed(const Scenario& s, base::Problems& out) {
   const auto angle = [&s] { return std::string(base::word(field_angle_choices, s.control.field.angle)); };
   if (s.sensors.rotor != RotorSensing::ideal)

@@ -52,7 +52,7 @@ void check_window(const Asked& a) {
              "shorten the window or lengthen duration_s");
 }
 
-/// Requires event comparators, because nothing else holds a band.
+/// Requires event comparators, because only they hold the current in a band.
 void check_band(const Asked& a) {
   const CurrentLoop& loop = a.s.control.current;
   const bool closed = a.s.control.mode != Mode::off && a.s.control.mode != Mode::duty;
@@ -105,7 +105,7 @@ void check_drive(const Asked& a) {
              "set control.drive = \"field-oriented\", or name another signal");
 }
 
-/// Refuses a reference that the mode does not have, and the error against it.
+/// Refuses figures of the reference, or of the error against it, in a mode without this reference.
 void check_mode(const Asked& a) {
   const Mode mode = a.s.control.mode;
   const bool position = comes_into(a.s, Mode::position), speed = position || comes_into(a.s, Mode::speed);
@@ -153,7 +153,8 @@ void check_level(const Asked& a) {
              "remove it and set from_s and to_s");
 }
 
-/// Steps are separated by the reference's levels, and a moving reference has none.
+/// Requires a reference with constant levels, because they separate the steps. A moving reference has no
+/// levels.
 void check_levels_of_reference(const Asked& a) {
   const bool takes_levels = fact_of(a.m.metric).over != TakenOver::window;
   if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control) &&

@@ -7,7 +7,8 @@
 
 namespace sixstep::study {
 
-/// The motor's sheet is checked against the same table where the motor's constants are derived.
+/// Does not check the motor's sheet: the code that derives the motor's constants checks it against the same
+/// table.
 base::Problems check_numbers(const Scenario& s);
 
 }  // namespace sixstep::study

@@ -16,7 +16,7 @@ using base::written;
 using plant::fastest_answer_1_s;
 using plant::fastest_field_rad_s;
 
-/// "3.2 ns, and on no board it is below 100 ns"
+/// Returns, for example, "3.2 ns, and on no board it is below 100 ns".
 std::string too_short(double rate_1_s) {
   return base::three_digits(1e9 / rate_1_s) + " ns, and on no board it is below " +
          base::three_digits(1e9 / fastest_answer_1_s) + " ns";
@@ -35,7 +35,8 @@ void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& ou
 
 void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
-  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0)) return;  // check_supply() reports it
+  // A missing value is reported by check_supply().
+  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0)) return;
   const double rate =
       plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
   if (rate > fastest_answer_1_s)
@@ -56,10 +57,10 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
                    "check its unit, or set load.locked = true to hold the rotor"});
 }
 
-/// Time constants of a battery: C_1 between R_1 and the bus behind R_b. The slower one is used.
+/// Time constant of a battery's recovery: C_1 discharges through R_1, and through R_b into the bus.
 void check_recovery(const Supply& from, base::Problems& out) {
   if (!(from.battery_recovery_ohm > 0 && from.battery_recovery_F > 0 && from.resistance_ohm > 0))
-    return;  // check_supply() reports it
+    return;  // check_supply() reports the missing value
   const double rate = (1 / from.battery_recovery_ohm + 1 / from.resistance_ohm) / from.battery_recovery_F;
   if (rate > fastest_answer_1_s)
     out.push_back({"supply.battery_recovery_F", written(from.battery_recovery_F),
@@ -68,10 +69,10 @@ void check_recovery(const Supply& from, base::Problems& out) {
                    "check its unit: a cell recovers over milliseconds to minutes"});
 }
 
-/// Checks the source's inductance and capacitor, and the brake resistor at them.
+/// Checks the time constants of the source's inductance, of the bus capacitor and of the brake resistor.
 void check_source(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
-  if (!(from.capacitance_F > 0)) return;  // check_supply() reports it
+  if (!(from.capacitance_F > 0)) return;  // check_supply() reports the missing value
   const double L = std::min(2 * m.L_H, from.inductance_H > 0 ? from.inductance_H : 2 * m.L_H);
   if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
     out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
@@ -160,7 +161,7 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
        "lower it: it is the speed of the shaft in rad/s");
 }
 
-/// At worst the whole bus voltage drives the current from one end of the band to the other.
+/// At worst the whole bus voltage drives the current from one limit of the band to the other.
 void check_band(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event) return;

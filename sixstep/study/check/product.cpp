@@ -161,7 +161,8 @@ std::optional<double> current_limit_A(const Scenario& s, const design::MotorMode
   double per_A = motor.K_t_Nm_A;
   if (s.control.drive == FirmwareKind::field) {
     const design::FieldMachine machine = design::field_machine(motor, s.sheet);
-    if (machine.L_d_H != machine.L_q_H) return std::nullopt;  // its torque is not proportional to its current
+    // The torque of a salient rotor is not proportional to its current.
+    if (machine.L_d_H != machine.L_q_H) return std::nullopt;
     per_A = design::torque_per_q_A(machine);
   }
   if (!(per_A > 0.0) || !(torque > 0.0)) return limit_A;
@@ -200,7 +201,8 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already", "remove it");
 }
 
-/// Refuses loops without a duty of their own, and chopping that leaves no switch on to hold the current.
+/// Refuses loops that compute no duty of their own, and chopping that leaves no switch on to hold the
+/// current.
 void check_commutation_step(const Scenario& s, base::Problems& out) {
   if (s.control.current.commutation == CurrentCommutation::plain) return;
   const std::string word(base::word(current_commutation_choices, s.control.current.commutation));

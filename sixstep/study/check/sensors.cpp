@@ -28,7 +28,8 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
-/// The converter samples one instant of the period before, so the delay must be shorter than a period.
+/// The converter samples the current at one instant of the preceding period, so that the delay must be
+/// shorter than a period.
 void check_front_end(const Scenario& s, base::Problems& out) {
   if (s.sensors.current_delay_s >= s.pwm.period_s)
     out.push_back({"sensors.current_delay_s", base::written(s.sensors.current_delay_s),
@@ -47,7 +48,7 @@ void check_bits(const Scenario& s, base::Problems& out) {
 
 void check_hall(const Scenario& s, base::Problems& out) {
   const Sensors& sensors = s.sensors;
-  // Times are compared by their difference in 32 bits.
+  // The chip compares times by their signed 32-bit difference, which is right for less than 2^31 counts.
   if (sensors.timeout_s * sensors.capture_Hz > 0x1p31)
     out.push_back({"sensors.timeout_s", base::written(sensors.timeout_s),
                    "is more than 2^31 counts of capture_Hz", "lower one of them"});

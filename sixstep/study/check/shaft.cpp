@@ -11,9 +11,10 @@ namespace sixstep::study {
 
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();  // a line may end after the run
+constexpr double endless = std::numeric_limits<double>::infinity();  // the table may end after the run
 
-/// Speeds with a smaller distance are equal in a run: its rounding is about a hundredth of it.
+/// Speeds closer together than this count as equal. The rounding of a run's speed is about a hundredth of
+/// this value.
 constexpr double least_step_rad_s = 1e-6;
 
 void check_table(const Load& l, base::Problems& out) {

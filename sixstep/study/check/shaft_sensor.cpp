@@ -60,7 +60,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
 /// Refuses sensors.hall_angle if the drive does not compute speed and position from captured Hall edges.
 void check_hall_angle(const Scenario& s, base::Problems& out) {
   if (s.sensors.hall_angle == rig::HallAngleFrom::sectors) return;
-  std::string word(1, '"');  // GCC 12 warns of a literal before it
+  std::string word(1, '"');  // not a literal, because GCC 12 warns of a literal in front of +
   word += base::word(hall_angle_choices, s.sensors.hall_angle);
   word += '"';
   if (s.sensors.rotor != RotorSensing::hall)

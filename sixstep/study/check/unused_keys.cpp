@@ -16,8 +16,8 @@ namespace {
 void of_power(const Scenario& s, Unused& out) {
   if (!s.heat.motor && !s.heat.devices)
     out.add("heat.step_s", s.heat.step_s, Heat{}.step_s, "nothing warms up");
-  // Given the sheet's thermal values, a remark estimates the winding's temperature from the ambient
-  // temperature.
+  // A remark estimates the winding's temperature from the ambient temperature if the sheet has thermal
+  // values.
   if (!s.heat.motor && !s.heat.devices && !design::thermal_model(s.sheet))
     out.add("heat.ambient_degC", s.heat.ambient_degC, Heat{}.ambient_degC, "nothing warms up");
   const Bridge& b = s.bridge;
@@ -111,9 +111,11 @@ void of_idle_loops(const Scenario& s, Unused& out) {
   out.add("control.current.measured_bus_from_V", y.measured_bus_from_V, none.measured_bus_from_V, open);
 }
 
-/// Finds overridden lines of the sheet that the model does not use. Other unused lines still affect the run's
-/// defaults or remarks: the nominal current sets the default torque limit, the nominal voltage the remark on
-/// a default bus, limits the remarks.
+/// Finds overridden lines of the sheet that the model does not use. Some other lines have no effect on the
+/// model either, but on the run's defaults or remarks:
+/// - the nominal current sets the default torque limit;
+/// - the nominal voltage is compared with the default bus in a remark;
+/// - limits cause remarks.
 void of_sheet(const Scenario& s, Unused& out) {
   if (!s.motor_sheet) return;
   const base::Result<design::SheetCheck> now = design::check_sheet(s.sheet),

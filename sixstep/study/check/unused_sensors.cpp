@@ -46,7 +46,8 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     out.add("sensors.calibrated", x.calibrated, usual.calibrated, reason);
     if (no_terminals)
       out.add("sensors.current_bandwidth_Hz", x.current_bandwidth_Hz, usual.current_bandwidth_Hz, reason);
-    if (no_terminals && s.control.drive != FirmwareKind::field)  // else it scales an injection
+    if (no_terminals && s.control.drive != FirmwareKind::field)  // the field-oriented drive uses the range to
+                                                                 // scale its injection
       out.add("sensors.current_range_A", x.current_range_A, usual.current_range_A, reason);
     if (no_bus && no_terminals && x.rotor != RotorSensing::resolver)
       out.add("sensors.adc_bits", x.adc_bits, usual.adc_bits, "nothing is converted");
@@ -58,7 +59,8 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     out.add("sensors.bus_gain_error", x.bus_gain_error, usual.bus_gain_error, reason);
     out.add("sensors.bus_bandwidth_Hz", x.bus_bandwidth_Hz, usual.bus_bandwidth_Hz, reason);
     if (no_bus)
-      out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);  // else the board uses it
+      // with a converter, the range is used even if the drive does not read the bus
+      out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);
   }
   if (no_hall && no_terminals) {
     constexpr char reason[] = "sensors.rotor is not hall";

@@ -24,7 +24,8 @@ namespace {
 
 using control::Mode;
 
-/// The drive's own bases; if the file gives a full scale, the base that results from it for 1.0.
+/// The bases of the drive's numbers, each the value of 1.0. A given full scale is the value of the largest
+/// number, from which its base follows.
 template <class Scalar>
 design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   constexpr int before_the_point =
@@ -32,7 +33,7 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
   const double greatest = static_cast<double>(Scalar::max());
   design::Bases bases = c.sensorless ? design::bases_for(c.sensorless->drive, range, greatest)
                                      : design::bases_for(c.drive, range, greatest);
-  constexpr double below_the_end = 1 + 1e-3;  // a threshold at full scale would never be passed
+  constexpr double below_the_end = 1 + 1e-3;  // a threshold equal to full scale would never be exceeded
   if (c.product)
     bases.speed_rad_s =
         std::max(bases.speed_rad_s, c.product->faults.over_speed_rad_s * below_the_end / greatest);
@@ -85,7 +86,8 @@ rig::Bases units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 
-/// Change per sample with all torques together. Hall edges show a change of speed late and suddenly.
+/// Largest change of the speed per sample, rad/s, if all torques act in one direction. Returns 0 unless the
+/// sensor is ideal, because Hall edges show a change of speed late and suddenly.
 double fastest_change_of_speed(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   if (s.sensors.rotor != RotorSensing::ideal || c.sensorless) return 0.0;
   double load = std::fabs(s.load.torque_Nm);

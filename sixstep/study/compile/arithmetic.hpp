@@ -11,13 +11,13 @@
 namespace sixstep::study {
 
 /// The largest magnitudes that the loops can meet in this scenario:
-///   current   twice the largest reference or limit, which leaves room for the overshoot of a reversal whose
-///             error would saturate (7.3.1 turning shows it), at most the bus and a back-EMF against it
-///             over R
-///   speed     what the bus reaches without load and loss, U/K_t, and the speed of the start
-///   position  the largest reference and the start
-///   bus       the source, and the bus of the start
-/// The product drive's range is that of its converters, and a speed that its threshold can pass.
+/// - current: twice the largest reference or limit, at most (bus + opposing back-EMF)/R. The factor 2 leaves
+///   room for the overshoot of a reversal, whose error would otherwise saturate (7.3.1 shows it).
+/// - speed: what the bus reaches without load and loss, U/K_t, and the speed at the start.
+/// - position: the largest reference and the position at the start.
+/// - bus: the source's voltage, and the bus voltage at the start.
+///
+/// The product drive's range is that of its converters, and a speed above its over-speed threshold.
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
 /// The smallest allowed range: what this scenario requests or starts with (largest reference, limits, source,
@@ -39,7 +39,7 @@ struct DriveIn {
 template <class Scalar>
 base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The same for the product drive.
+/// The product drive in the chip's arithmetic, as drive_in().
 template <class Scalar>
 struct ProductIn {
   control::ProtectedConfig<Scalar> config;
@@ -48,7 +48,7 @@ struct ProductIn {
 template <class Scalar>
 base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The same for the sensorless drive; its pulses are integers in every arithmetic.
+/// The sensorless drive in the chip's arithmetic, as drive_in(). Its pulses are integers in every arithmetic.
 template <class Scalar>
 struct SensorlessIn {
   control::PulsedDriveConfig<Scalar> config;
@@ -57,7 +57,7 @@ struct SensorlessIn {
 template <class Scalar>
 base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The same for the field-oriented drive, in floating point only: no scaling of it is proved yet.
+/// The field-oriented drive as drive_in(), but in floating point only: no scaling of it is proved yet.
 template <class Scalar>
 struct FieldIn {
   control::SensorlessFieldConfig<Scalar> config;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quantities on which a compiled scenario's parts are designed, and the parts that have a file of their
-// own.
+// The quantities on which a compiled scenario's parts are designed. Also declares the parts that have a file
+// of their own.
 #pragma once
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
@@ -21,19 +21,22 @@ base::Problems told_of_event(const Scenario& scenario, const At& at, base::Probl
 /// Settling time with which the current loop is designed: the scenario's, else the thesis's (chapter 6).
 double current_settling_s(const Scenario& scenario);
 
-/// Sets drive.extras (drive_extras.hpp) if the scenario requests any; `drive` must have its loops already.
+/// Sets drive.extras (drive_extras.hpp) if the scenario requests any; the loops of `drive` must be set
+/// already.
 void add_extras(const Scenario& scenario, const Basis& basis, control::DriveConfig<double>& drive);
 
-/// Sets the position loop's profile, if the scenario has one; `tuned` must have its loops and limits already.
+/// Sets the position loop's profile, if the scenario has one; the loops and limits of `tuned` must be set
+/// already.
 void add_position_profile(const Scenario& scenario, const Basis& basis, Tuned& tuned);
 /// Refuses a motion that the designed drive cannot make.
 base::Problems check_position_profile(const Scenario& scenario, const Basis& basis,
                                       const control::DriveConfig<double>& drive);
 
-/// The worst case that control/limits.hpp must hold, over the range of supply, start and limits.
+/// The worst case in which control/limits.hpp must keep the limits, over the range of supply, start and
+/// limits.
 design::LimitSetting limit_setting(const Scenario& scenario, const Basis& basis,
                                    const control::DriveConfig<double>& drive);
-/// Refuses limits that no drive can keep, and currents beyond its converter's range.
+/// Refuses limits that no drive can keep, and currents beyond the converter's range.
 base::Problems check_limits(const Scenario& scenario, const Basis& basis,
                             const control::DriveConfig<double>& drive);
 
@@ -43,23 +46,23 @@ control::ProtectedConfig<double> product_around(const Scenario& scenario, const 
                                                 const rig::SensorsConfig& sensors);
 
 struct SensorlessAround {
-  control::PulsedDriveConfig<double> config;  ///< SI
-  std::vector<design::DerivationStep> steps;  ///< how its numbers follow
+  control::PulsedDriveConfig<double> config;  ///< in SI units
+  std::vector<design::DerivationStep> steps;  ///< derivation of config's numbers
 };
-/// The sensorless drive around `drive`, made by design/loops/sensorless_start.hpp; its pulses, if it starts by
-/// pulses, by pulse_start.hpp. Problems: a load that it cannot start, a back-EMF outside its converter's range,
-/// pulses that are too strong.
+/// The sensorless drive around `drive`, made by design/loops/sensorless_start.hpp. If the drive starts by
+/// pulses, pulse_start.hpp designs them. Problems: a load that the drive cannot start, a back-EMF outside the
+/// converter's range, pulses that are too strong.
 base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const Basis& basis,
                                                  const control::DriveConfig<double>& drive);
 
 struct FieldAround {
-  control::FieldDriveConfig<double> config;    ///< SI
+  control::FieldDriveConfig<double> config;    ///< in SI units
   control::EstimatorConfig<double> estimator;  ///< on if no sensor measures the angle
   std::vector<LoopGains> gains;                ///< gains of the current loops
   std::vector<design::DerivationStep> steps, estimator_steps;
 };
-/// The field-oriented drive around `drive`: gains as given, placed or by cancellation (design/loops/field_current.hpp).
-/// Problems: a bandwidth that the board's delay does not allow.
+/// The field-oriented drive around `drive`. Its gains are given, placed, or designed by cancellation
+/// (design/loops/field_current.hpp). Problems: a bandwidth that the board's delay does not allow.
 base::Result<FieldAround> field_around(const Scenario& scenario, const Basis& basis,
                                        const control::DriveConfig<double>& drive);
 
@@ -86,7 +89,7 @@ base::Problems add_speed_law(const Scenario& scenario, const Basis& basis, doubl
 /// Torque constant in N m/A for the current that the scenario's drive controls: of the driven pair, or i_q.
 double torque_per_A(const Scenario& scenario, const Basis& basis);
 
-/// Time in s within which six Hall edges must occur to be averaged. If edges are slower, the board measures
+/// Time in s within which six Hall edges must occur to be averaged. If they take longer, the board measures
 /// the speed over one edge (design/loops/rotor_sensing.hpp). 0 without a speed loop.
 double speed_window_s(const Scenario& scenario, const Basis& basis,
                       const control::DriveConfig<double>& drive);

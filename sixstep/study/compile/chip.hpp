@@ -17,7 +17,7 @@
 
 namespace sixstep::study {
 
-/// The [control.full_scale] from which these bases follow, to the bit. Empty for floating point.
+/// The [control.full_scale] from which these bases follow, equal to the last bit. Empty for floating point.
 template <class Scalar>
 FullScale full_scale_of(const rig::Bases& bases) {
   if constexpr (std::is_arithmetic_v<Scalar>) {
@@ -53,7 +53,7 @@ template <class Command>
 auto given_to(std::type_identity<rig::OwnDrive<Command>>, const Scenario&, const Compiled& c) {
   return base::Result<OwnGiven>(OwnGiven{c.own, {}});
 }
-/// A chip with its own firmware has its configuration in its flash; this is the board's part.
+/// The board's part of a chip with its own firmware; the chip has its configuration in its flash.
 struct ChipGiven {
   rig::ChipConfig config;
   rig::Bases bases;

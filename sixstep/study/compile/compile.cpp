@@ -23,7 +23,7 @@ namespace {
 
 plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
   plant::Shaft shaft = motor.shaft;
-  // Referred to the motor's side of the gear, as if the shaft were rigid.
+  // The load's inertia is referred to the motor's side of the gear, as if the shaft were rigid.
   shaft.J_kg_m2 += load.inertia_kg_m2 / (load.gear * load.gear);
   shaft.B_Nm_s += load.viscous_Nm_s / (load.gear * load.gear);
   shaft.coulomb_Nm += load.coulomb_Nm / load.gear;
@@ -36,7 +36,7 @@ plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
 
 namespace {
 
-/// The duty above which a pulse has lasted `late_s` at its sample.
+/// The duty above which a pulse has lasted at least late_s when the sample is taken.
 double duty_of_a_pulse(const Scenario& s, double late_s) {
   const double late = (late_s + pulse_late_s(s)) / s.pwm.period_s;
   return s.pwm.alignment == Alignment::centre ? 2 * late : 0.5 + late;
@@ -56,7 +56,8 @@ double least_shown_duty(const Scenario& s) {
 double unseen_at_rest_A(const Scenario& s, double R_ohm) {
   const Bridge& b = s.bridge;
   const double d = least_shown_duty(s), off = 1 - d;
-  // During the pulse two switches conduct; otherwise a switch and a diode, two switches or two diodes.
+  // Conducting devices: two switches during the pulse; otherwise a switch and a diode, two switches or two
+  // diodes.
   double switches = 2 * d, diodes = 0.0, volts = d * s.supply.voltage_V;
   switch (s.pwm.chopping) {
     case control::Chopping::soft:
@@ -98,7 +99,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
   to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
   to.measures_bus = from.bus == BusSensing::adc;
-  // Terminals have converters like the bus's, even if the bus is not measured.
+  // Terminals have converters like those of the bus, even if the bus is not measured.
   const double usual_V = s.control.drive == FirmwareKind::sensorless ? 1.25 * s.supply.voltage_V : 0.0;
   to.bus = {
       from.adc_bits,   from.bus_range_V.value_or(usual_V), false, from.bus_offset_V, from.bus_gain_error,
@@ -107,7 +108,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.decodes_hall = breaks_a_hall_line(s) || inverts_a_hall_line(s);
   to.capture_Hz = from.capture_Hz;
   to.timeout_s = from.timeout_s;
-  to.edges = static_cast<std::uint8_t>(from.speed_edges);  // settle_edges() replaces 0
+  to.edges = static_cast<std::uint8_t>(from.speed_edges);  // settle_edges() replaces a 0
   take_hall_angle(s, to);
   to.seed = static_cast<std::uint64_t>(from.seed);
   to.shaft = shaft_sensor_config(s);
@@ -139,8 +140,8 @@ rig::ProbeGiven probes_of(const Sensors& s) {
           sim::to_instant(s.hall_delay_s).ticks};
 }
 
-/// Sets the edges for the loop that uses them (design/loops/rotor_sensing.hpp). A drive that calibrates its
-/// edges uses six until then.
+/// Sets the number of edges per measured speed for the loop that uses it (design/loops/rotor_sensing.hpp). A
+/// drive that calibrates its edges averages over six until the calibration ends.
 void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
   rig::SensorsConfig& sensors = out.board.sensors;
   const bool learns = sensors.hall_angle == rig::HallAngleFrom::learned_edges;
@@ -161,7 +162,7 @@ base::Problems add_sensorless(const Scenario& s, const Basis& basis,
   return {};
 }
 
-/// The current loops' gains come first, because they are the innermost.
+/// The current loops' gains are listed first, because these loops are the innermost.
 base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Compiled* told = nullptr) {
   if (s.control.drive != FirmwareKind::field) return {};
   auto around = field_around(s, basis, tuned.drive);
@@ -175,7 +176,7 @@ base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Co
   return {};
 }
 
-/// The library's loops are the controller's input only, and do not run.
+/// The user's controller gets the gains of the library's loops as an input. The loops themselves do not run.
 base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   if (s.control.drive != FirmwareKind::own) return {};
   auto designed = own_designed(s, basis, tuned.drive);
@@ -220,7 +221,7 @@ base::Problems told_of_event(const Scenario& s, const At& at, base::Problems pro
   return problems;
 }
 
-/// Without a speed loop its gain is 0, and so is the window.
+/// Without a speed loop the gain is 0, so the window is 0 too.
 double speed_window_s(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
   const bool cascade = s.control.speed.output == SpeedOutput::current;
   const double full_A =

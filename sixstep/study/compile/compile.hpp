@@ -19,9 +19,10 @@ namespace sixstep::study {
 struct Tuned {
   control::DriveConfig<double> drive;
   std::vector<LoopGains> gains;
-  std::optional<control::ProtectedConfig<double>> product;       ///< around `drive`, if the chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the same
-  std::optional<control::FieldDriveConfig<double>> field;        ///< the same
+  std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
+                                                                 ///< chip runs it
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the sensorless drive, likewise
+  std::optional<control::FieldDriveConfig<double>> field;        ///< the field-oriented drive, likewise
   rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
   control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
 };
@@ -44,19 +45,21 @@ struct Compiled {
   plant::Supply supply;
   plant::Start start;
   rig::BoardConfig board;
-  rig::Wiring wiring;      ///< at the start; straight with the lean kernel
-  rig::ProbeGiven probes;  ///< at the sector edges with the lean kernel
+  rig::Wiring wiring;      ///< wiring at the start; straight with the lean kernel
+  rig::ProbeGiven probes;  ///< places of the Hall edges; at the sector edges with the lean kernel
   rig::Timeline timeline;
   control::DriveConfig<double> drive;
-  std::optional<control::ProtectedConfig<double>> product;       ///< around `drive`, if the chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the same
-  std::optional<control::FieldDriveConfig<double>> field;        ///< the same
+  std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
+                                                                 ///< chip runs it
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the sensorless drive, likewise
+  std::optional<control::FieldDriveConfig<double>> field;        ///< the field-oriented drive, likewise
   rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
   control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  ///< derivation of the sensorless drive's numbers
   std::vector<design::DerivationStep> field_steps;       ///< derivation of the field-oriented drive's numbers
-  std::vector<design::DerivationStep> estimator_steps;   ///< derivation of its estimator's numbers
+  std::vector<design::DerivationStep> estimator_steps;   ///< derivation of the field-oriented drive's
+                                                         ///< estimator
   std::vector<Tuned> later;             ///< configurations for the timeline's retune actions, by their number
   double setpoint_range = 1.0;          ///< full scale of a chip's potentiometer, +- (setpoint_range.hpp)
   std::optional<GeneralPlant> general;  ///< replaces motor, shaft, devices and supply
@@ -66,14 +69,15 @@ struct Compiled {
 /// Duty above which a shunt in the DC link measures: the middle of the period lies in the on-time, and the
 /// amplifier has settled. With complementary chopping the on-time begins later by one dead time.
 double least_visible_duty(const Scenario& scenario);
-/// The same duty, including the delay of the reading behind the pulse and the modulator's shortest pulse.
+/// The same duty, increased by the delay of the reading after the pulse's start and by the modulator's
+/// shortest pulse.
 double least_shown_duty(const Scenario& scenario);
-/// Current in A that flows at the duty least_shown_duty() with the rotor at rest, through a pair of phases of
-/// 2 R and the bridge's conducting devices; the shunt does not show smaller currents. 0 where that duty drives no
+/// Current in A that flows at the duty least_shown_duty() with the rotor at rest, through two phases (2 R)
+/// and the bridge's conducting devices. The shunt does not show smaller currents. 0 where that duty drives no
 /// current forwards, as with hard chopping below one half.
 double unseen_at_rest_A(const Scenario& scenario, double R_ohm);
 
-/// Requires that check() found nothing.
+/// Turns a scenario into the parts of a run. Requires that check() found nothing.
 base::Result<Compiled> compile(const Scenario& scenario);
 
 /// A loop's gains per sample, as its keys give them; empty if the pole placement designs them. Problems: gains

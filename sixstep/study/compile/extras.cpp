@@ -12,15 +12,15 @@ namespace {
 
 using control::Mode;
 
-/// The largest current reference without a limit: the initial bound of the window.
+/// The largest current reference in A if no limit acts: the initial bound of the window.
 double unlimited_current(const Scenario& s, const control::DriveConfig<double>& drive) {
   return s.control.mode == Mode::current ? std::max(drive.current_limit_A, largest_reference(s))
                                          : drive.current_limit_A;
 }
 
-/// limits.hpp. Default gains: the bus approaches its limit as exp(-g t/C), with ten periods as its time
-/// constant, slow against the sampling. The speed approaches its limit with J/(K_t K) equal to the current
-/// loop's settling time.
+/// Adds limits.hpp. Default gains: the bus approaches its limit as exp(-g t/C) with a time constant of ten
+/// periods, which is slow against the sampling. The speed approaches its limit with the time constant J/(K_t
+/// K), set equal to the current loop's settling time.
 void add_limits(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
   const Limits& wanted = s.control.limits;
   const Regeneration& regeneration = s.control.regeneration;
@@ -45,7 +45,7 @@ void add_limits(const Scenario& s, const Basis& basis, control::DriveConfig<doub
   if (drive.current_at_full_torque_A > 0) extras.torque_fraction_per_A = 1 / drive.current_at_full_torque_A;
 }
 
-/// smooth_chopping.hpp: the lower level above half of the largest ripple, U T/(4 L_tt)/2.
+/// Adds smooth_chopping.hpp. Its lower level is above half of the largest ripple, U T/(4 L_tt)/2.
 void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveExtras<double>& extras) {
   if (!s.control.smooth_chopping.on) return;
   const double half_ripple_A = basis.bus_V * s.pwm.period_s / (8 * 2 * basis.motor.machine.L_H);
@@ -55,10 +55,11 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
                      .complementary_below_A = below};
 }
 
-/// Widest top of the shape. With a wider one the flanks are too short to be ramps at a chip's samples.
+/// Widest flat top of the trapezoidal back-EMF. With a wider one the flanks are too short for a chip to
+/// sample them as ramps.
 constexpr double widest_flat_deg = 175.0;
 
-/// commutation_step.hpp.
+/// Adds commutation_step.hpp.
 void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
   control::DriveExtras<double>& extras = drive.extras;
   const CurrentCommutation kind = s.control.current.commutation;
@@ -67,7 +68,7 @@ void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveC
   const design::Sheet& sheet = s.designed_for ? s.designed_for->sheet : s.sheet;
   const double flat_deg =
       sheet.back_emf == design::BackEmfShape::trapezoid ? std::min(sheet.flat_deg, widest_flat_deg) : 120.0;
-  const double flank_rad = (180 - flat_deg) * base::pi / 180 / m.pole_pairs;  // mechanical rad
+  const double flank_rad = (180 - flat_deg) * base::pi / 180 / m.pole_pairs;  // in mechanical rad
   extras.on = extras.steps_commutation = true;
   extras.commutation = {.K_t_V_s = basis.motor.K_t_Nm_A,
                         .V_per_A = 1.5 * m.R_ohm,
@@ -79,7 +80,8 @@ void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveC
                         .flat_flanks = (flat_deg - 120) / 2 / (180 - flat_deg)};
 }
 
-/// Converts the gains of drive.speed to positional form, with D = K T_d s/(T_f s + 1) of the measured speed.
+/// Converts the gains of drive.speed to the positional form. Its derivative part K T_d s/(T_f s + 1) acts on
+/// the measured speed.
 void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   const SpeedLoop& loop = s.control.speed;
   const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;

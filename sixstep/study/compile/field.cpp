@@ -11,8 +11,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Periods from a sample to the middle of the period with its answer. A sample in the middle waits half a
-/// period.
+/// Periods from a sample to the middle of the period in which its answer acts. A sample in the middle of a
+/// period waits half a period more.
 double periods_to_answer(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1.0 : 0.5);
 }

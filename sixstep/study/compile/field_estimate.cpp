@@ -12,8 +12,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// A current that drive and motor withstand: a cascade's own limit, the sheet's nominal current, or a tenth of the
-/// bus's current at rest.
+/// A current that drive and motor withstand, A: a cascade's own limit, else the sheet's nominal current, else
+/// a tenth of the current that the bus drives through the rotor at rest.
 double current_that_is_safe_A(const Basis& basis, const control::DriveConfig<double>& drive, double R_ohm) {
   constexpr double by_root_3 = 0.57735026918962576;
   if (drive.current_limit_A > 0) return drive.current_limit_A;
@@ -21,7 +21,8 @@ double current_that_is_safe_A(const Basis& basis, const control::DriveConfig<dou
   return 0.1 * basis.bus_V * by_root_3 / R_ohm;
 }
 
-/// Refuses pulses whose responses at north and south differ by less than a digit of the converters.
+/// Refuses pulses if the currents at a north pole and at a south pole differ by less than one count of the
+/// converters.
 base::Problems too_weak(const Scenario& s, const design::FieldMachine& machine, double saturation_A,
                         const control::EstimatorConfig<double>& c) {
   if (s.sensors.currents != rig::CurrentMeasurement::phases || !(c.injection.voltage_V > 0)) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs a scenario's currents that follow the back-EMF's shape.
+// Designs the harmonic currents that a scenario requests to follow the back-EMF's shape.
 #include "sixstep/design/loops/harmonic_current.hpp"
 #include "sixstep/study/compile/field_parts.hpp"
 #include "sixstep/study/compile/general_plant.hpp"

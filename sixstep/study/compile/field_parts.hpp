@@ -10,12 +10,13 @@ inline const design::Sheet& designed_sheet(const Scenario& s) {
   return s.designed_for ? s.designed_for->sheet : s.sheet;
 }
 
-/// Delay of the answer in whole periods for the winding's discrete model: half a period counts as a whole.
+/// Delay in whole periods from sample to answer, for the winding's discrete model. Half a period counts as
+/// one.
 inline int waits_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1 : 0);
 }
 
-/// Adds the finite control set, which replaces the current loops.
+/// Adds the finite control set (one of the bridge's states per period), which replaces the current loops.
 void add_finite_set(const Scenario& scenario, const Basis& basis, FieldAround& out);
 
 /// Adds the harmonic current if the scenario has it; the gains of the current loops must be set already.

@@ -8,7 +8,7 @@
 
 namespace sixstep::study {
 
-/// Time constant of a corner frequency; 0 without one.
+/// Time constant in s of a corner frequency; 0 if no frequency is given.
 inline double lag_s(const std::optional<double>& bandwidth_Hz) {
   return bandwidth_Hz ? 1 / (2 * base::pi * *bandwidth_Hz) : 0.0;
 }
@@ -21,7 +21,7 @@ inline plant::PerLeg<double> per_terminal(const std::vector<double>& given) {
 }
 
 /// An ideal measurement has no amplifier and no divider. Terminals that the drive measures have dividers like
-/// the bus's, even if the bus itself is not measured. Comparators exist only if the drive switches by them.
+/// the bus's, even if the bus itself is not measured. Comparators exist only if the drive commutates by them.
 inline rig::FrontEndConfig front_end_of(const Sensors& s, bool looks_at_terminals, bool follows_comparators) {
   rig::FrontEndConfig to;
   if (s.currents != rig::CurrentMeasurement::ideal) {

@@ -29,8 +29,8 @@ general::Shape shape_of(const design::Sheet& s, const plant::Machine& from) {
   return to;
 }
 
-/// Converts to the branches of a delta. The model has R and L between two terminals as those of a star; K_x
-/// follows from K_t by the sector mean without loop current (model.md 7).
+/// Converts the winding to the branches of a delta. The sheet's R and L between two terminals are those of
+/// the equivalent star; K_x follows from K_t by the sector mean without loop current (model.md 7).
 void connect_delta(const design::Sheet& s, double K_t_Nm_A, general::Machine& m) {
   m.winding = general::Winding::delta;
   const double R = 3 * m.R_ohm[0], M = 1e-3 * s.mutual_inductance_mH;
@@ -81,7 +81,7 @@ std::vector<general::TorquePoint> torque_over_speed(const Load& l) {
   return points;
 }
 
-/// Dry friction acts at the motor's side, also if it is given for the load.
+/// Dry friction acts at the motor's side of the gear, even if the load's keys give it.
 general::Shaft shaft_of(const Scenario& s, const Compiled& c) {
   const plant::Shaft& motor = c.motor.shaft;
   return {.J_kg_m2 = motor.J_kg_m2,
@@ -179,7 +179,7 @@ general::HeatGiven heat_of(const Scenario& s, const Compiled& c) {
   return to;
 }
 
-/// The default start: a battery's open-circuit voltage.
+/// The default bus voltage at the start; with a battery, its open-circuit voltage.
 double start_bus_V(const Scenario& s, double usual_V) {
   if (s.initial.bus_V || s.supply.source != SourceKind::battery) return usual_V;
   return open_circuit_V(s.supply, s.supply.battery_charge);

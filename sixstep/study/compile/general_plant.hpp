@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides which scenarios the general kernel runs, and fills in its parameters. The lean kernel runs all
-// scenarios without its features: needs_general_plant() lists them, from a delta winding over a gear to crossed
-// wires.
+// other scenarios. needs_general_plant() lists the features that only the general kernel has, such as a delta
+// winding, a gear or crossed wires.
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
 

@@ -20,7 +20,8 @@ double highest_start_V(const Scenario& s) {
   return std::max(highest_supply_V(s), s.initial.bus_V.value_or(0.0));
 }
 
-/// A loop that reads less than its reference drives the current up without end.
+/// Refuses currents beyond the converter's range: a loop that reads less than its reference increases the
+/// current without end.
 void check_converter(const Scenario& s, const control::DriveConfig<double>& drive, base::Problems& out) {
   const Sensors& sensors = s.sensors;
   if (sensors.currents == rig::CurrentMeasurement::ideal || !sensors.current_range_A) return;
@@ -38,7 +39,8 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
                                                  : "widen it, or lower control.current.limit_A"});
 }
 
-/// One shunt shows no current that flows through the lower switches, or in a pulse too short for it.
+/// Refuses limits with one shunt: it does not show a current that flows through the lower switches, or in a
+/// pulse that is too short.
 void check_shunt(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
@@ -52,14 +54,15 @@ void check_shunt(const Scenario& s, base::Problems& out) {
   refuse("control.regeneration.limit_V", s.control.regeneration.limit_V);
 }
 
-/// If one full pulse already exceeds the limit, a full pulse is too much and no pulse too little.
+/// Refuses a limit that the current passes within one PWM period: a full pulse is then too much, and no pulse
+/// too little.
 void check_current(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
   const Limits& wanted = s.control.limits;
   if (!wanted.current_A && !wanted.torque_Nm) return;
   const double pulse_A = setting.bus_V * s.pwm.period_s / (2 * setting.machine.L_H);
   if (pulse_A <= setting.current_A) return;
   const bool by_current = wanted.current_A.has_value();
-  // The current loop's reference never exceeds its largest value.
+  // The current loop's reference never exceeds the loop's own limit.
   const bool narrowed = by_current && setting.current_A < *wanted.current_A;
   out.push_back(
       {by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
@@ -73,14 +76,14 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
            (narrowed ? ", or remove the limit" : " or raise the limit")});
 }
 
-/// Mechanical angle by which a measured speed is late: the k sectors over which it averages, the
-/// present one, and the filter's delay of edges. A sensorless drive averages over six crossings.
+/// Mechanical angle in rad by which a measured speed is late: the k sectors over which it is averaged, the
+/// present sector, and the filter's delay of the edges. A sensorless drive averages over six crossings.
 double late_rad(const Scenario& s, const plant::Machine& machine, double speed_rad_s) {
   const bool crossings = s.control.drive == FirmwareKind::sensorless;
   if (crossings) return 7 * base::pi / 3 / machine.pole_pairs;
   if (s.sensors.rotor != RotorSensing::hall) return 0.0;
   const bool learns = s.sensors.hall_angle == rig::HallAngleFrom::learned_edges;
-  const int edges = learns ? 6 : s.sensors.speed_edges;  // six until learned
+  const int edges = learns ? 6 : s.sensors.speed_edges;  // six until the edges are calibrated
   return (edges + 1) * base::pi / 3 / machine.pole_pairs +
          (s.sensors.hall_stable_samples - 1) * s.pwm.period_s * speed_rad_s;
 }
@@ -88,7 +91,7 @@ double late_rad(const Scenario& s, const plant::Machine& machine, double speed_r
 void check_speed(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
   if (!s.control.limits.speed_rad_s || s.load.locked) return;
   const double limit = *s.control.limits.speed_rad_s, fastest = 1.25;
-  if (limit >= setting.speed_rad_s) return;  // the bus cannot drive it that fast
+  if (limit >= setting.speed_rad_s) return;  // the bus cannot drive the motor as fast as the limit
   const auto most = [&](double w) {
     return design::most_speed_rad_s(setting, w, late_rad(s, setting.machine, w * fastest));
   };
@@ -114,7 +117,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
                    "the drive could never brake"});
     return;
   }
-  // The bus may exceed the limit by at most the distance from the supply to the limit.
+  // At worst the bus exceeds the limit by as much as the limit exceeds the supply.
   const auto holds = [&](double limit_V, double C_F) {
     setting.bus_V = 2 * limit_V - from + 2 * s.bridge.diode_drop_V;
     return design::most_bus_V(setting, limit_V, C_F) <= 2 * limit_V - from;
@@ -163,7 +166,7 @@ design::LimitSetting limit_setting(const Scenario& s, const Basis& basis,
   const double from = highest_start_V(s);
   double bus = std::max(from, limit_V.value_or(0.0));
   out.speed_rad_s = std::max(std::fabs(s.initial.speed_rad_s), from / basis.motor.K_t_Nm_A);
-  // Energy that the source does not take back raises the bus, at worst all of the rotor's.
+  // Energy that the source does not take back raises the bus; at worst it is all of the rotor's energy.
   if (C > 0 && s.supply.sinks) bus += 1.25 * out.current_A * s.supply.resistance_ohm;
   if (C > 0 && !s.supply.sinks && !limit_V)
     bus = std::sqrt(bus * bus + J * out.speed_rad_s * out.speed_rad_s / C);

@@ -10,8 +10,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Returns the loop's gains as given, else by pole placement. The exact design is computed for given gains as
-/// well.
+/// Returns the loop's gains as given, else by pole placement. For given gains the exact design is computed as
+/// well, for comparison.
 template <class Loop>
 base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
                                    double usual_settle_s, double period_s) {
@@ -35,12 +35,12 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
-/// Smooth chopping changes between two ways that are equal for the pair's voltage.
+/// Smooth chopping alternates between two chopping patterns that give the pair the same voltage.
 control::Chopping loop_chopping(const Scenario& s) {
   return s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
 }
 
-/// Periods from a sample to the begin of its answer (rig/board_config.hpp).
+/// Periods from a sample to the beginning of its answer (rig/board_config.hpp).
 double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }
@@ -81,8 +81,9 @@ base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& ou
   return {};
 }
 
-/// The effect of the speed controller's output on the speed: a torque at once, or the bus through the winding,
-/// whose inductance is neglected because it is fast (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
+/// The effect of the speed controller's output on the speed. The output is a torque, which acts at once, or a
+/// duty of the bus voltage on the winding. The winding's inductance is neglected because it is fast (thesis
+/// 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
 struct SpeedPlant {
   double full_Nm, B_Nm_s;
 };
@@ -110,7 +111,8 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
   }
   out.drive.current_at_full_torque_A = torque_limit / torque_per_A(s, basis);
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
-  // A bound behind the PI that the PI does not include would cause integral windup.
+  // The PI gets the current limit as its own bound. A bound after the PI that the PI does not include would
+  // cause integral windup.
   if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
     out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
   return add_speed_law(s, basis, plant.full_Nm / J, plant.B_Nm_s / J, out);
@@ -118,10 +120,11 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
 
 base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
   const control::Mode mode = s.control.mode;
-  // A start without a rotor sensor controls a current, in every mode.
+  // A start without a rotor sensor controls a current, in every mode of control.
   const bool starts_blindly = s.control.drive == FirmwareKind::sensorless;
   if (mode == control::Mode::off || (mode == control::Mode::duty && !starts_blindly)) return {};
-  const bool in_the_field = s.control.drive == FirmwareKind::field;  // has its own current loops
+  const bool in_the_field = s.control.drive == FirmwareKind::field;  // the field-oriented drive has its own
+                                                                     // current loops
   const bool has_current_loop = mode == control::Mode::current || mode == control::Mode::duty ||
                                 starts_blindly || s.control.speed.output == SpeedOutput::current;
   if (has_current_loop && !in_the_field)
@@ -159,7 +162,7 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);
   add_position_profile(s, basis, out);
-  // Limits are judged for the designed drive; a drive of a series that varies from it is run in any case.
+  // Limits are judged for the designed drive. A drive of a series that deviates from it is run in any case.
   if (!s.designed_for) {
     base::Problems problems = check_limits(s, basis, out.drive);
     base::append(problems, check_position_profile(s, basis, out.drive));

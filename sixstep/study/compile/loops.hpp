@@ -9,8 +9,8 @@ namespace sixstep::study {
 /// can keep.
 base::Result<Tuned> tuned(const Scenario& scenario, const Basis& basis);
 
-/// The winding on which the current controller's voltage acts. With smooth chopping it is that of a pair with
-/// one switch chopped.
+/// The winding on which the current controller's voltage acts. With smooth chopping it is the winding of a
+/// pair with one chopped switch.
 design::LoopWinding winding_of(const Scenario& scenario, const design::MotorModel& motor);
 
 }  // namespace sixstep::study

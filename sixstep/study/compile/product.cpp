@@ -23,7 +23,8 @@ control::AdcConfig<double> decoded(const rig::AdcPath& path, double tolerance) {
       .offset_tolerance = static_cast<std::uint16_t>(std::min(std::ceil(tolerance / path.lsb()), 65535.0))};
 }
 
-/// Resolution of an edge's time in counts: captured by the timer, or found at a control tick.
+/// Resolution of an edge's time in timer counts: 1 if the timer captures edges, else the counts of a control
+/// period.
 std::uint32_t edge_grain(const Scenario& s) {
   const bool captured = s.pwm.commutation == CommutationAt::hall_edge && s.sensors.hall_stable_samples <= 1;
   if (captured) return 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real start of a chopped pulse.
+// The delay between the timer's edge and the real start of a chopped pulse.
 #pragma once
 #include "sixstep/study/scenario/scenario.hpp"
 

@@ -68,7 +68,7 @@ design::PulseSpec pulse_spec_of(const Scenario& s, const Basis& basis, double st
   return spec;
 }
 
-/// Renames problems: the rule names its own quantities, but a user's file has the scenario's keys.
+/// Renames problems: the design rule names its own quantities, but a user's file has the scenario's keys.
 base::Problems under_their_keys(const base::Problems& problems) {
   constexpr std::pair<const char*, const char*> keys[] = {
       {"greatest_load", "control.sensorless.greatest_load"},

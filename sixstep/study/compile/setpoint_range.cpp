@@ -10,9 +10,10 @@ namespace sixstep::study {
 
 namespace {
 
-/// Margin at a potentiometer's ends, because the converter's counts end there.
+/// Margin above the largest setpoint, because the converter's counts end at the potentiometer's ends.
 constexpr double room = 1.02;
-/// Samples of a moving setpoint; between two of them a sine rises by less than the margin.
+/// Number of points at which a moving setpoint is read. Between two of them a sine rises by less than the
+/// margin.
 constexpr int looks = 256;
 
 double largest(const rig::Action& action, double until_s) {

@@ -14,8 +14,9 @@ namespace sixstep::study {
 
 namespace {
 
-/// Limits of the signals that the drive, or the chip, computes from the windings. A sampled signal is half the
-/// difference of two samples, each rounded to a count; a converter chip's signal is one sample.
+/// Limits of the signals that the drive, or the converter chip, computes from the windings. The drive's
+/// signal is half the difference of two samples, each rounded to a count; a converter chip's signal is one
+/// sample.
 rig::ResolverWatch watch_of(const rig::ShaftSensorConfig& given) {
   const plant::Resolver r = rig::windings_of(given.resolver);
   const bool sampled = given.resolver.reading == rig::ResolverReading::sampled;
@@ -33,16 +34,19 @@ rig::ResolverWatch watch_of(const rig::ShaftSensorConfig& given) {
       whole = {.noise = whole.noise / std::min(whole.k_1, whole.k_2 * base::cos(r.quadrature_rad))};
   }
   const design::ResolverLimits limits = design::resolver_limits(whole);
-  // The first result after a fault is half of a sample before the fault, so that two results are needed.
+  // The first result after a fault still contains a sample from before the fault, so that two results are
+  // needed.
   const int results = sampled ? 2 : 1;
-  // Six standard deviations of normal noise are rarer than 10^-8; rounding adds up to a count.
+  // Normal noise exceeds six standard deviations less often than once in 10^8 samples; rounding adds up to
+  // one count.
   return {.least_square = limits.least_square,
           .greatest_square = limits.greatest_square,
           .silent = 6 * whole.noise + count,
           .in_a_row = std::max(limits.in_a_row, results)};
 }
 
-/// Designs the loop that tracks the resolver, the drive's or the chip's, and the monitoring.
+/// Designs the loop that tracks the resolver, in the drive or in the converter chip, and the monitoring of
+/// its signals.
 void take_resolver(const Scenario& s, rig::ShaftSensorConfig& to) {
   const Resolver& r = s.sensors.resolver;
   to.samples_per_peak = samples_per_peak(s);
@@ -54,11 +58,11 @@ void take_resolver(const Scenario& s, rig::ShaftSensorConfig& to) {
     to.tracking = design::tracking_config(*loop);
 }
 
-/// One period of the magnets counts as a turn of a linear motor.
+/// For a linear motor, one period of the magnets counts as a turn.
 void take_encoder(const Scenario& s, rig::ShaftSensorConfig& to) {
   if (!s.sensors.encoder.pitch_mm || !s.sheet.pole_pitch_mm) return;
   to.linear = true;
-  // check() allows up to a million, but a design can call this before check().
+  // check() allows up to a million lines, but a design can call this before check().
   to.encoder.lines = static_cast<int>(std::clamp(std::floor(lines_to_period(s) + 0.5), 0.0, 0x7fffffffp0));
   to.gear = base::times_ten_to(s.sheet.pole_pitch_mm->value, -3) / base::pi;
 }

@@ -15,7 +15,7 @@ double tracking_period_s(const Scenario& scenario);
 /// Copies the settings for speed and position between Hall edges.
 void take_hall_angle(const Scenario& scenario, rig::SensorsConfig& to);
 
-/// Lines of a linear motor's scale in two pole pitches; check() requires a whole number.
+/// Lines of a linear motor's scale in two pole pitches; check() requires a whole number of them.
 double lines_to_period(const Scenario& scenario);
 
 /// Returns the sensor's configuration. The kind is `none` with Hall probes and without a sensor.

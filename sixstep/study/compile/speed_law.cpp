@@ -9,8 +9,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Mean delay in samples of the speed controller's output: by the current loop, or by the winding if the output
-/// is a duty.
+/// Mean delay of the speed controller's output, in samples: by the current loop, or by the winding if the
+/// output is a duty.
 double lag_periods(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
   const double R_ohm = 2 * basis.motor.machine.R_ohm, L_H = 2 * basis.motor.machine.L_H;
   const double late = s.pwm.delay_periods + (s.pwm.sample == SampleAt::middle ? 0.5 : 0.0);

@@ -15,10 +15,11 @@ namespace {
 
 using rig::ActionKind;
 
-/// The number of the stuck line or track, with its level as the sign.
+/// The number of the stuck line or track, positive if the level is high and negative if it is low.
 double stuck_line(int line, bool high) { return high ? line : -1.0 * line; }
 
-/// The number of a word without `same`: the following words have the order of the other enumeration.
+/// The number of a word after `same`: the other words have the order of the enumeration without `same`, each
+/// one higher.
 template <class Word>
 constexpr double behind_same(Word word) {
   return static_cast<double>(static_cast<int>(word) - 1);
@@ -87,7 +88,8 @@ void add_event(const At& at, rig::Timeline& timeline) {
   if (at.request == DriveRequest::clear) add(ActionKind::clear_request, 1.0);
 }
 
-/// Adds configurations at the first control sample at or after their event, before the setpoint of that instant.
+/// Adds each event's configuration at the first control sample at or after it, before the setpoint of that
+/// instant.
 void add_tunings(const Scenario& s, rig::Timeline& timeline) {
   double number = 0.0;
   for (const At* at : in_order(s))
@@ -96,7 +98,7 @@ void add_tunings(const Scenario& s, rig::Timeline& timeline) {
           {{sample_from_ticks(s.pwm, sim::to_instant(at->time_s).ticks), 0.0}, ActionKind::retune, number++});
 }
 
-/// Adds each point at its time; with lines it moves linearly to the next point.
+/// Adds each point of a table at its time; with `lines` the value moves linearly to the next point.
 void add_table(ActionKind kind, const std::vector<double>& times_s, const std::vector<double>& values,
                Between between, rig::Timeline& timeline) {
   for (std::size_t n = 0; n < times_s.size(); ++n) {
@@ -120,7 +122,7 @@ void add_missed_edges(const Scenario& s, rig::Timeline& timeline) {
   }
 }
 
-/// Adds glitches as a Poisson process: their distances and their lines are drawn.
+/// Adds glitches as a Poisson process: the times between them and their lines are drawn.
 void add_glitches(const Scenario& s, rig::Timeline& timeline) {
   if (!(s.sensors.hall_glitches_Hz > 0)) return;
   const auto seed = static_cast<std::uint64_t>(s.sensors.seed);

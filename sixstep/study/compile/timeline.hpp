@@ -18,7 +18,8 @@ bool breaks_wire_or_switch(const Scenario& scenario);
 bool crosses_wires(const Scenario& scenario);
 /// Whether a Hall line reads its probe inverted at any time.
 bool inverts_a_hall_line(const Scenario& scenario);
-/// Whether the Hall probes show anything but the back-EMF's sectors, without delay and 120 degrees apart.
+/// Whether the Hall probes show anything but the back-EMF's sectors. Without delay and 120 degrees apart,
+/// they show these sectors.
 bool displaces_probes(const Scenario& scenario);
 
 /// Highest voltage of the source during the run.

@@ -38,7 +38,7 @@ MadeRun made_by(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
     case FirmwareKind::lean:
       break;
   }
-  // The lean drive has the same bits as the sensed one if the sensors are ideal.
+  // With ideal sensors, the lean drive gives the same bits as the drive with sensors.
   const bool alone = c.board.sensors.ideal() && !c.board.core && !c.general;
   return alone && s.control.arithmetic == Arithmetic::float64
              ? lean_run(s, c, std::move(timeline))

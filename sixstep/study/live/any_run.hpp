@@ -23,7 +23,8 @@ class AnyRun {
   virtual sim::Instant next_tick() const = 0;
   /// Advances up to the first event at or after slice.until, or to the end of the run.
   virtual sim::Stop advance(const sim::Instant& end, Slice& slice) = 0;
-  /// Samples the present instant. Due actions are executed in a copy, so that *this stays unchanged.
+  /// Samples the present instant. Actions due at this instant are executed in a copy, so that *this stays
+  /// unchanged.
   virtual void look(Slice& slice) const = 0;
   /// Replaces the run's future by that of `scenario`, whose past must be this run's.
   virtual base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline) = 0;

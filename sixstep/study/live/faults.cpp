@@ -69,7 +69,7 @@ void note_losses(const rig::Diagnosis& found, Outcome& out) {
       words.cure};
 }
 
-/// The problem of an encoder or a resolver whose signals an intact sensor cannot produce.
+/// The problem of an encoder or a resolver with signals that an intact sensor cannot produce.
 base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   using rig::ShaftLoss;
   const std::string part =
@@ -103,7 +103,7 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   return {};
 }
 
-/// "mine.so: the controller answered duty = 1.5 in step 20"
+/// Returns, for example, "mine.so: the controller answered duty = 1.5 in step 20".
 std::string answered(const rig::OwnFinding& found) {
   const std::string file = found.controller;
   const double x = found.value;
@@ -112,7 +112,7 @@ std::string answered(const rig::OwnFinding& found) {
          (found.in_hall ? " in its hall() after step " : " in step ") + std::to_string(found.steps);
 }
 
-/// The problem of a user's controller whose answer is not carried out.
+/// The problem of a user's controller whose answer the rig refuses.
 base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
   using rig::OwnWrong;
   switch (found.what) {

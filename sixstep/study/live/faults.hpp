@@ -6,14 +6,14 @@
 
 namespace sixstep::study {
 
-/// The problem that ended the run at t_s: after a shoot-through, or after a lean drive has lost the rotor's
-/// position, the run has no meaningful continuation.
+/// The problem that ended the run at t_s. The run has no meaningful continuation after a shoot-through, or
+/// after a lean drive has lost the rotor's position.
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s);
 
-/// The problem of a state that no motor can have (run_away.hpp).
+/// The problem of a state that no motor can reach (run_away.hpp).
 base::Problem ran_away(const plant::State<double>& state, double t_s);
 
-/// Notes in the outcome the wires that were to break and did not: one bit for each of a, b, c.
+/// Notes in the outcome the wires that should have broken and did not: one bit for each of a, b, c.
 void note_wires(unsigned still_closed, Outcome& out);
 
 /// Notes in the outcome the fault that the product drive has latched, if any.

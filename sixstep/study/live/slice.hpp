@@ -16,7 +16,7 @@ namespace sixstep::study::detail {
 struct LastSegment {
   std::variant<plant::Plant<double>, plant::general::Plant<double>> plant;
   sim::Instant from;
-  double part;  ///< simulated fraction of the polynomials' length
+  double part;  ///< fraction of the polynomials' length that was simulated
   int probe_sector;
 
   /// Sets the moving quantities of `row` to their values at t.
@@ -35,20 +35,20 @@ struct LastSegment {
   }
 };
 
-/// The observer of one slice. It forwards to all observers of the run, takes the row at the requested instant,
-/// and records how far ahead the segments were expanded. The slice ends after an event, so that
-/// no segment is cut. A whole run takes no row and is not changed.
+/// The observer of one slice. It forwards to all observers of the run, takes the row at the requested
+/// instant, and records how far the segments extend. The slice ends after an event, so that no segment is
+/// cut. In a whole run it takes no row and changes nothing.
 struct Slice {
   Observers& watchers;
   Present& present;
   std::optional<LastSegment>& last;
   sim::Instant until;   ///< instant of the row, within this segment
-  sim::Instant& reach;  ///< end of segments that skipped ticks: no change may occur before it
+  sim::Instant& reach;  ///< end of segments that skipped ticks: no change may occur before this instant
   std::int64_t period_ticks;
-  bool whole_run = false;  ///< runs to the end of the run, whatever `until` is
+  bool whole_run = false;  ///< continues to the end of the run, whatever `until` is
   bool unread = false;     ///< no row is taken
   bool taken = false;
-  bool stopped = false;  ///< by an observer, not at its end
+  bool stopped = false;  ///< stopped by an observer before the end of the slice
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -59,7 +59,8 @@ struct Slice {
     // A chip with its own clock has no ticks to skip.
     constexpr bool ticks = !requires { rig.firmware().next_stop(); };
     if (ticks && rig.next_tick().ticks - from.ticks > period_ticks) {
-      // The requested length, not the achieved one: a series that does not converge over all of it is shorter.
+      // The requested length, not the achieved one: a series that does not converge over the requested length
+      // is shortened.
       const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
     }

@@ -10,7 +10,7 @@
 
 namespace sixstep::study {
 
-/// For metrics that are not taken of one signal's curve.
+/// Used for metrics that are not computed from one signal's curve.
 struct NoGauge {
   void part(const Series&, int, double, double) {}
   void sample(double, double) {}

@@ -73,12 +73,12 @@ using FullRow = std::array<double, column_count>;
 
 /// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold NaN.
 bool applies(ColumnId id, control::Mode mode);
-/// The same for any mode of the run, and for the scenario's motor and supply.
+/// Whether a column has a meaning in any mode of the run, with the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);
 
 /// All columns: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
 const std::vector<Column>& all_columns();
-/// The same with a linear motor's names and units: speed_m_s, position_mm, force_N (base/linear.hpp). The
+/// All columns with a linear motor's names and units: speed_m_s, position_mm, force_N (base/linear.hpp). The
 /// scenario's recorded rows have these units; event rows keep the rotary motor's units.
 const std::vector<Column>& all_columns(design::MotorKind kind);
 

@@ -2,11 +2,11 @@
 // Measures the angle error of commutation: the rotor's electrical angle at each commutation minus the sector
 // edge of this commutation, in the direction of rotation. Late is positive.
 //
-//   the pair of sector k changes to that of k +- 1:   edge at 60 (k + 1) or 60 k degrees; half a turn away if the
-//                                                     current flows the other way round
+// The pair of sector k changes to that of sector k + 1 at 60 (k + 1) degrees, and to that of k - 1 at 60 k
+// degrees. If the current flows in the opposite direction, the edge is 180 degrees away.
 //
-// The gauge applies to every kind of position sensing. It leaves out a pair that jumps by more than one sector,
-// and a pair that follows an off state.
+// The gauge applies to every kind of position sensing. It leaves out a pair that jumps by more than one
+// sector, and a pair that follows an off state.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -21,7 +21,7 @@ class CommutationGauge {
   explicit CommutationGauge(const Window& window) : window_(window) {}
 
   void segment(const SegmentView& g, double);
-  /// deg, the largest magnitude; NaN if no pair changed in the window.
+  /// The error of the largest magnitude, degrees; NaN if no pair changed in the window.
   double worst_deg() const { return count_ > 0 ? worst_deg_ : std::numeric_limits<double>::quiet_NaN(); }
   double rms_deg() const {
     return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_))

@@ -23,7 +23,7 @@ class DeviceWatch {
  public:
   explicit DeviceWatch(const Bridge& bridge);
   void segment(const SegmentView& g, double s);
-  /// T1 to T6 in order; empty if no time has passed.
+  /// The devices T1 to T6 in order; empty if no time has passed.
   std::vector<DeviceLoss> losses() const;
 
  private:

@@ -9,8 +9,8 @@
 
 namespace sixstep::study {
 
-/// Observer of a run. It reads time, currents, speed, angle and bus at the begin of each segment. These are
-/// the values at the end of the previous segment, after the event. A copy continues from the original's
+/// Observer of a run. It reads time, currents, speed, angle and bus at the beginning of each segment. These
+/// are the values at the end of the previous segment, after the event. A copy continues from the original's
 /// state, like a copy of the rig.
 class Digest {
  public:

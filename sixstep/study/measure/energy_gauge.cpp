@@ -14,7 +14,7 @@ void EnergyGauge::segment(const SegmentView& g, double s) {
   if (seen.from > 0.0) add_up_to(g, seen.from, -1.0);
 }
 
-/// The segment's energies from its begin to s, times `sign`.
+/// Adds the segment's energies from its beginning to its fraction s, multiplied by `sign`.
 void EnergyGauge::add_up_to(const SegmentView& g, double s, double sign) {
   const plant::SegmentEnergy<double> e = g.plant.energy(s);
   const plant::Motion motion = g.plant.motion();
@@ -25,7 +25,7 @@ void EnergyGauge::add_up_to(const SegmentView& g, double s, double sign) {
   sum_.air_gap.add(sign * e.air_gap);
   sum_.friction.add(sign * (e.viscous + e.dry));
   sum_.load.add(sign * e.load);
-  const double squares = B > 0 && g.plant.lean ? e.viscous / B : 0.0;  // integral of w^2
+  const double squares = B > 0 && g.plant.lean ? e.viscous / B : 0.0;  // integral of w^2 over time
   sum_.load_friction.add(sign * (e.load_viscous + load_.viscous_Nm_s * squares +
                                  load_.coulomb_Nm * plant::against(motion, e.travel)));
 }

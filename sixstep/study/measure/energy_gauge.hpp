@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrates energies over a window and computes the efficiency from them, with the series of the energy book
-// (plant/segment_energy.hpp).
+// Integrates energies over a window and computes the efficiency from them, with the same series as the energy
+// book (plant/segment_energy.hpp).
 #pragma once
 #include <optional>
 
@@ -15,10 +15,10 @@ struct LoadFriction {
   double viscous_Nm_s = 0.0, coulomb_Nm = 0.0;
 };
 
-/// J over a window, in sums that keep their rounding errors.
+/// Energies over a window, J. The sums also keep their rounding errors.
 struct Energies {
   series::CompensatedSum<double> supplied, copper, devices, air_gap, friction, load;
-  series::CompensatedSum<double> load_friction;  ///< the load's share of friction
+  series::CompensatedSum<double> load_friction;  ///< the part of the friction that belongs to the load
 };
 
 class EnergyGauge {
@@ -28,11 +28,12 @@ class EnergyGauge {
       : window_(window), load_(load), switches_(switching.any()), losses_(switching) {}
 
   void segment(const SegmentView& g, double s);
-  /// J, for a signal that is a power; empty if no time of the window was simulated.
+  /// Energy in J for a signal that is a power; empty if no time of the window was simulated.
   std::optional<double> energy(Signal signal) const;
-  /// Energy out over energy in, 0 to 1. Motoring: energy to load and inertias over energy from the bus.
-  /// Braking, where both reverse: energy into the bus over energy from the shaft. 0 if shaft and bus both
-  /// supply the losses. Empty if no energy came in, or no time of the window was simulated.
+  /// Energy out over energy in, 0 to 1. Empty if no energy came in, or no time of the window was simulated.
+  /// - Motoring: energy to load and inertias over energy from the bus.
+  /// - Braking, where the energies reverse: energy into the bus over energy from the shaft.
+  /// - 0 if both shaft and bus supply the losses.
   std::optional<double> efficiency() const;
 
  private:

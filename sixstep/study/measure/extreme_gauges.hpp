@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures from the largest and the smallest value in a window. Parts of the signal that cannot change the value
-// that a figure uses are not searched.
+// Figures from the largest and the smallest value in a window. Parts of the signal that cannot change such a
+// value are not searched.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ class ExtremeGauge {
   }
   void part(const Series& c, int degree, double, double) {
     reading_.begin(c[0]);
-    // Most segments cannot change the extremes.
+    // A quick bound first, because most segments cannot change the extremes.
     const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
     if (holds({c[0] - reach, c[0] + reach})) return;
     const Extremes range = series::extremes(c, degree);

@@ -10,9 +10,9 @@ namespace sixstep::study {
 
 namespace {
 
-/// A window per reference step inside the measure's own window; without `start` the step goes from the level
-/// before to the new one. The reach time of a square's level counts the full level instead of the reversal's
-/// distance: this is the stricter reading of "98 %".
+/// A window per reference step inside the measure's own window. Without `start` the step goes from the
+/// preceding level to the new one. For a square wave the reach time counts a fraction of the full level
+/// instead of the reversal's distance: this is the stricter reading of "98 %".
 Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
   Gauges gauges;
   for (std::size_t n = 0; n < levels.size(); ++n) {
@@ -26,8 +26,8 @@ Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window wi
   return gauges;
 }
 
-/// A window for each level of the reference within the measure's own window: the level's tail, or all of it if
-/// the window's begin was chosen.
+/// A window for each level of the reference within the measure's own window: the level's tail, or the whole
+/// level if the measure gives from_s.
 Gauges level_gauges(const Measure& m, const std::vector<Level>& levels, Window window) {
   const double tail = m.tail.value_or(m.from_s ? 1.0 : default_tail);
   Gauges gauges;
@@ -63,8 +63,8 @@ double value_of(const Gauges& gauges, const Measure& m) {
 }
 double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
-/// Whether a figure of samples is also computed from the whole signal, because all samples lie at one place
-/// of the PWM's ripple. False for times until a band, because the ripple can leave the band.
+/// Whether a figure of samples is also computed from the whole signal, because all samples lie at the same
+/// phase of the PWM ripple. False for times until a band is reached, because the ripple can leave the band.
 bool looks_beside_samples(const Measure& m) {
   return m.sampled && fact_of(m.metric).of == TakenOf::signal && !is_time(m.metric);
 }
@@ -80,20 +80,22 @@ bool tells_apart(const Requirement& r, double samples, double whole) {
   return meets(r, samples) != meets(r, whole);
 }
 
-/// Whether ripple does not enter the figure: samples at the ripple's mean then give the whole signal's value.
+/// Whether the figure averages the ripple out. Samples at the ripple's mean then give the whole signal's
+/// value.
 bool levels_the_ripple(MetricKind metric) {
   return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
 }
 
-/// False for comparators, which need no sample; for a deadbeat step, which answers a sample at the period's
-/// start; and for three legs, which have their own sample instant.
+/// Whether a sample in the middle of the period is possible. It is not for comparators, which need no sample;
+/// for a deadbeat step, which answers a sample at the period's start; and for three legs, which have their
+/// own sample instant.
 bool may_sample_in_the_middle(const Control& c) {
   return (c.drive == FirmwareKind::lean || c.drive == FirmwareKind::product) &&
          c.current.type == CurrentLoopType::pi;
 }
 
-/// A current passes its mean in the middle of a centred pulse, apart from a dead time that delays the pulse.
-/// A maximum, an overshoot or a ripple includes the ripple at any sample instant.
+/// The current equals its mean in the middle of a centred pulse, except that a dead time delays the pulse. A
+/// maximum, an overshoot or a ripple includes the ripple at any sample instant.
 std::string cure_of_samples(const Scenario& s, const Measure& m) {
   std::string whole = "sampled = false judges the whole signal";
   if (!levels_the_ripple(m.metric)) return whole + ", with the ripple between the samples";
@@ -161,7 +163,7 @@ Figures::Figures(const Scenario& scenario, const std::vector<Level>& levels) {
 
 namespace {
 
-/// Names the figures whose window begins after the trip: they describe a motor that coasts.
+/// Names the figures whose window begins after the drive's trip, because they describe a motor that coasts.
 void note_coasting(const Scenario& s, Outcome& outcome) {
   if (!outcome.trip) return;
   std::string which;
@@ -183,7 +185,7 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
     const Figure& figure = figures_[n++];
     const double v =
         std::visit([&](const auto& gauge) { return value_of(gauge, figure.measure); }, figure.taken_by);
-    // A time may be infinite; another infinite value is invalid.
+    // A time may be infinite; any other infinite value is invalid.
     return is_time(figure.measure.metric) || v - v == 0.0 ? v : nothing;
   };
   std::vector<double> judged;

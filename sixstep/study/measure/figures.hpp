@@ -18,7 +18,7 @@
 
 namespace sixstep::study {
 
-/// One per step or level of the reference, in the order of their windows; the worst one counts.
+/// One gauge per step or level of the reference, in the order of their windows; the worst one counts.
 using Gauges = std::vector<Gauge>;
 
 /// The parts of the figures that measure: each reads segments and returns its value at the end.
@@ -77,12 +77,13 @@ class Figures {
   };
   void watch(const SegmentView& g, double s);
 
-  std::vector<Figure> figures_;  ///< requirements, comparisons, and whole signals of sampled ones
+  std::vector<Figure> figures_;  ///< figures of requirements and comparisons, and the whole signals of
+                                 ///< sampled figures
 };
 
 /// Name of a measure without a label: "settling time of motor current".
 std::string figure_name(const Measure& measure);
-/// The same in the words of the scenario's motor: "final force".
+/// The name of a measure in the words of the scenario's motor: "final force".
 std::string figure_name(const Scenario& scenario, const Measure& measure);
 
 /// Unit of a figure in results, with its factor: a linear motor's unit replaces that of measure_choices.hpp.

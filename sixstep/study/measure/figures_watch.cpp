@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of the figures that runs at each segment: the only one worth compiling for speed (CMakeLists.txt).
+// The part of the figures that runs at each segment. Only this part is worth compiling for speed
+// (CMakeLists.txt).
 #include "sixstep/study/measure/figures.hpp"
 
 namespace sixstep::study {

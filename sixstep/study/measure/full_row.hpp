@@ -39,7 +39,7 @@ inline void set_load_side(FullRow& row, const plant::Plant<double>& plant, doubl
   of(ColumnId::winding_degC) = of(ColumnId::housing_degC) = of(ColumnId::junction_degC) = design::sheet_degC;
   of(ColumnId::load_speed) = of(ColumnId::speed);
   of(ColumnId::load_angle) = of(ColumnId::angle);
-  of(ColumnId::source_A) = of(ColumnId::bus_A);  // with a stiff bus the two are equal
+  of(ColumnId::source_A) = of(ColumnId::bus_A);  // with a stiff bus, source current and bus current are equal
   if (!(c.inv_C > 0)) return;
   const double above = c.V_0 - series::evaluate(bus, plant.expansion().degree, s);
   of(ColumnId::source_A) = plant.mode().source_feeds ? above * c.inv_R_b : 0.0;

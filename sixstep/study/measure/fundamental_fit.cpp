@@ -17,8 +17,8 @@ void FundamentalFit::take(const Integrals& part) {
     series::add_compensated(sums_.pair[k], low_.pair[k], part.pair[k]);
 }
 
-/// The distance from the reference to the fit: the normal equations solved by L D L'. A function that is almost
-/// a sum of the others gets no component.
+/// The distance from the reference to the fit, from the normal equations by L D L' decomposition. A function
+/// that is almost a sum of the others gets no component.
 FundamentalFit::Three FundamentalFit::step_to_fit() const {
   constexpr double made_up = 0x1p-40;
   const Integrals& f = sums_;
@@ -53,8 +53,8 @@ void FundamentalFit::move_reference(const Three& by) {
   if (sums_[rr] < 0.0) sums_.set(rr, 0.0), low_.set(rr, 0.0);
 }
 
-/// Sets the reference through three points of a part that is far longer than all before it, or that is the
-/// first, because an extrapolated reference would be far away.
+/// Sets the reference through three points of a part that is the first, or far longer than all parts before
+/// it: an extrapolated reference would be far away from such a part.
 void FundamentalFit::pass_through(const std::array<Phase, 3>& at, const Three& distance) {
   const double s_1 = at[1].sin - at[0].sin, s_2 = at[2].sin - at[0].sin;
   const double v_1 = at[1].versine - at[0].versine, v_2 = at[2].versine - at[0].versine;
@@ -77,7 +77,7 @@ double FundamentalFit::distortion() const {
   const double d_s = f[ss] - f[s] * f[s] / f[one], d_sv = f[sv] - f[s] * f[v] / f[one],
                d_v = f[vv] - f[v] * f[v] / f[one];
   const double sin = all.reference_[1],
-               cos = all.reference_[2];  // for 1 - cos: its sign and its mean cancel
+               cos = all.reference_[2];  // for 1 - cos instead of cos: the sign changes, and the mean cancels
   return std::sqrt(all.sums_[rr] / (sin * sin * d_s + 2 * sin * cos * d_sv + cos * cos * d_v));
 }
 

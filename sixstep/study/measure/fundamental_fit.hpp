@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits 1, cos and sin to a signal by least squares, part by part, and computes the residual.
 //
-// The fit sums the normal equations. It sums the squared distance of the signal from a reference, which is a
-// fundamental close to the fit. So the residual is not a difference of large squares, and a pure sine leaves
-// a residual of rounding's size instead of its root. A reference moved by d changes the sums by closed forms,
+// The fit sums the normal equations. It also sums the squared distance of the signal from a reference, which
+// is a fundamental close to the fit. So the residual is not a difference of large squares, and a pure sine
+// leaves a residual of rounding's size instead of its root. If the reference is moved by d, the sums change
+// by closed forms,
 //   sum (r - d f)^2 = sum r^2 - 2 d . sum r f + d . (sum f f) d,
-// so no part is read twice. The reference is set to the fit whenever the length so far has doubled: a new part
-// then lies at most as far from the fit as all before it, some ripples away.
+// so that no part is read twice. The reference is set to the fit whenever the length so far has doubled. A
+// new part then lies at most as far from the fit as all parts before it.
 //
-// The functions are 1, sin p and 1 - cos p of the phase p since the begin. They span the same space as 1, cos
-// and sin. Their sums keep their digits also over the first degrees, where 1 and cos are almost equal.
+// The functions are 1, sin p and 1 - cos p of the phase p since the beginning. They span the same space as 1,
+// cos and sin. Their sums keep their digits also over the first degrees, where 1 and cos are almost equal.
 #pragma once
 #include <array>
 
@@ -24,8 +25,8 @@ struct Phase {
 };
 Phase phase_of(double rad);
 
-/// A part of the signal at the nodes of a Gauss rule. Turns are in rad since the part's begin, 1/2 at most.
-/// Weights are for the variable of integration, which need not be the phase.
+/// A part of the signal at the nodes of a Gauss rule. `turn` is in rad since the part's beginning, 1/2 at
+/// most. Weights are for the variable of integration, which need not be the phase.
 template <int points>
 struct FittedPart {
   series::Nodes<points, double> weight, turn, signal;
@@ -33,10 +34,10 @@ struct FittedPart {
 
 class FundamentalFit {
  public:
-  /// Adds a part; parts must be contiguous. `begin` is the phase at this part's begin.
+  /// Adds a part; parts must be contiguous. `begin` is the phase at this part's beginning.
   template <int points>
   void add(const Phase& begin, const FittedPart<points>& part);
-  /// rms of the distortion over rms of the fundamental; NaN if the signal is zero.
+  /// Distortion: rms of the residual over rms of the fundamental; NaN if the signal is zero.
   double distortion() const;
 
  private:
@@ -76,8 +77,8 @@ class FundamentalFit {
 
 namespace detail {
 
-/// sin x and 1 - cos x with all their digits, with one term per point: a rule of n points is used for turns x
-/// with x^(2 n) below 2^-53 (2 n)!.
+/// sin x and 1 - cos x with all their digits. The series have one term per point, because a rule of n points
+/// is used only for turns x with x^(2 n) below 2^-53 (2 n)!.
 template <int points>
 [[gnu::always_inline]] inline void small_turn(const series::Nodes<points, double>& x,
                                               series::Nodes<points, double>& sin,
@@ -95,7 +96,7 @@ template <int points>
 
 }  // namespace detail
 
-/// Sums of products that keep their digits if both angles are small.
+/// Sine and versine of the summed phase, by sums of products that keep their digits if both angles are small.
 template <int points>
 [[gnu::always_inline]] inline FundamentalFit::Phases<points> FundamentalFit::phases_of(
     const Phase& begin, const series::Nodes<points, double>& turn) {
@@ -123,7 +124,7 @@ template <int points>
 void FundamentalFit::add(const Phase& begin, const FittedPart<points>& part) {
   const Phases<points> at = phases_of<points>(begin, part.turn);
   auto weight = part.weight;
-  if constexpr (points % 2 != 0) weight.set(points, 0.0);  // the unused lane
+  if constexpr (points % 2 != 0) weight.set(points, 0.0);  // one lane is unused with an odd number of points
   constexpr double far_more = 8.0;
   if (series::totals(weight, weight)[0] > far_more * sums_[one]) {
     const auto off = distance<points>(at, part.signal);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures one figure of merit of a signal over one window, from the trajectory's polynomials: exact integrals,
-// extremes and crossings, without samples between which something could be missed. mean_gauges.hpp,
+// Measures one figure of merit of a signal over one window, from the trajectory's polynomials: exact
+// integrals, extremes and crossings. No event between samples can be missed. mean_gauges.hpp,
 // extreme_gauges.hpp and step_gauges.hpp define the single figures.
 #pragma once
 #include <optional>
@@ -13,12 +13,12 @@ namespace sixstep::study {
 class Gauge {
  public:
   /// A step goes from `start` to `level` (reach, rise and settling times, overshoot); errors are counted from
-  /// `level`. Without `start` the step starts at the signal's value at the window's begin.
+  /// `level`. Without `start` the step starts at the signal's value at the window's beginning.
   Gauge(const Measure& measure, Window window, double level, std::optional<double> start);
 
   const Window& window() const { return window_; }
-  /// Whether a signal within its bounds cannot change the result, so that its part may be left out. `bounds` is
-  /// called only for figures where that is possible.
+  /// Whether a signal within its bounds cannot change the result, so that this part of the signal may be left
+  /// out. `bounds` is called only for figures where a part can be left out.
   template <class Bounds>
   bool holds(Bounds&& bounds) const {
     return std::visit(
@@ -34,8 +34,8 @@ class Gauge {
   void part(const Series& c, int degree, double t0, double length);
   /// Adds a value that the controller sampled (measures with `sampled`).
   void sample(double t, double value);
-  /// Infinite if the level was never reached or the signal never settled; empty if no time of the window was
-  /// simulated.
+  /// The figure's value. Infinite if the level was never reached or the signal never settled; empty if no
+  /// time of the window was simulated.
   std::optional<double> value() const;
 
  private:

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double whole_turn = 6 * base::sector_rad;
 
-/// Largest angle in rad by which a part turns, with a given frequency.
+/// Largest angle in rad by which a part of the signal turns if the frequency is given.
 constexpr double largest_turn = 0.5;
 
 /// The least even degree n after which the series of cos x and sin x have no term above rounding: x^n/n! <=
 /// 2^-53. Products with them are integrated like those of the engine's own series of that degree
 /// (series/quadrature.hpp).
 constexpr int degree_of_turn(double rad) {
-  constexpr double largest[] = {0.0065, 0.038, 0.115, 0.247, 0.437};  // for 6, 8, .. 14
+  constexpr double largest[] = {0.0065, 0.038, 0.115, 0.247, 0.437};  // for degrees 6, 8, .. 14
   int degree = 6;
   for (const double x : largest) {
     if (rad <= x) break;
@@ -53,14 +53,14 @@ void HarmonicGauge::segment(const SegmentView& g, double s) {
   });
 }
 
-/// Electrical rad since the window's begin.
+/// Electrical angle in rad since the window's beginning.
 double HarmonicGauge::swept(const SegmentView& g, double s) const {
   const plant::Expansion<double>& y = g.plant.expansion();
   return static_cast<double>(g.plant.state().sector - first_sector_) * base::sector_rad +
          (series::evaluate(y.x, y.degree, s) - first_x_);
 }
 
-/// Adds a part of the signal. If it completes a turn, the fit up to there is stored.
+/// Adds a part of the signal. If the part completes a turn, the fit up to the end of that turn is stored.
 void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double moved = swept(g, to) - swept(g, from);
@@ -85,16 +85,17 @@ void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, doub
   if (root < 1.0) turn_part(g, share(root, 1.0), full, to);
 }
 
-/// Phase since the window's begin. Whole turns are left out, so that they cost no digits.
+/// Phase since the window's beginning. Whole turns are left out, so that they cost no digits.
 Phase HarmonicGauge::phase_at(const SegmentView& g, double s) const {
   const plant::Expansion<double>& y = g.plant.expansion();
   const double sectors = static_cast<double>((g.plant.state().sector - first_sector_) % 6);
   return phase_of(sectors * base::sector_rad + (series::evaluate(y.x, y.degree, s) - first_x_));
 }
 
-/// The electrical angle turns no faster than the series of a segment change, so that their degree determines
-/// the number of points. Products have three factors here, because the speed is the weight. The bound of
-/// series/quadrature.hpp is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 for n of 8 or more.
+/// The series of a segment change at least as fast as the electrical angle turns, so that their degree
+/// determines the number of points. Products have three factors here, because the speed is the weight. The
+/// bound of series/quadrature.hpp is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 for n of 8
+/// or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.pole_pairs() * e.h * (to - from);
@@ -103,7 +104,7 @@ void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from,
   series::with_points_for(std::max({e.degree, 8, degree_of_turn(turn)}), [&]<int points>() {
     using series::values_at;
     const auto node = series::nodes_up_to<points>(1.0), at = from + (to - from) * node;
-    auto angle = per_s * values_at<points>(e.w, e.degree, at);  // of this part, per unit of weight
+    auto angle = per_s * values_at<points>(e.w, e.degree, at);  // angle within this part, per unit of weight
     for (int k = 0; k < points; ++k) {
       if (angle[k] < 0.0) turned_back_ = true;
       if (!(angle[k] > 0.0)) angle.set(k, 0.0);
@@ -141,7 +142,8 @@ void HarmonicGauge::time_part(const SegmentView& g, const Piece& y, double from,
 std::optional<double> HarmonicGauge::thd() const {
   if (frequency_Hz_) {
     const double periods = whole_periods(window_, *frequency_Hz_);
-    const bool all = seconds_ * *frequency_Hz_ >= periods - 2 * whole_enough;  // else the run ended early
+    // false: the run ended within the window
+    const bool all = seconds_ * *frequency_Hz_ >= periods - 2 * whole_enough;
     return periods >= 1.0 && all ? std::optional(fit_.distortion()) : std::nullopt;
   }
   if (turned_back_) return std::nullopt;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures fundamental and distortion of a signal over whole periods by a least-squares fit of 1, cos and sin.
-// The residual is everything except mean and fundamental. Over whole periods the three are orthogonal, and the
-// fit gives the Fourier coefficients. All harmonics count, and none is a difference of large squares
-// (fundamental_fit.hpp): a pure sine shows a distortion of rounding's size instead of its root.
+// Measures fundamental and distortion of a signal over whole periods by a least-squares fit of 1, cos and
+// sin. The residual is everything except mean and fundamental. Over whole periods the three functions are
+// orthogonal, and the fit gives the Fourier coefficients. All harmonics count, and no result is a difference
+// of large squares (fundamental_fit.hpp): a pure sine shows a distortion of rounding's size instead of its
+// root.
 //
-// Integrals are Gauss sums over each segment's own polynomial. The phase is computed once per segment, from the
-// time or the angle since the window's begin, so that it does not drift; from there the nodes are less than a
-// radian away, and a few terms of a series suffice.
+// Integrals are Gauss sums over each segment's own polynomial. The phase is computed once per segment, from
+// the time or the angle since the window's beginning, so that it does not drift. From this phase the nodes
+// are less than a radian away, and a few terms of a series suffice.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,9 +20,9 @@ namespace sixstep::study {
 
 class HarmonicGauge {
  public:
-  /// Without a frequency the fundamental follows the electrical angle, and its periods are whole turns from the
-  /// window's begin on; integrals are then over the angle. Ripple of the speed then causes no distortion, and
-  /// no frequency is required. With a frequency, integrals are over time and whole periods of it.
+  /// Without a frequency the fundamental follows the electrical angle. Its periods are whole turns from the
+  /// window's beginning on, and integrals are over the angle. Ripple of the speed then causes no distortion,
+  /// and no frequency is required. With a frequency, integrals are over time and whole periods of it.
   HarmonicGauge(const Window& window, Signal signal, std::optional<double> frequency_Hz);
 
   void segment(const SegmentView& g, double s);
@@ -38,13 +39,14 @@ class HarmonicGauge {
   Window window_;
   Signal signal_;
   std::optional<double> frequency_Hz_;
-  FundamentalFit fit_, whole_;  ///< all so far; up to the last whole turn
+  FundamentalFit fit_, whole_;  ///< all turns so far; whole_: up to the last whole turn
   bool begun_ = false, turned_back_ = false;
-  std::int64_t first_sector_ = 0;  ///< at the window's begin: sectors passed and angle within
+  std::int64_t first_sector_ = 0;  ///< at the window's beginning: sectors passed, and angle within the sector
   double first_x_ = 0.0;
   double direction_ = 0.0;
   std::int64_t turns_ = 0;
-  double swept_ = 0.0;  ///< electrical rad since the window's begin, positive in the direction of rotation
+  double swept_ = 0.0;  ///< electrical rad since the window's beginning, positive in the direction of
+                        ///< rotation
   double seconds_ = 0.0;
 };
 

@@ -21,14 +21,14 @@ class HysteresisGauge {
   explicit HysteresisGauge(const Window& window = {}) : window_(window) {}
 
   /// Adds one segment, up to its fraction s, for every armed comparator. Segments outside of the window are
-  /// followed as well, because they decide which deviations are excused at the window's begin.
+  /// followed as well, because they decide which deviations are excused at the window's beginning.
   void segment(const SegmentView& g, double s);
   const HysteresisFigures& figures() const { return figures_; }
 
  private:
-  /// The last state of one comparator. A new reference excuses both limits until the current is back in the
-  /// band. A sector edge excuses only the lower limit: the mean of two phases drops there, and nothing makes it
-  /// rise.
+  /// The last state of one comparator. A new reference excuses deviations from both limits until the current
+  /// is back in the band. A sector edge excuses only the lower limit, because the mean of two phases drops
+  /// there and never rises.
   struct Watched {
     int sector = -1;
     double key = 0.0;  ///< upper limit with the sign of the reference

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Separates the iron's drag from the bearings' friction: integrals in J of B_iron w^2 and of the dry drag over
-// the motor shaft's angle, by the segments' own series (model.md 7). The gauge exists only if the sheet gives
-// the two separately.
+// Separates the iron's drag from the bearings' friction: integrals in J of B_iron w^2 and of the dry drag
+// over the motor shaft's angle, by the segments' own series (model.md 7). The gauge exists only if the sheet
+// gives the iron's drag and the bearings' friction separately.
 #pragma once
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/plant/state.hpp"
@@ -14,7 +14,7 @@ class IronGauge {
  public:
   explicit IronGauge(const design::IronDrag& iron) : iron_(iron) {}
 
-  /// Adds [0, s] of the plant's segment.
+  /// Adds the plant's segment from its beginning to its fraction s.
   template <class Plant>
   void segment(const Plant& plant, double s) {
     if (!plant::turns(plant.mode().motion)) return;

@@ -13,7 +13,7 @@ inline void set_lines(LogicRow& row, std::uint8_t pins) {
     row[static_cast<std::size_t>(LogicId::encoder_A) + n] = pins >> (2 - n) & 1U;
 }
 
-/// Sets the encoder's signals at the segment's begin.
+/// Sets the encoder's signals at the segment's beginning.
 template <class Rig>
 void set_encoder(LogicRow& row, const Rig& rig) {
   auto& code = row[static_cast<std::size_t>(LogicId::absolute_code)];
@@ -52,7 +52,8 @@ LogicRow logic_row(const Rig& rig) {
   set(LogicId::pwm, modulator.enabled() && modulator.drives() ? 1 : 0);
   for (int which = 0; which < 2; ++which) {
     const rig::ArmedComparator c = modulator.comparator(which);
-    const std::uint32_t output = c.switches_off ? 1 : 0;  // it is on while it waits to switch off
+    const std::uint32_t output = c.switches_off ? 1 : 0;  // while the comparator waits to switch off, its
+                                                          // output is on
     row[static_cast<std::size_t>(LogicId::comparator_1) + static_cast<std::size_t>(which)] =
         c.armed ? output : logic_unknown;
   }

@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// Adds the switchings at a segment's begin, if it lies within the window.
+/// Adds the switchings at a segment's beginning, if it lies within the window.
 inline void begin_segment(plant::DeviceLosses& losses, const SegmentView& g, const Window& window) {
   const auto& y = g.plant.expansion();
   losses.begin(g.plant.legs(), plant::PerLeg<double>{y.i[0][0], y.i[1][0], y.i[2][0]}, y.bus[0],
@@ -24,7 +24,7 @@ class SwitchingLossGauge {
     begin_segment(losses_, g, window_);
     last_s_ = std::fmin(g.t_s + g.plant.expansion().h * s, window_.to_s);
   }
-  /// W; NaN if the run ended before the window.
+  /// Mean loss in W; NaN if the run ended before the window.
   double value() const {
     if (!(last_s_ > window_.from_s)) return std::numeric_limits<double>::quiet_NaN();
     return losses_.switching() / (last_s_ - window_.from_s);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures by integrals over a window, and the value at its end. Each reads, like all parts of gauge.hpp,
-// either the signal over [t0, t0 + length] as a polynomial of s in [0, 1], or the controller's samples.
+// Figures by integrals over a window, and the value at its end. Each figure reads, like all parts of
+// gauge.hpp, either the signal over [t0, t0 + length] as a polynomial of s in [0, 1], or the controller's
+// samples.
 #pragma once
 #include <cmath>
 
@@ -35,7 +36,7 @@ class Mean {
   double integral_ = 0.0, seconds_ = 0.0;
 };
 
-/// level - mean.
+/// The level minus the signal's mean.
 class SteadyError {
  public:
   explicit SteadyError(double level) : level_(level) {}
@@ -64,7 +65,7 @@ class Rms {
   double integral_ = 0.0, seconds_ = 0.0;
 };
 
-/// Rms about the mean, which is unknown before the end.
+/// Rms about the mean. The mean is unknown before the end, so that intervals are merged.
 class RippleRms {
  public:
   void part(const Series& c, int degree, double, double length) {

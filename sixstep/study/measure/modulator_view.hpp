@@ -10,7 +10,7 @@
 
 namespace sixstep::study {
 
-/// Points to one of the three.
+/// Points to the modulator that the rig has; the other two pointers are null.
 struct ModulatorView {
   const rig::SixStepModulator* pair = nullptr;
   const rig::ThreeLegModulator* legs = nullptr;
@@ -26,7 +26,7 @@ struct ModulatorView {
   std::int64_t turn_ons() const {
     return pair ? pair->turn_ons() : legs ? legs->turn_ons() : pins->turn_ons();
   }
-  /// Number of switches that are chopped side by side; turn_ons() counts all of them.
+  /// Number of switches that are chopped at the same time; turn_ons() counts all of them.
   int chopped() const { return legs ? 3 : 1; }
   /// Whether the bus voltage is applied between two legs: the source's switch is commanded on, or the three
   /// legs' commands differ.
@@ -41,7 +41,7 @@ struct ModulatorView {
   }
 };
 
-/// The largest difference between two legs' duties in effect; for a driven pair it would be the pair's duty.
+/// The largest difference between the duties of two legs; for a driven pair this would be the pair's duty.
 inline double duty_between(const control::LegCommands<double>& c) {
   if (!c.enabled) return 0.0;
   const auto [least, most] = std::minmax({c.leg[0].duty, c.leg[1].duty, c.leg[2].duty});

@@ -19,7 +19,7 @@ struct Verdict {
   std::string figure;  // "settling time of current"
   std::string unit;
   double measured = 0.0;
-  std::optional<double> min, max;  // the requirement
+  std::optional<double> min, max;  // bounds of the requirement
   bool ok = false;
 };
 
@@ -27,7 +27,7 @@ struct ComparisonResult {
   std::string figure;
   std::string unit;
   double measured = 0.0;
-  double value = 0.0;  // the source's value
+  double value = 0.0;  // value of the source to compare with
   std::string source;
 };
 
@@ -44,15 +44,16 @@ struct LoopGains {
   std::string loop;           // "current", "speed", "position"
   double d1 = 0.0, d0 = 0.0;  // position: d1 is the gain, d0 = 0
   std::string origin;         // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
-  std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
-  std::vector<design::DerivationStep> steps{};  // of a law that is no PI: d1 is its gain on the error, d0 = 0
+  std::optional<design::PolePlacement> derivation;  // derivation of the exact design for the same loop
+  std::vector<design::DerivationStep> steps{};  // derivation of a law that is no PI: d1 is its gain on the
+                                                // error, d0 = 0
 };
 
-/// The product drive turned the bridge off and latched the reason; the motor then coasted to the end of the
-/// run.
+/// A trip: the product drive turned the bridge off and latched the reason; the motor then coasted to the end
+/// of the run.
 struct Trip {
-  double at_s = 0.0;                 // the tick that latched it
-  std::vector<std::string> reasons;  // "over-current"; all that were detected in that tick
+  double at_s = 0.0;                 // time of the tick that latched the reason
+  std::vector<std::string> reasons;  // such as "over-current"; all that were detected in that tick
   int hall_line = 0;                 // 1..3: the faulty line; 0: none or undecidable
 };
 
@@ -60,7 +61,7 @@ struct Trip {
 /// equalled the host's to the bit, unless there is a fault.
 struct CoreRun {
   std::string core;         // "Cortex-M4F"
-  std::uint64_t calls = 0;  // of its entry functions
+  std::uint64_t calls = 0;  // calls of the core's entry functions
 };
 
 /// A chip that ran its own firmware instead of the library's drive (rig/chip_drive.hpp).
@@ -69,7 +70,7 @@ struct ChipReport {
   double clock_Hz = 0.0, period_s = 0.0;
   rig::ChipTimes times;
   double latest_edge_s = 0.0;  // largest delay of a shown Hall edge
-  std::string sent;            // by its serial line, in whole lines
+  std::string sent;            // text from the chip's serial line, in whole lines
 
   /// Whether periods passed without a control interrupt; the last one may still be unanswered.
   bool overran() const { return times.periods > times.conversions + 1; }
@@ -83,21 +84,23 @@ struct Outcome {
   std::vector<DeviceLoss> devices;  // empty if the bridge lacks values (tells_losses)
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
-  std::vector<design::DerivationStep> sensorless_steps;  // how a sensorless drive's numbers follow
-  std::vector<design::DerivationStep> field_steps;       // a field-oriented drive's
-  std::vector<design::DerivationStep> estimator_steps;   // its estimator's
+  std::vector<design::DerivationStep> sensorless_steps;  // derivation of a sensorless drive's numbers
+  std::vector<design::DerivationStep> field_steps;       // derivation of a field-oriented drive's numbers
+  std::vector<design::DerivationStep> estimator_steps;   // derivation of its estimator's numbers
   design::MotorModel motor;
-  std::optional<base::Problem> fault;  // of the run (shoot-through, impossible Hall code) or of the drive
-  std::optional<Trip> trip;            // the same in parts, if the drive stopped
+  std::optional<base::Problem> fault;  // fault of the run (shoot-through, impossible Hall code) or of the
+                                       // drive
+  std::optional<Trip> trip;            // the same fault in parts, if the drive stopped
   std::vector<std::string> notes;      // requested events that did not occur, a sentence each
-  std::vector<std::string> remarks;    // unasked explanations, a sentence each (run/remarks.hpp)
+  std::vector<std::string> remarks;    // explanations that the run gives unasked, a sentence each
+                                       // (run/remarks.hpp)
   std::optional<CoreRun> core;         // empty: only the host ran
   std::optional<ChipReport> chip;      // empty: no chip
   double simulated_s = 0.0;
   std::int64_t segments = 0;
-  std::int64_t turn_ons = 0;  // of the chopped leg, which commutation changes, or of three upper switches
-  int chopped_switches = 1;   // the switches that turn_ons counts
-  std::uint64_t digest = 0;   // of every bit of the trajectory (study/measure/digest.hpp)
+  std::int64_t turn_ons = 0;  // of the chopped leg, which commutation changes, or of all three upper switches
+  int chopped_switches = 1;   // number of switches that turn_ons counts
+  std::uint64_t digest = 0;   // digest of every event of the trajectory (study/measure/digest.hpp)
 
   bool passed() const {
     for (const Verdict& v : verdicts)

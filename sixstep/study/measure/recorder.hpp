@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Observers that write rows: on a grid, or at every event with both sides of each jump. They only read the
-// dense output, so the run keeps its bits.
+// segments' polynomials, so the run keeps its bits.
 #pragma once
 #include <functional>
 #include <limits>
@@ -36,7 +36,8 @@ class Selection {
     sound_ = all == 0.0;
     return differs;
   }
-  /// Whether all numbers of the row are finite. A run-away can produce others before the run stops.
+  /// Whether all numbers of the row are finite. A run-away can produce infinite numbers or NaN before the run
+  /// stops.
   bool sound() const { return sound_; }
   std::span<const double> row() const { return row_; }
 
@@ -62,8 +63,8 @@ class Selection {
   bool sound_ = true;
 };
 
-/// Writes rows at n * grid up to the end of the run, and at the end itself if it lies on the grid. At a jump
-/// the row has the value after it.
+/// Writes rows at n * grid up to the end of the run; the end itself has a row only if it lies on the grid. At
+/// a jump the row has the value after the jump.
 class GridRecorder {
  public:
   GridRecorder(std::int64_t grid_ticks, sim::Instant end, const std::vector<std::size_t>& columns,
@@ -76,7 +77,8 @@ class GridRecorder {
     const sim::Instant from = rig.now(), to = from.plus_seconds(length);
     for (;;) {
       const bool last = next_ == end_ && sim::seconds_between(to, end_) <= 0.5e-12;
-      // A segment's end between picoseconds is rounded: a row on it belongs to the next segment.
+      // A segment's end between two picoseconds is rounded. A row at this rounded instant belongs to the next
+      // segment.
       if (!(sim::seconds_between(next_, to) > 0x1p-50 * length) && !last) return;
       const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
       selection_.follow(rig.firmware().mode());
@@ -93,8 +95,8 @@ class GridRecorder {
   RowSink sink_;
 };
 
-/// Writes both ends of every segment, and points between if a segment is long compared with `gap_s`, so that
-/// lines from row to row show the curve. A row equal to the one before is left out.
+/// Writes both ends of every segment. If a segment is long compared with `gap_s`, it also writes points
+/// between, so that lines from row to row show the curve. A row equal to the one before is left out.
 class EventRecorder {
  public:
   EventRecorder(double gap_s, const std::vector<std::size_t>& columns, RowSink sink)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // has_run_away() returns whether the state has left all bounds of a motor. No single value in range can cause
-// that, but an excessive torque on a small rotor can. The simulation then has no meaning any more.
+// that, but an excessive torque on a small rotor can. After that the simulation has no meaning.
 #pragma once
 #include <cmath>
 
@@ -14,7 +14,8 @@ bool has_run_away(const Plant& plant) {
   using Real = typename Plant::Real;
   const plant::State<Real>& s = plant.state();
   const Real all = s.i[0] + s.i[1] + s.i[2] + s.w + s.x + s.bus;
-  const bool numbers = all - all == 0;  // the difference is not zero if one is infinite or NaN
+  const bool numbers = all - all == 0;  // the difference is NaN, not 0, if one of the numbers is infinite or
+                                        // NaN
   return !numbers || std::fabs(s.w) * plant.constants().pole_pairs > plant::fastest_field_rad_s;
 }
 

@@ -16,8 +16,9 @@ struct RunWatch {
   double highest_bus_V = 0.0;
   double highest_phase_A = 0.0;                      ///< magnitude, of any phase
   double lowest_charge = 1.0, highest_charge = 0.0;  ///< charge of a battery
-  std::optional<double> empty_s{}, full_s{};         ///< when it was first empty; when first overfull
-  double winding_degC = 0.0, junction_degC = 0.0;    ///< the hottest; only with kernels that warm up
+  std::optional<double> empty_s{}, full_s{};  ///< when the battery was first empty, and when first overfull
+  double winding_degC = 0.0, junction_degC = 0.0;  ///< temperature of the hottest part; only with kernels
+                                                   ///< that warm up
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
   std::int64_t samples = 0, hidden_samples = 0;  ///< samples of the shunt
   bool held_a_commutation = false;  ///< the drive's duty step held the staying phase at least once
@@ -82,7 +83,8 @@ struct RunWatch {
     }
   }
 
-  /// Called repeatedly and at the end, because temperatures move slowly and cost an exponential each.
+  /// Called from time to time and at the end only, because temperatures change slowly and each call costs an
+  /// exponential.
   template <class Rig>
   void look(const Rig& rig) {
     if constexpr (requires { rig.plant().heat(); }) {

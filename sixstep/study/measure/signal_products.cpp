@@ -44,7 +44,7 @@ void add(Series& sum, double weight, const Series& c) {
   for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += weight * c[j];
 }
 
-/// w phi0 and w phi1: every back-EMF is a sum of the two (plant/back_emf.hpp).
+/// w phi0 and w phi1: every back-EMF is a weighted sum of these two (plant/back_emf.hpp).
 struct SpeedShapes {
   Series w0, w1;
 };
@@ -70,10 +70,10 @@ Series emf_series(const Span& part, int k) {
   return e;
 }
 
-/// Without a connected leg the star point lies midway, u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp). The
-/// highest and the lowest leg change only at edges of sectors and pieces, because the shapes are even about
-/// their tops and cross there. If the rotor turns backwards the two change places, which does not change the
-/// sum.
+/// Adds the star point's voltage if no leg is connected: u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp).
+/// The highest and the lowest back-EMF change legs only at edges of sectors and pieces, because the shapes
+/// are even about their tops and cross there. If the rotor turns backwards, highest and lowest change places,
+/// which does not change their sum.
 void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   const plant::Plant<double>& plant = *part.g.plant.lean;
   const plant::EmfPiece<double>& p = emf_piece(plant);
@@ -90,8 +90,8 @@ void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// The same for the general kernel, whose pole voltages are then e_k. The two legs are those in the middle of
-/// the part.
+/// The same for the general kernel, whose pole voltages are then the back-EMFs e_k. The highest and the
+/// lowest leg are those in the middle of the part.
 void add_general_floating_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;

@@ -5,12 +5,12 @@
 
 namespace sixstep::study {
 
-/// Products of two series of the engine are exact below degree 8. Above it, over half a segment, the omitted
-/// terms are below 2^-53 of the factors' sizes: as in series/quadrature.hpp, term j is at most M^2 (2 x)^j/j!
-/// with 2 x <= 1/2 there, and (1/2)^17/17! < 2^-65.
+/// Products of two series of the engine are exact below degree 8. From there on they are taken over half
+/// segments. There the omitted terms are below 2^-53 of the factors' sizes: as in series/quadrature.hpp, term
+/// j is at most M^2 (2 x)^j/j! with 2 x <= 1/2, and (1/2)^17/17! < 2^-65.
 constexpr bool needs_halves(int degree) { return 2 * degree > series::max_degree; }
 
-/// The product over [from, to] of the segment; for a signal with is_product().
+/// The product over [from, to] of the segment; `signal` must satisfy is_product().
 Piece product_piece(const SegmentView& g, Signal signal, double from, double to);
 
 /// w_a i_a + w_b i_b + w_c i_c.

@@ -15,7 +15,8 @@ namespace {
 using plant::PerLeg;
 using Extremes = series::Extremes<double>;
 
-/// The angle since theta_e = 0, times `per_electrical_rad`; passed sectors are counted, not summed.
+/// The angle since theta_e = 0, times `per_electrical_rad`. Passed sectors are counted, so that their angles
+/// add no rounding.
 Series angle_series(const SegmentView& g, double per_electrical_rad, double per_sector) {
   Series c = g.plant.expansion().x;
   for (int j = 0; j <= g.plant.expansion().degree; ++j) c[j] *= per_electrical_rad;
@@ -41,7 +42,8 @@ Series load_torque(const SegmentView& g) {
   return Series{load};
 }
 
-/// Sums of up to 16 terms and of three series: rounding is below 32 * 2^-53 of their magnitudes.
+/// Bounds with room for rounding: sums of up to 16 terms and of three series have rounding below 32 * 2^-53
+/// of their magnitudes.
 Extremes around(double middle, double reach) {
   const double wide = reach + 0x1p-48 * (std::fabs(middle) + reach);
   return {middle - wide, middle + wide};
@@ -73,12 +75,13 @@ Series of_general(const SegmentView& g, Series General::*which) {
   return g.plant.general ? g.plant.general->series().*which : Series{};
 }
 
-/// Without a thermal simulation the temperature is the one for which the sheet's numbers apply.
+/// Without a thermal simulation the junction's temperature is the one for which the sheet's numbers apply.
 Series junction_temperature(const SegmentView& g) {
   return {g.plant.general ? g.plant.general->heat().hottest_junction_degC() : design::sheet_degC};
 }
 
-/// A segment is short against the bodies' time constants: a parabola through begin, middle and end.
+/// A parabola through beginning, middle and end suffices, because a segment is short against the bodies' time
+/// constants.
 Series temperature(const SegmentView& g, double plant::BodyTemperatures::*which) {
   if (!g.plant.general) return {design::sheet_degC};
   const auto at = [&](double s) { return g.plant.general->bodies_degC(s).*which; };
@@ -101,7 +104,7 @@ Series load_angle(const SegmentView& g) {
   return angle;
 }
 
-/// (V_0 - U_s)/R_b; with a stiff bus the bus current itself.
+/// The source's current (V_0 - U_s)/R_b; with a stiff bus, the bus current itself.
 Series source_current(const SegmentView& g) {
   const auto& y = g.plant.expansion();
   const bool has_capacitor =
@@ -144,7 +147,7 @@ Extremes phase_bounds(const SegmentView& g) {
 struct PlainSignal {
   Signal signal;
   Series (*series)(const SegmentView&);
-  Extremes (*bounds)(const SegmentView&) = nullptr;  ///< if the expansion has bounds for it
+  Extremes (*bounds)(const SegmentView&) = nullptr;  ///< set if the expansion has bounds for the signal
 };
 constexpr PlainSignal plain_signals[] = {
     {Signal::current, motor_current,
@@ -206,7 +209,7 @@ constexpr PlainSignal plain_signals[] = {
     {Signal::gate_T6, gate<5>},
 };
 
-/// nullptr for all other signals.
+/// The row of a plain signal; nullptr for all other signals.
 constexpr const PlainSignal* plain(Signal signal) {
   for (const PlainSignal& row : plain_signals)
     if (row.signal == signal) return &row;

@@ -19,13 +19,13 @@ using Series = series::Coefficients<double>;
 struct SegmentView {
   plant::View plant;
   ModulatorView modulator;
-  double t_s = 0.0;  ///< begin of the segment
+  double t_s = 0.0;  ///< beginning of the segment
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, position_reference_deg = 0.0, setpoint = 0.0;
   rig::FieldTelemetry field{};  ///< values of a field-oriented drive
   plant::Gates gates{};         ///< gates of the board's legs
   int board_sector = 0;         ///< the rotor's sector according to the board
   int probe_sector = 0;         ///< sector of the motor's Hall code
-  bool ticked = false;          ///< a control sample was taken at the segment's begin
+  bool ticked = false;          ///< a control sample was taken at the segment's beginning
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {
@@ -58,19 +58,20 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
 /// two duties.
 double signed_duty(const ModulatorView& modulator, int sector);
 
-/// Whether a signal is no polynomial of at most max_degree over the whole segment, and the points of [from,
-/// to] at which it must be cut, both ends included.
+/// Whether a signal is not one polynomial of at most max_degree over the whole segment; and the points of
+/// [from, to] at which it must be cut, both ends included.
 bool is_cut(const SegmentView& g, Signal signal);
 std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, double to);
 
-/// A signal over [from, to] of the segment, without a cut inside, as a polynomial of its own s in [0, 1].
+/// A signal over [from, to] of the segment, without a cut inside, as a polynomial of its own fraction s in
+/// [0, 1].
 struct Piece {
   Series c{};
   int degree = 0;
 };
 Piece piece_of(const SegmentView& g, Signal signal, double from, double to);
 
-/// Calls visit(piece, from, to) for the parts of [from, to] in order. Most signals are one part; nothing is
+/// Calls visit(piece, from, to) for the parts of [from, to] in order. Most signals have one part; nothing is
 /// allocated.
 template <class Visit>
 void for_each_piece(const SegmentView& g, Signal signal, double from, double to, Visit&& visit) {
@@ -80,11 +81,11 @@ void for_each_piece(const SegmentView& g, Signal signal, double from, double to,
     visit(piece_of(g, signal, cuts[n], cuts[n + 1]), cuts[n], cuts[n + 1]);
 }
 
-/// Value at the segment's begin.
+/// A signal's value at the segment's beginning.
 double signal_now(const SegmentView& g, Signal signal);
 
-/// Bounds of a signal over the whole segment, from the expansion's own bounds: wider than the curve, by more
-/// than rounding. Infinite if no bound is available.
+/// Bounds of a signal over the whole segment, from the expansion's own bounds. They are wider than the curve,
+/// by more than rounding. Infinite if no bound is available.
 series::Extremes<double> signal_bounds(const SegmentView& g, Signal signal);
 
 }  // namespace sixstep::study

@@ -20,7 +20,7 @@ double Step::height() const { return std::fabs(level - *start); }
 std::optional<double> Step::crossing(double fraction, const Series& c, int degree, double t0,
                                      double length) const {
   const double target = *start + fraction * (level - *start);
-  Series missing = c;  // positive until the level is reached
+  Series missing = c;  // difference to the level, positive until it is reached
   for (double& v : missing) v *= -sign();
   missing[0] += sign() * target;
   if (missing[0] <= 0.0) return t0;
@@ -53,7 +53,7 @@ double RiseTime::value(double) const { return begun_ && reached_ ? *reached_ - *
 void SettlingTime::part(const Series& c, int degree, double t0, double length) {
   step_.begin(c[0]);
   const double band = band_ * step_.height();
-  Series above = c, below = c;  // both >= 0 while outside on that side
+  Series above = c, below = c;  // distances from the band's two limits, positive while the signal is outside
   above[0] -= step_.level + band;
   for (double& v : below) v = -v;
   below[0] += step_.level - band;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures a signal's way from its start to its level: the time at which it arrives, and from which it stays.
-// A time is infinite if that never happens.
+// Measures a signal's step from its start to its level: when it arrives, and from when on it stays. A time is
+// infinite if that never happens.
 #pragma once
 #include <optional>
 
@@ -21,7 +21,8 @@ struct Step {
   }
   double height() const;
   double sign() const { return level < start.value_or(0.0) ? -1.0 : 1.0; }
-  /// Time at which that fraction of the step is reached; empty if not within this part of the signal.
+  /// Time in s at which that fraction of the step is reached; empty if this part of the signal does not reach
+  /// it.
   std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
                                  double length) const;
   /// Whether a value has reached that fraction of the step.
@@ -59,7 +60,7 @@ class SettlingTime {
  public:
   SettlingTime(const Step& step, double band) : step_(step), band_(band) {}
   void part(const Series& c, int degree, double t0, double length);
-  /// Settled from the first sample after which all samples lie inside the band.
+  /// The signal counts as settled from the first sample after which all samples lie inside the band.
   void sample(double t, double value);
   double value(double from_s) const;
 

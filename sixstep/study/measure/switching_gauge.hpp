@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures turn-ons per second: of the chopped switch, of three legs' upper switches in the mean, or of one
-// switch's gate.
+// Measures turn-ons per second: of the chopped switch, of the upper switches of three legs on average, or of
+// one switch's gate.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -12,11 +12,11 @@ namespace sixstep::study {
 
 class SwitchingGauge {
  public:
-  /// `signal`: a gate; other signals mean the chopped switch.
+  /// `signal` selects a gate; any other signal means the chopped switch.
   SwitchingGauge(const Window& window, Signal signal) : window_(window), signal_(signal) {}
 
   void segment(const SegmentView& g, double s);
-  /// Hz; NaN if the run ended before the window.
+  /// Turn-ons per second, Hz; NaN if the run ended before the window.
   double value() const {
     if (!(last_s_ > window_.from_s)) return std::numeric_limits<double>::quiet_NaN();
     return static_cast<double>(after_ - before_) / switches_ / (last_s_ - window_.from_s);
@@ -27,7 +27,7 @@ class SwitchingGauge {
 
   Window window_;
   Signal signal_;
-  bool on_ = false;  ///< the gate; off before the run
+  bool on_ = false;  ///< the gate's state; off before the run
   int switches_ = 1;
   std::int64_t gate_turn_ons_ = 0;
   std::int64_t before_ = 0, after_ = 0;

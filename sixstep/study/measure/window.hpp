@@ -11,8 +11,8 @@ struct Window {
   double to_s = std::numeric_limits<double>::infinity();
 };
 
-/// The part of [0, s] of a segment that lies inside the window, as fractions of its length h from t0. Empty if
-/// from is not below to.
+/// The part of [0, s] of a segment that lies inside the window, as fractions of the segment's length h from
+/// t0. Empty if `from` is not below `to`.
 struct Clip {
   double from, to;
   bool empty() const { return !(from < to); }

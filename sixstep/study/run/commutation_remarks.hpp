@@ -12,7 +12,7 @@ namespace sixstep::study {
 /// Returns a sentence if the duty step never acted, and a cure: the drive omits a step that would come too late, or
 /// the duty is 1 with it and without it.
 std::string on_idle_duty_step(const Scenario& scenario, const RunWatch& watch);
-/// A sentence if it acted with a pattern that chops the staying leg at some edges.
+/// A sentence if the duty step acted with a chopping pattern that chops the staying leg at some edges.
 std::string on_chopped_staying_leg(const Scenario& scenario, const RunWatch& watch);
 
 /// The speed, rad/s, above which an overlap at this current and bus lasts longer than a sector, less 3 % for a current

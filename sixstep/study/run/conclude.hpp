@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the parts of an outcome that every kind of run has: a whole one (run.hpp) and one in slices
-// (session.hpp).
+// Makes the parts of an outcome that are common to both kinds of runs: run.hpp (whole) and session.hpp (in
+// slices).
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/observers.hpp"
@@ -8,7 +8,7 @@
 
 namespace sixstep::study {
 
-/// The outcome before the run: motor, gains and how they follow.
+/// The outcome before the run: motor, gains and their derivation.
 Outcome outcome_of(const Compiled& compiled);
 
 /// Adds the observers' results after the run's end: energy, laws, losses of the switches, remarks. Figures are

@@ -24,7 +24,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Comparators on the board switch at once, and need no converter of the currents.
+/// The comparators on the board switch at once, so that the drive needs no converter for the currents.
 bool by_comparators(const Scenario& s) {
   const CurrentLoop& loop = s.control.current;
   return loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
@@ -64,8 +64,8 @@ bool reads_rotor(const Scenario& s) {
   return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
 }
 
-/// Keys that belong to the replaced sensor: those with new problems in the scenario without it. Empty if there
-/// are none.
+/// Keys that belong to the replaced sensor: keys with problems that appear only without this sensor. Empty if
+/// there are none.
 std::string of_this_sensor(const Scenario& s, const Scenario& without) {
   const auto found = [](const Scenario& x) {
     base::Problems all = check_columns(x);
@@ -84,7 +84,7 @@ std::string of_this_sensor(const Scenario& s, const Scenario& without) {
   return words;
 }
 
-/// All changes that replace another sensor by Hall probes.
+/// A cure that lists all changes needed to replace another sensor by Hall probes.
 std::string cure_by_hall(const Scenario& s) {
   Scenario without = s;
   without.sensors.rotor = RotorSensing::hall;
@@ -129,7 +129,7 @@ void look_at_design(const Scenario& s, base::Problems& out) {
                    "change the design until it is usable, or delete the line if it no longer applies"});
 }
 
-/// A sample in the middle of a period is answered at the next period's start, which already is a delay.
+/// A sample in the middle of a period is answered at the next period's start. This is a delay already.
 void look_at_delay(const Scenario& s, base::Problems& out) {
   const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
   if (samples && !by_comparators(s) && s.pwm.delay_periods == 0 && s.pwm.sample == SampleAt::start)
@@ -162,7 +162,8 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
                               : "is over before any switch is off: less than 20e-9");
 }
 
-/// A chip keeps its configured constants, and the bridge its dead time.
+/// Notes that a chip keeps its configured constants, and the bridge its dead time, while the scenario changes
+/// them.
 void look_at_changes(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const auto changes = [&](const char* what) {
@@ -182,7 +183,7 @@ std::string required(const Verdict& v) {
   return v.max ? "<= " + written(*v.max) + unit : "";
 }
 
-/// The measured value with enough digits to differ from the missed limit.
+/// The measured value with as many digits as distinguish it from the missed limit.
 std::string measured(const Verdict& v) {
   std::string text;
   for (int digits = 5; digits <= 17; ++digits) {
@@ -240,7 +241,7 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   add(setpoint_bound(s));
   add(short_dead_time(s));
   add(without_protection(s));
-  // Without a clearance its conditions have no meaning.
+  // Conditions apply only to a scenario that is cleared for export.
   if (!c.clear()) return;
   WithoutSink other = without_sink(s, c.outcome.motor, listeners);
   c.needs_sink = other.matters && !other.holds;
@@ -260,7 +261,7 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
       .outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}, .notes = {}};
   const SeenPeaks peaks = take_peaks(scenario, c.outcome);
   c.unheld = not_held(c.outcome);
-  // The rotor's inertia hides this instability from requirements on the speed.
+  // The rotor's inertia hides an unstable current loop from requirements on the speed.
   for (const LoopGains& gains : c.outcome.gains)
     if (auto unstable = unstable_current_loop(scenario, c.outcome.motor, gains))
       c.unheld.push_back(std::move(*unstable));

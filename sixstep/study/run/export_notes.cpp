@@ -50,7 +50,7 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   const double nominal_A = motor.nominal_current_A;
   if (!cascade || s.control.drive == FirmwareKind::field) return {};
   const std::optional<MostCurrent> most = most_current(s, motor);
-  // A limit that is set to the nominal current itself may be rounded.
+  // A limit that was set to the nominal current may differ from it by rounding.
   if (!most || !(most->ampere > 1.005 * nominal_A)) return {};
   const auto times = withstand_times_of(s, motor, *most);
   if (!times && !(nominal_A > 0.0)) return {};

@@ -25,11 +25,12 @@ std::vector<std::string> unchecked(const Scenario& scenario, const design::Motor
 /// is not judged: it changes values on purpose.
 std::string sheet_contradiction(const Scenario& scenario);
 
-/// The run again with a supply that cannot take current back.
+/// The result of a second run with a supply that cannot take current back.
 struct WithoutSink {
   bool matters = false;  ///< the scenario's supply takes current back
-  bool holds = false;    ///< with a supply that cannot, run and stop hold too
-  std::string note;      ///< if it does not hold: what happens there
+  bool holds = false;    ///< with a supply that cannot take current back, the requirements of run and stop
+                         ///< hold too
+  std::string note;      ///< what happens with such a supply if it does not hold
 };
 WithoutSink without_sink(const Scenario& scenario, const design::MotorModel& motor,
                          const Listeners& listeners);

@@ -19,7 +19,8 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// No load drives a rotor that needs protection faster than this multiple of the no-load speed.
+/// An over-speed threshold above this multiple of the no-load speed protects nothing: no usual load drives a
+/// rotor that fast.
 constexpr double beyond_no_load = 2.0;
 
 std::string rounded_down(double x) { return written(base::shortened(x, 2, base::Towards::down)); }
@@ -57,7 +58,7 @@ namespace {
 
 void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems& out) {
   const Protection& p = s.protection;
-  // A current held at the limit is read with an error of a count and a little noise.
+  // The reading of a current at the limit has an error of one count and a little noise.
   const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
   const double surely_A = 0.98 * most.ampere - 2 * count_A;
   if (!p.stall_current_A || *p.stall_current_A <= surely_A) return;
@@ -72,7 +73,7 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
        lower_A > 0 ? "lower it, as to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "") : finer});
 }
 
-/// The threshold must not stop a drive that works as requested.
+/// Refuses a threshold that would stop a drive in normal operation.
 void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Problems& out) {
   const std::optional<double>& over_A = s.protection.over_current_A;
   if (!over_A || *over_A > most.ampere) return;
@@ -82,7 +83,7 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
                  "raise it above that current plus the ripple, or lower the drive's current limit"});
 }
 
-/// A blocked rotor has its current in two phases, and no friction.
+/// A blocked rotor: two phases carry the current, and friction does not heat the motor.
 void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, const MostCurrent& most,
                         base::Problems& out) {
   if (!s.protection.stall_s) return;

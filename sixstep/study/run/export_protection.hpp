@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds thresholds of the product drive that check() accepts but that would not protect a bridge. A run
-// mentions them, and export refuses them.
+// mentions these thresholds in a remark, and export refuses them.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ struct MostCurrent {
   std::string by;
 };
 
-/// Empty if nothing requests or limits a current.
+/// The largest requested current. Empty if nothing requests or limits a current.
 std::optional<MostCurrent> most_current(const Scenario& scenario, const design::MotorModel& motor);
 
 /// How long the winding withstands that current in two phases, as in block commutation and at a blocked rotor.

@@ -25,7 +25,7 @@ void watch(MetricKind metric, Signal signal, Scenario& s) {
   s.compare.push_back({m, 0.0, ""});
 }
 
-/// The highest bus voltage that the scenario itself allows.
+/// The highest bus voltage in V that the scenario itself allows.
 double allowed_bus_V(const Scenario& s) {
   double allowed = risen_part * highest_open_V(s);
   allowed = std::fmax(allowed, s.protection.over_voltage_V.value_or(0.0));
@@ -37,14 +37,15 @@ double allowed_bus_V(const Scenario& s) {
   return allowed;
 }
 
-/// Longest braking time: from no-load speed, with a margin of one half for friction that drives.
+/// Longest braking time from no-load speed, s, with a margin of one half for a torque that drives the rotor
+/// on.
 double braking_s(const Scenario& s, const design::MotorModel& motor) {
   constexpr double shortest = 20e-3, longest = 2.0;
   const double w = s.supply.voltage_V / motor.K_t_Nm_A, J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
   return std::clamp(1.5 * J * w / (motor.K_t_Nm_A * s.protection.brake_current_A), shortest, longest);
 }
 
-/// The end of the level with the largest magnitude.
+/// The end in s of the reference's level with the largest magnitude.
 double end_of_the_highest(const Scenario& s) {
   const std::vector<Level> levels = reference_levels(s);
   std::size_t highest = 0;
@@ -167,7 +168,8 @@ void look_at_stop(const Scenario& s, const design::MotorModel& motor, const List
           {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
   if (!outcome) return append(out, outcome.problems());
   const SeenPeaks peaks = take_peaks(stop, *outcome);
-  // Braking does not raise the speed; after the bridge turns off, a driving load can.
+  // Braking does not raise the speed. A driving load can raise it after the bridge has turned off, so that
+  // over-speed alone is no reason.
   if (!outcome->trip || outcome->trip->reasons == std::vector<std::string>{"over-speed"}) return;
   const std::string reasons = reasons_of(*outcome->trip);
   out.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),

@@ -17,12 +17,13 @@ struct SeenPeaks {
   std::optional<Trip> trip{};  ///< the fault at which a product drive turned its bridge off
 };
 
-/// The scenario with the measures of take_peaks() after its own [[compare]].
+/// The scenario with the measures that take_peaks() reads, behind its own [[compare]] entries.
 Scenario watching_peaks(const Scenario& scenario);
-/// Takes these measures out again: the outcome is then that of `scenario` itself.
+/// Removes these measures from the outcome, which is then that of `scenario` itself, and returns their
+/// values.
 SeenPeaks take_peaks(const Scenario& scenario, Outcome& outcome);
 
-/// Refuses a current above the converter's range: it is neither measured nor limited.
+/// Refuses a current above the converter's range, because such a current is neither measured nor limited.
 void look_at_current_range(const Scenario& scenario, const SeenPeaks& peaks, base::Problems& out);
 /// Refuses a bus above its converter's range if the drive reads it, and a bus that braking, or a load after a
 /// trip, raises without a bound.

@@ -65,7 +65,7 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
          "control.regeneration.limit_V";
 }
 
-/// Applies the mean copper loss to the sheet's thermal model, starting at ambient temperature.
+/// Applies the run's mean copper loss to the sheet's thermal model, from ambient temperature on.
 std::string on_cold_winding(const Scenario& s, const Outcome& out) {
   if (s.heat.motor || !out.energy || !(out.simulated_s > 0.0)) return {};
   const double mean_W = out.energy->copper / out.simulated_s;
@@ -115,7 +115,7 @@ std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, con
 }
 
 std::vector<std::string> passed_currents(const Scenario& s, double given_limit_A, const RunWatch& w) {
-  constexpr double ripple = 1.25;  // a limited current passes its limit by its ripple and at commutations
+  constexpr double ripple = 1.25;  // a limited current exceeds its limit by the ripple and at commutations
   std::vector<std::string> all;
   const std::string reached = "a phase current reached " + few_digits(w.highest_phase_A) + " A, and ";
   if (given_limit_A > 0.0 && w.highest_phase_A > ripple * given_limit_A)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds limits that a run passed and that the model does not enforce: a battery's charge, a rotor's maximum
-// speed, a raised bus, the winding's heat in a run without temperatures, a current.
+// Finds limits that a run exceeded and that the model does not enforce: a battery's charge, a rotor's maximum
+// speed, a raised bus, the winding's temperature in a run without temperatures, a current.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace sixstep::study {
 
-/// Three digits; larger numbers as integers.
+/// A number with three digits; larger numbers as integers.
 std::string few_digits(double x);
 
-/// One sentence each, with numbers and a cure. `outcome` holds the motor, and the energy books if they were
-/// kept.
+/// The exceeded limits, one sentence each, with numbers and a cure. `outcome` holds the motor, and the energy
+/// books if they were kept.
 std::vector<std::string> passed_limits(const Scenario& scenario, const RunWatch& watch,
                                        const Outcome& outcome);
 

@@ -10,7 +10,7 @@
 namespace sixstep::study {
 namespace {
 
-/// Periods from a sample to its answer.
+/// Periods from a sample to the beginning of its answer.
 double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }

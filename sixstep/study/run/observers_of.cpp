@@ -8,7 +8,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// Number of points over a run that curves drawn from row to row need.
+/// Number of points over a run that a curve drawn from row to row needs.
 constexpr double drawn_points = 2000.0;
 
 /// Converts rows to the units of a linear motor's columns.

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int converter_bits = 10;
 constexpr double clock_Hz = 16e6;
-/// Timer 1 counts up and down again, with 16 bits.
+/// Largest period in counts: timer 1 counts up and down again with 16 bits.
 constexpr double most_counts = 65535;
-/// The program waits for the dead time within an interrupt.
+/// Longest dead time, s: the program waits for it within an interrupt.
 constexpr double most_dead_time_s = 5e-6;
 
 void need(bool has, base::Problems& out, const char* where, const char* what, const char* cure) {
@@ -56,7 +56,7 @@ void need_timer(const Scenario& s, base::Problems& out) {
        "pwm.period_s", "is not a whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
 }
 
-/// Changes of transducers that other boards simulate and this board does not.
+/// Whether an event changes a transducer: other boards simulate this, the AVR's board does not.
 bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.current_gain_error; }
 
 void need_converter(const Scenario& s, base::Problems& out) {

@@ -24,11 +24,12 @@ namespace sixstep::study {
 
 namespace {
 
-/// Silicon switches withstand 150 or 175 degC according to their data sheets.
+/// Usual limit of a junction, degC: data sheets of silicon switches print 150 or 175.
 constexpr double usual_junction_limit_degC = 150.0;
-/// Least control periods in a commutation step: with fewer, its current is controlled only a few times.
+/// Least number of control periods in a commutation step. With fewer, the current is controlled only a few
+/// times per step.
 constexpr double least_periods_per_step = 5.0;
-/// Part of the shunt's samples outside of the pulse above which a remark follows.
+/// A remark follows if more than this fraction of the shunt's samples lies outside of the pulse.
 constexpr double hidden_part = 0.01;
 
 std::string speed(const Scenario& s, double rad_s) {
@@ -37,7 +38,7 @@ std::string speed(const Scenario& s, double rad_s) {
 std::string ms(double t_s) { return few_digits(1e3 * t_s) + " ms"; }
 std::string us(double t_s) { return few_digits(1e6 * t_s) + " us"; }
 
-/// Compares a default bus with the voltage for which the motor is made.
+/// Compares a default bus voltage with the voltage for which the motor is made.
 std::string on_supply(const Scenario& s) {
   const auto& nominal = s.sheet.nominal_voltage_V;
   const double usual_V = Supply{}.voltage_V;
@@ -48,7 +49,8 @@ std::string on_supply(const Scenario& s) {
          " V, equal to its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
 }
 
-/// Finds values after the run's end. The first of them may end a line on which the run still is.
+/// Finds values of the reference after the run's end. The first of them may still be in use: it ends the line
+/// that the run's last instant lies on.
 std::string on_late_values(const Scenario& s) {
   const Reference& r = s.reference;
   if (r.shape != Shape::csv || s.control.mode == control::Mode::off) return {};  // check() refuses late steps
@@ -66,7 +68,8 @@ double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
 }
 
-/// An amplifier of one pole has reached 1 - exp(-2 pi f t) of the current at the shortest measured pulse.
+/// Finds a shunt amplifier that is too slow: with one pole, it has reached 1 - exp(-2 pi f t) of the current
+/// at the end of the shortest measured pulse.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
@@ -80,8 +83,9 @@ std::string on_shunt_amplifier(const Scenario& s) {
          " us it shows 90 %";
 }
 
-/// The drive computes with shunt_settle_s and the dead time only. It reads 0 A for duties between its own
-/// limit and the real one.
+/// Finds samples that the drive takes before the shunt shows the current. The drive computes the least duty
+/// from shunt_settle_s and the dead time only. For duties between this computed limit and the real one it
+/// reads 0 A.
 std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const double taken_duty = least_visible_duty(s);
   if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};
@@ -140,7 +144,8 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
          base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
 }
 
-/// Poles slower than the plant's own require a loop that slows the plant down.
+/// A negative gain results if the poles are slower than the plant's own: the loop must then slow the plant
+/// down.
 std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
   return "the " + g.loop + " loop's gain on its error is negative, d1 = " + few_digits(g.d1) +
@@ -153,7 +158,7 @@ std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& 
   return p ? p->where + " " + p->limit + "; " + p->cure : "";
 }
 
-/// The largest voltage between two terminals per rad/s.
+/// The largest back-EMF between two terminals per speed, V s/rad.
 double line_peak_V_s(const Compiled& c) {
   const bool sine = c.motor.machine.back_emf == plant::BackEmf::sine;
   return c.motor.machine.K_e_V_s * (sine ? std::sqrt(3.0) : 2.0);
@@ -168,7 +173,7 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
 }
 
 /// Finds a winding that stays below its limit with the motor file's thermal values, but may exceed it within
-/// their tolerances.
+/// the tolerances of these values.
 std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
   const auto model = design::thermal_model(s.sheet);
   const auto worse = design::at_worse_ends(s.sheet);
@@ -218,7 +223,7 @@ void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
     if (!(stalled && p.where == "protection.stall_current_A")) out.remarks.push_back(to_string(p));
 }
 
-/// A constant load torque does not end where the drive does.
+/// A constant load torque does not end with a trip of the drive, and drives the coasting rotor on.
 std::string on_load_after_trip(const Scenario& s, const Outcome& out) {
   if (!out.trip || s.load.locked || s.load.torque_Nm == 0.0) return {};
   return "after the trip load.torque_Nm = " + base::six_digits(s.load.torque_Nm) +
@@ -235,7 +240,8 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
   add(sheet_contradiction(s));
   add(on_supply(s));
-  // A product drive is made for a bridge; the others are studies, and the design has its own bound for them.
+  // A product drive is made for a real bridge. Scenarios with other drives are studies, whose limits the
+  // design bounds.
   if (s.control.drive == FirmwareKind::product) add(limit_above_nominal(s, c.motor));
   on_protection(s, c, out);
   add(on_load_after_trip(s, out));
@@ -243,7 +249,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
     add(std::move(text));
-  if (c.own.is) return;  // its gains and samples are unknown
+  if (c.own.is) return;  // gains and samples of a user's controller are unknown
   add(on_shunt(s, c, w));
   add(on_shunt_amplifier(s));
   add(on_hall_timeout(s, c));

@@ -15,7 +15,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// Runs the whole run in one slice, and writes its results.
+/// Runs the scenario in one slice, and writes the results.
 base::Problems run_on_board(const Scenario& s, Compiled& compiled, Observers& w, Outcome& out) {
   base::Result<std::unique_ptr<detail::AnyRun>> run =
       detail::made_by(s, compiled, std::move(compiled.timeline));
@@ -49,7 +49,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners, 
   return out;
 }
 
-/// A complete run ends at the duration, to rounding of the instant in seconds.
+/// A complete run ends at the scenario's duration, except for rounding of the instant in seconds.
 bool cut_short(const Scenario& scenario, const Outcome& outcome) {
   const bool stopped = outcome.fault && !outcome.trip;  // after a trip the drive coasts to the end
   return !stopped && outcome.simulated_s < scenario.duration_s * (1.0 - 1e-9);

@@ -19,20 +19,21 @@ using Row = std::span<const double>;
 
 /// Callbacks of a run. Each may be empty. None of them changes the run's result by a bit.
 struct Listeners {
-  std::function<void(Row)> on_record{};  ///< rows of [record], with the columns of record_columns(scenario)
-  std::function<void(Row)> on_event{};   ///< every event, both sides of each jump; columns all_columns()
-  LogicSink on_logic{};                  ///< gates, Hall lines, timer and others: logic_signals()
-  std::function<bool(double t_s)> keep_going{};  ///< called now and then; false ends the run early
-  bool keep_books = true;  ///< energy books and standing laws: about a third of run time more
+  std::function<void(Row)> on_record{};  ///< rows of [record]; columns of record_columns(scenario)
+  std::function<void(Row)> on_event{};   ///< a row on both sides of each event's jump; columns of
+                                         ///< all_columns()
+  LogicSink on_logic{};                  ///< gates, Hall lines, timer and others, as in logic_signals()
+  std::function<bool(double t_s)> keep_going{};  ///< called from time to time; false ends the run early
+  bool keep_books = true;  ///< keeps energy books and standing laws, which costs about a third more run time
 };
 
-/// A core in an emulator. Either it computes the drive in parallel with the host, and each answer must equal
-/// the host's; or it is a chip that runs its own firmware instead of the drive. on_core.hpp checks which
-/// scenarios they can run.
+/// A core in an emulator, in one of two roles. on_core.hpp checks which scenarios it can run.
+/// - It computes the drive in parallel with the host, and each answer must equal the host's.
+/// - It is a chip that runs its own firmware instead of the drive.
 struct OnCore {
   rig::CorePort beside{};
   rig::ChipPort instead{};
-  /// Setpoint at the ends of the potentiometer, in the mode's unit; 0: the run's own range.
+  /// Largest setpoint, at the ends of the potentiometer, in the mode's unit; 0: the run's own range.
   double setpoint_range = 0.0;
 };
 

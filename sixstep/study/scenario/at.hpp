@@ -18,7 +18,7 @@ struct AtLoad {
   std::optional<bool> locked;
 };
 
-/// Level of a Hall line's pin: stuck, or its probe's.
+/// Level of a Hall line's pin: stuck low, stuck high, or the level of its probe.
 enum class PinLevel : std::uint8_t { low, high, probe };
 
 struct AtHallBreak {
@@ -28,7 +28,7 @@ struct AtHallBreak {
 
 /// rig::WireOrder; `same` leaves the order as it is.
 enum class AtOrder : std::uint8_t { same, abc, bca, cab, acb, cba, bac };
-/// HallLines with their values increased by one; `same` leaves them as they are.
+/// rig's HallLines, each value one higher, because 0 is `same`: the lines stay as they were.
 enum class AtHallLines : std::uint8_t {
   same,
   none,
@@ -41,10 +41,10 @@ enum class AtHallLines : std::uint8_t {
   all
 };
 
-/// Level of an encoder's line or track: stuck, or the right one.
+/// Level of an encoder's line or track: stuck low, stuck high, or `whole`: the encoder's own level again.
 enum class EncoderLevel : std::uint8_t { low, high, whole };
 
-/// A track of an absolute encoder that is stuck from then on; 1 is the finest.
+/// The level of an absolute encoder's track from the event on. Track 1 is the finest.
 struct AtTrack {
   int track = 1;
   EncoderLevel level = EncoderLevel::low;
@@ -57,7 +57,7 @@ struct AtEncoderLine {
   EncoderLevel level = EncoderLevel::low;
 };
 
-/// A resolver's winding whose line breaks, in addition to earlier breaks; `whole` repairs both.
+/// A resolver's winding whose line breaks, in addition to earlier breaks; `whole` repairs both windings.
 enum class Winding : std::uint8_t { none, cosine, sine, whole };
 
 /// A wire or a divider, named by its terminal.
@@ -80,7 +80,8 @@ struct AtSensors {
 /// Request to the product drive.
 enum class DriveRequest : std::uint8_t { none, off, on, clear };
 
-/// A PI's gains as in CurrentLoop. They replace the gains before, whichever way they are given.
+/// A PI's gains, in any of the forms of CurrentLoop. New gains replace the earlier gains, also if those were
+/// given in another form.
 struct AtGains {
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
@@ -108,11 +109,12 @@ struct AtLimits {
   bool operator==(const AtLimits&) const = default;
 };
 
-/// control::Mode and control::Chopping; `same` leaves them as they are.
+/// The values of control::Mode and control::Chopping, each one higher, because 0 is `same`: the setting stays
+/// as it was.
 enum class AtMode : std::uint8_t { same, off, duty, current, speed, position };
 enum class AtChopping : std::uint8_t { same, soft, hard, complementary };
 
-/// study::Commutates; `same` leaves it as it is.
+/// The values of study::Commutates, each one higher, because 0 is `same`: the setting stays as it was.
 enum class AtCommutates : std::uint8_t { same, back_emf, hall };
 
 struct AtSensorless {

@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// Message for any other key.
+/// Message for a key that cannot change during a run.
 inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
     "sensors.hall_break, .hall_lines, .hall_inverted, .current_offset_A, .current_gain_error, .missed_edges, "

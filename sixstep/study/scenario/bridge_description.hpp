@@ -10,8 +10,8 @@ using base::above;
 using base::between;
 using base::from;
 
-/// Upper ends: ten times the values of the largest switches that are built for drives
-/// (6.5 kV, 1 kA: 10 J, 3 mC, 20 A).
+/// Upper bounds of three keys: ten times the values of the largest switches that are built for drives (6.5
+/// kV, 1 kA: 10 J, 3 mC, 20 A).
 inline constexpr double most_energy_J = 100, most_charge_C = 0.03, most_gate_A = 200;
 
 /// Keys that affect efficiency and temperatures only.

@@ -11,7 +11,7 @@ namespace {
 
 using control::Mode;
 
-/// After `same` AtMode and AtChopping have the order of the other enumeration.
+/// AtMode has `same` first; its other values have the order of control::Mode, each one higher.
 Mode mode_of(AtMode mode, Mode before) {
   return mode == AtMode::same ? before : static_cast<Mode>(static_cast<int>(mode) - 1);
 }
@@ -36,7 +36,7 @@ void take(T& member, const std::optional<double>& given) {
   if (given) member = *given;
 }
 
-/// If only one of settle_s and damping is given, the other one remains. Given gains replace both.
+/// If only settle_s or only damping is given, the other one stays as it was. Given gains replace both.
 template <class Loop>
 void take_gains(Loop& loop, const AtGains& given) {
   if (given == AtGains{}) return;

@@ -12,8 +12,8 @@
 namespace sixstep::study {
 
 enum class CurrentLoopType : std::uint8_t { pi, hysteresis, deadbeat };
-/// The current that a loop controls: (i_p - i_n)/2, or that of the phase that the last commutation left
-/// connected.
+/// The current that a loop controls: the mean (i_p - i_n)/2 of the driven pair, or the current of the staying
+/// phase, which the last commutation left connected.
 enum class CurrentFeedback : std::uint8_t { mean, staying_phase };
 /// The duty during a commutation: the loop's, or a duty that holds the staying phase's current.
 enum class CurrentCommutation : std::uint8_t { plain, duty_step, overlap };
@@ -30,12 +30,13 @@ struct CurrentLoop {
   double band_A = 0.2;
   HysteresisOn on = HysteresisOn::motor;
   Comparator comparator = Comparator::event;
-  std::optional<double> limit_A;  // of the current reference, in cascades
+  std::optional<double> limit_A;  // bound of the current reference; only in a cascade
   bool back_emf_feed_forward = false;
   CurrentFeedback feedback = CurrentFeedback::mean;
   CurrentCommutation commutation = CurrentCommutation::plain;
   std::optional<double> correction;           // deadbeat: part of the prediction error corrected per sample
-  std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
+  std::optional<double> measured_bus_from_V;  // at this bus voltage and above, duty = u/measured bus; below,
+                                              // u/nominal bus
 };
 
 /// Whether a loop's keys set or design a PI's gains.
@@ -46,7 +47,7 @@ bool gives_gains(const Loop& loop) {
 
 enum class SpeedOutput : std::uint8_t { current, duty };
 
-/// pi.hpp, or pi_positional.hpp with derivative.hpp.
+/// The form of the speed loop's PI: pi.hpp, or pi_positional.hpp with derivative.hpp.
 enum class SpeedForm : std::uint8_t { incremental, positional };
 
 /// The law that computes a torque from a speed error (design/loops/speed_laws.hpp).
@@ -66,7 +67,8 @@ struct SpeedLoop {
   std::optional<double> observer_ratio;
 };
 
-/// control/profiled_position.hpp; values that are not given follow from the drive.
+/// The profile of the position loop's setpoint (control/profiled_position.hpp). Values that are not given
+/// follow from what the drive can do.
 struct PositionProfile {
   bool on = false;  // false: the setpoint goes to the loop unshaped
   std::optional<double> speed_rad_s, acceleration_rad_s2;
@@ -95,7 +97,7 @@ struct Regeneration {
   std::optional<double> gain_A_per_V;
 };
 
-/// Bounds of the current reference (control/limits.hpp); one that is not given does not act.
+/// Bounds of the current reference (control/limits.hpp); a bound that is not given has no effect.
 struct Limits {
   std::optional<double> current_A;
   std::optional<double> torque_Nm;

@@ -78,10 +78,10 @@ struct Measure {
   std::optional<double> from_s, to_s;  // window; default: whole run
   std::optional<double> level;         // metrics of a step: the value to reach
   std::optional<double> start;  // initial value of the step; default: the signal's, or the level before
-  double fraction = 0.98;       // reach_time: of the way from start to level
-  double band = 0.02;           // settling_time: of the step's height
-  std::optional<double> tail;   // steady_error, largest_error: last part of each level
-  std::optional<double> frequency_Hz;  // thd: of the fundamental; default: the electrical frequency
+  double fraction = 0.98;       // reach_time: fraction of the step from start to level
+  double band = 0.02;           // settling_time: half width of the band, as a fraction of the step
+  std::optional<double> tail;   // steady_error, largest_error: fraction of each level, at its end
+  std::optional<double> frequency_Hz;  // thd: frequency of the fundamental; default: the electrical frequency
   bool sampled = false;                // use only the controller's samples
   std::string label;                   // shown instead of metric and signal
 };

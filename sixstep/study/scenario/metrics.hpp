@@ -48,12 +48,12 @@ enum class TakenOf : std::uint8_t {
   commutations
 };
 
-/// The intervals of a figure within its window if no level is given: all of it, each step or each level of the
-/// reference; the worst one counts.
+/// The intervals of a figure within its window if no level is given: the whole window, each step of the
+/// reference, or each level of the reference. The worst interval counts.
 enum class TakenOver : std::uint8_t { window, steps, levels };
 
-/// One row per figure. `phrase` precedes the signal's: "mean line voltage a to b". An empty unit means the
-/// signal's unit.
+/// One row per figure. `phrase` precedes the signal's phrase: "mean line voltage a to b". An empty unit means
+/// the signal's unit.
 struct MetricFact {
   MetricKind kind;
   std::string_view word;
@@ -142,7 +142,7 @@ static_assert([] {
 /// Whether the figure belongs to a step of the reference if no level is given.
 constexpr bool is_of_a_step(MetricKind kind) { return fact_of(kind).over == TakenOver::steps; }
 constexpr bool is_of_a_level(MetricKind kind) { return fact_of(kind).over == TakenOver::levels; }
-/// A time is infinite if its event never occurs.
+/// Whether the figure is a time. A time is infinite if its event never occurs.
 constexpr bool is_time(MetricKind kind) { return fact_of(kind).unit == "s"; }
 
 }  // namespace sixstep::study

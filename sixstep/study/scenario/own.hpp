@@ -20,7 +20,7 @@ struct Own {
   std::string controller;  ///< path of the shared object, relative to the file that names it
   std::vector<OwnNumber> number;
   const sixstep_controller* loaded =
-      nullptr;  ///< its contents, valid until the program ends (filled by text)
+      nullptr;  ///< contents of the shared object, valid until the program ends (filled by text)
   bool operator==(const Own&) const = default;
 };
 

@@ -13,10 +13,10 @@ namespace sixstep::study {
 struct UsedNumber {
   const sixstep_parameter* is = nullptr;
   double value = 0.0;
-  bool preset = true;  ///< the scenario does not give it
+  bool preset = true;  ///< whether this is the controller's preset, because the scenario gives no value
 };
 
-/// All numbers in the controller's order; empty as long as its file has not been loaded.
+/// All numbers in the controller's order; empty as long as the controller's file has not been loaded.
 inline std::vector<UsedNumber> used_numbers(const Own& own) {
   std::vector<UsedNumber> used;
   for (std::uint32_t n = 0; own.loaded != nullptr && n < own.loaded->parameters; ++n) {

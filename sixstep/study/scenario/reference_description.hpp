@@ -6,8 +6,7 @@
 
 namespace sixstep::study {
 
-/// Longest time, s. A run counts time in picoseconds of 63 bits, 106 days; a period must fit into it many
-/// times.
+/// Longest time, s: 104 days. A run counts time in picoseconds with 63 bits, which end after 106 days.
 inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 

@@ -11,7 +11,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Adds a reference's intervals. Its times count from from_s; `before` is the value so far.
+/// Adds a reference's intervals. Its times count from from_s; `before` is the value of the preceding
+/// reference there.
 class StretchWriter {
  public:
   StretchWriter(const Reference& r, double from_s, double until_s, double before, std::vector<Stretch>& out)
@@ -52,7 +53,7 @@ class StretchWriter {
     for (std::size_t n = 0; n < r_.times_s.size(); ++n) put(r_.times_s[n], r_.values[n]);
   }
 
-  /// Counted, not summed: half period n begins at n T/2, rounded once.
+  /// The edges are counted, not summed: half period n begins at n T/2, rounded once.
   void square() {
     const double half_s = r_.period_s / 2;
     for (int n = 0; n == 0 || from_s_ + n * half_s < until_s_; ++n)
@@ -67,8 +68,9 @@ class StretchWriter {
     put(r_.begin_s + length_s, r_.end);
   }
 
-  /// Movement s from rest to rest with the rate v and its change a: the rate rises for t_a = v/a, stays for s/v
-  /// - t_a, falls for t_a. A movement shorter than v^2/a never reaches v: t_a = sqrt(s/a).
+  /// Movement over the distance s from rest to rest, with the largest rate v and its rate of change a. The
+  /// rate rises for t_a = v/a, stays for s/v - t_a and falls for t_a. A movement shorter than v^2/a never
+  /// reaches v: t_a = sqrt(s/a).
   void trapezoid() {
     const double start = r_.start.value_or(before_), way = r_.end - start, size = std::fabs(way);
     const double v = r_.slope.value_or(1.0), a = r_.acceleration.value_or(1.0), sign = way < 0 ? -1.0 : 1.0;
@@ -84,7 +86,7 @@ class StretchWriter {
     put(begin_s + 2 * rise_s + cruise_s, r_.end);
   }
 
-  /// The first and the last row hold before and after the table.
+  /// The first value also applies before the table, and the last value after it.
   void rows() {
     const std::vector<double>&t = r_.times_s, &y = r_.values;
     if (t.empty()) return put(0.0, before_);
@@ -100,7 +102,7 @@ class StretchWriter {
   std::vector<Stretch>& out_;
 };
 
-/// The end of interval n.
+/// The time at which interval n ends, s.
 double end_of(const std::vector<Stretch>& stretches, std::size_t n, double duration_s) {
   return n + 1 < stretches.size() ? stretches[n + 1].at_s : duration_s;
 }
@@ -136,7 +138,7 @@ std::vector<Level> reference_levels(const Scenario& s) {
 double largest_reference(const Scenario& s) {
   const std::vector<Stretch> stretches = reference_waveform(s);
   double largest = 0.0;
-  // No interval but a sine reverses, so that its ends are its extremes.
+  // Only a sine reverses within its interval. All other intervals have their extremes at their ends.
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const Stretch& stretch = stretches[n];
     const double swing = std::fabs(stretch.waveform.amplitude);
@@ -161,7 +163,8 @@ std::optional<double> reference_rests_from_s(const Scenario& s) {
   const Reference* last = &s.reference;
   for (const At* at : in_order(s))
     if (at->reference) last = &*at->reference;
-  // A square wave repeats its levels without end, so that the run's last one is enough.
+  // A square wave keeps the run's duration: it only repeats its levels, and the duration longest_s would give
+  // too many of them.
   if (last->shape != Shape::square) longer.duration_s = longest_s;
   const std::vector<Stretch> stretches = reference_waveform(longer);
   if (stretches.back().waveform.moves()) return std::nullopt;

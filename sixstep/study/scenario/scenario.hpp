@@ -26,7 +26,8 @@ enum class SourceKind : std::uint8_t { steady, battery, single_phase, three_phas
 struct Supply {
   SourceKind source = SourceKind::steady;
   double voltage_V = 24.0;
-  double resistance_ohm = 0.0;  // with capacitance_F > 0: source behind R feeding C; else a stiff bus
+  double resistance_ohm = 0.0;  // if capacitance_F > 0: between source and bus capacitor; else the bus is
+                                // stiff
   double capacitance_F = 0.0;
   bool sinks = true;
   double inductance_H = 0.0;          // in series with resistance_ohm
@@ -50,7 +51,7 @@ struct Bridge {
   rig::WireOrder phases = rig::WireOrder::abc;  // the motor's phases at legs a, b, c
   Device device = Device::mosfet;
   double on_resistance_ohm = 0.0;
-  double saturation_V = 0.0;  // igbt
+  double saturation_V = 0.0;  // only IGBTs
   double diode_drop_V = 0.0;
   double diode_resistance_ohm = 0.0;
   double dead_time_s = 0.0;
@@ -59,8 +60,8 @@ struct Bridge {
   // current.
   double turn_on_J = 0.0, turn_off_J = 0.0, recovery_J = 0.0, energies_at_V = 0.0, energies_at_A = 0.0;
   double gate_current_A = 0.0, gate_source_charge_C = 0.0, gate_drain_charge_C = 0.0, recovery_charge_C = 0.0;
-  double sink_degC = 25.0, junction_K_W = 0.0;  // of each switch, from junction to heat sink
-  double on_resistance_percent_K = 0.0;         // of on_resistance_ohm, which applies at 25 degC
+  double sink_degC = 25.0, junction_K_W = 0.0;  // junction_K_W: of each switch, from junction to heat sink
+  double on_resistance_percent_K = 0.0;         // change of on_resistance_ohm, which applies at 25 degC
 };
 
 /// The simulated temperatures and their start values.
@@ -84,12 +85,12 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;         // 0: edges are not quantised
-  double minimum_pulse_s = 0.0;  // shorter pulses are dropped, shorter off-times are closed
+  double minimum_pulse_s = 0.0;  // shorter pulses are left out, and shorter off-times become on-time
 };
 
 struct Initial {
   double speed_rad_s = 0.0;
-  double angle_rad = 0.0;       // mechanical
+  double angle_rad = 0.0;       // mechanical angle
   std::optional<double> bus_V;  // default: supply.voltage_V
 };
 
@@ -136,7 +137,7 @@ struct Scenario {
   std::string motor;                 // name or path as written
   double duration_s = 0.0;
   std::string notes;                         // shown in the report
-  std::string not_usable;                    // reason why its design is not usable; empty if none
+  std::string not_usable;                    // reason why the scenario's design is not usable; empty if it is
   design::Sheet sheet;                       // the motor's sheet with overrides applied (filled by text)
   std::optional<design::Sheet> motor_sheet;  // without overrides (filled by text); not given: there is none
   Supply supply;
@@ -154,7 +155,8 @@ struct Scenario {
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
   std::vector<Spread> spread;           // over a batch of runs; a single run is the nominal one
-  std::optional<Nominal> designed_for;  // not given: motor, supply, load as here (set by study::varied)
+  std::optional<Nominal> designed_for;  // design basis; not given: motor, supply, load as here (set by
+                                        // study::varied)
 };
 
 }  // namespace sixstep::study

@@ -20,7 +20,7 @@ enum class Level01 : std::uint8_t { low, high };
 /// The shaft on which an encoder or a resolver is mounted.
 enum class SensorShaft : std::uint8_t { motor, load };
 
-/// Hall lines whose pins read their probe inverted, as bits of a Hall code.
+/// Hall lines whose pins show their probe inverted, as bits of a Hall code.
 enum class HallLines : std::uint8_t {
   none = 0,
   line_1 = 4,
@@ -39,8 +39,8 @@ struct HallBreak {
   Level01 level = Level01::low;
 };
 
-// Sensors on the shaft that replace Hall probes, in the board's own structs. Only the one that `rotor` names is
-// used.
+// Sensors on the shaft that replace Hall probes, in the board's own structs. Only the sensor that `rotor`
+// names is used.
 using rig::AbsoluteEncoder;
 using rig::Encoder;
 using rig::Resolver;
@@ -49,7 +49,7 @@ using rig::Resolver;
 struct Comparators {
   std::optional<double> bandwidth_Hz;
   rig::CrossingReference against = rig::CrossingReference::virtual_star;
-  std::vector<double> offset_V{};  // 3, of a, b, c
+  std::vector<double> offset_V{};  // three values, for terminals a, b, c
   double hysteresis_V = 0.0;
   bool operator==(const Comparators&) const = default;
 };
@@ -72,10 +72,10 @@ struct Sensors {
   double bus_gain_error = 0.0;
   double bus_noise_V = 0.0;
   std::optional<double> bus_bandwidth_Hz;
-  std::vector<double> terminal_gain_error{};  // 3, of a, b, c
+  std::vector<double> terminal_gain_error{};  // three values, for terminals a, b, c
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;
-  int speed_edges = 0;  // 0: six if the speed loop tolerates their delay, else one
+  int speed_edges = 0;  // edges per measured speed; 0: six if the speed loop tolerates their delay, else one
   rig::HallAngleFrom hall_angle = rig::HallAngleFrom::sectors;
   int hall_calibration_turns = 8;
   double timeout_s = 0.05;
@@ -85,7 +85,7 @@ struct Sensors {
   HallLines hall_inverted = HallLines::none;
   control::HallArrangement hall_spacing = control::HallArrangement::degrees_120;
   double hall_offset_deg = 0.0;
-  std::vector<double> hall_edges_deg{};  // 6 or 6 p
+  std::vector<double> hall_edges_deg{};  // 6 values, or 6 p for p pole pairs
   double hall_hysteresis_deg = 0.0;
   double hall_delay_s = 0.0;
   double hall_glitches_Hz = 0.0, hall_glitch_s = 1e-6;

@@ -15,7 +15,8 @@ inline constexpr base::Choice<rig::ResolverReading> resolver_reading_choices[] =
 
 }  // namespace sixstep::study
 
-// The structs are the board's, and argument-dependent lookup finds their descriptions only in their namespace.
+// The structs are the board's. Argument-dependent lookup finds their descriptions only in the structs'
+// namespace.
 namespace sixstep::rig {
 
 inline void describe(base::Visitor& v, Encoder& s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The signals of figures: each one's word, unit and meaning, and which figures it allows.
+// The signals of figures: word, unit and meaning of each, and which figures it allows.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace sixstep::study {
 /// The kind of a signal decides which figures it allows.
 enum class SignalKind : std::uint8_t {
   series,         ///< a series of the engine, or a sum of them
-  phase_current,  ///< the same, alternating about zero
+  phase_current,  ///< a phase's current, which alternates about zero
   magnitude,      ///< a sum of magnitudes
   voltage,        ///< voltage of a terminal or a line: jumps with the gates
   emf,
@@ -34,7 +34,8 @@ struct SignalFact {
   SignalKind kind;
 };
 
-/// A signal that is also a column of the trace under another word has the column's name too.
+/// A signal that is also a column of the trace has one word for both. If its column has another word, that
+/// word is accepted as well (column_words).
 inline constexpr SignalFact signal_facts[] = {
     {Signal::current, "current", "motor current", "A", "motor current (i_p - i_n)/2 of the positive pair, A",
      SignalKind::series},
@@ -197,12 +198,12 @@ constexpr std::string_view unit_of(Signal signal) { return fact_of(signal).unit;
 constexpr bool is_of_field(Signal signal) { return signal >= Signal::direct_current; }
 constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
 constexpr bool is_power(Signal signal) { return fact_of(signal).kind == SignalKind::power; }
-/// Whether it is a product of two of the engine's series (signal_products.hpp).
+/// Whether the signal is a product of two of the engine's series (signal_products.hpp).
 constexpr bool is_product(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::voltage || kind == SignalKind::emf || kind == SignalKind::power;
 }
-/// Whether it alternates about zero at the electrical frequency.
+/// Whether the signal alternates about zero at the electrical frequency.
 constexpr bool alternates(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::phase_current || kind == SignalKind::voltage || kind == SignalKind::emf;

@@ -32,7 +32,7 @@ constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
                                            "motor_override.iron_viscous_Nm_s",
                                            "motor_override.iron_coulomb_mNm",
                                            "motor_override.flat_deg"};
-/// A Hall edge's key has its index behind: "sensors.hall_edges_deg[0]".
+/// The key of one Hall edge continues with the edge's index: "sensors.hall_edges_deg[0]".
 constexpr std::string_view hall_edge_keys = "sensors.hall_edges_deg[";
 constexpr std::string_view tables[] = {"supply.",  "bridge.",      "load.",
                                        "initial.", hall_edge_keys, "sensors.hall_offset_deg"};
@@ -88,9 +88,9 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
   return finder;
 }
 
-/// The scenario with all values that follow from a varying value written out, and all constants under their
-/// standard keys, independent of the sheet. Hall edges that may vary are at their nominal places if not
-/// given.
+/// The scenario with explicit numbers for all values that are computed from a varying value. All constants
+/// stand under their standard keys, independent of the sheet. Hall edges that may vary get their nominal
+/// places if the scenario gives none.
 Scenario written_out(const Scenario& scenario, std::string_view key = {}) {
   Scenario s = scenario;
   s.sheet = design::in_standard_keys(std::move(s.sheet));
@@ -114,7 +114,7 @@ std::uint64_t stream_of(std::string_view key) {
 }
 
 /// Deviation in units of the width. Values outside of the cut are drawn again: with cut_sigma >= 1 at least
-/// 68 % are inside, so that 64 draws all miss once in 10^31 drives. The value is then nominal.
+/// 68 % are inside, so that 64 draws in a row are outside once in 10^31 drives. Then the value stays nominal.
 double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number) {
   const std::uint64_t stream = stream_of(spread.key);
   if (spread.distribution == Distribution::uniform) return 2.0 * base::uniform({seed, stream, number}) - 1.0;
@@ -202,7 +202,8 @@ Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t numb
     set_number(s, spread.key, nominal + width(spread, nominal) * deviation(spread, seed, number));
   }
   s.spread.clear();
-  // A remark would call a seed without effect one that was given.
+  // Without random numbers the default seed stays: a remark would report another seed as a given key without
+  // effect.
   s.sensors.seed = draws_nothing(s) ? Sensors{}.seed : noise_seed(scenario, seed, number);
   return s;
 }

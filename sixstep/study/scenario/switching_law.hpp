@@ -6,8 +6,9 @@
 
 namespace sixstep::study {
 
-/// An IGBT's energies divided by the voltage and current they are given at. A MOSFET's U i (t_i + t_u)/2 for
-/// each of turn-on and turn-off, with times from gate charge over gate current, and Q_rr U at turn-on.
+/// IGBT: the energies divided by the voltage and the current for which the sheet gives them. MOSFET: U i (t_i
+/// + t_u)/2 at turn-on and again at turn-off, with times from gate charge over gate current, and in addition
+/// Q_rr U at turn-on.
 inline plant::SwitchingLaw switching_law(const Bridge& b) {
   plant::SwitchingLaw law{.on_J_V = b.recovery_charge_C};
   if (b.energies_at_V > 0 && b.energies_at_A > 0) {

@@ -40,7 +40,7 @@ class Run {
 }  // namespace
 
 struct Session::State {
-  // Never changed, only replaced: copies of a session share them.
+  // The scenario is never changed, only replaced, because copies of a session share it.
   std::shared_ptr<const Scenario> scenario;
   std::shared_ptr<const Compiled> compiled;  ///< without the timeline, which the rig holds
   Observers watchers;
@@ -50,18 +50,18 @@ struct Session::State {
   Instant reach{};
   sim::Stop stop = sim::Stop::observer;
   bool over = false;
-  bool figures_moved = false;  ///< windows differ from those at the begin
+  bool figures_moved = false;  ///< the figures' windows differ from those at the beginning
 
   Instant now() const { return run->now(); }
   std::int64_t period() const { return compiled->board.modulator.period_ticks; }
-  /// Part of the period before its control tick, ps.
+  /// Time in ps from a period's start to its control tick.
   std::int64_t lead() const { return compiled->board.sampled_in_middle ? period() / 2 : 0; }
   bool is_tick(const Instant& t) const { return t.offset == 0.0 && t.ticks % period() == lead(); }
   Instant tick_after(const Instant& t) const {
     const std::int64_t since = t.ticks - lead();
     return since < 0 ? Instant{lead(), 0.0} : Instant{lead() + (since / period() + 1) * period(), 0.0};
   }
-  /// Samples an instant that is already simulated, if the last segment contains it.
+  /// Samples an earlier instant, if the last segment contains it.
   bool look_back(const Instant& asked) {
     if (!(asked < last->from)) {
       present.t_s = asked.seconds();
@@ -74,7 +74,8 @@ struct Session::State {
 
 namespace {
 
-/// Whether two configurations are equal for the past. A setpoint limit has no effect on setpoints within it.
+/// Whether two configurations have the same effect on the past. A changed setpoint limit has none on
+/// setpoints within it.
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
   if (!(a.sensorless == b.sensorless) || !(a.field == b.field)) return false;
@@ -85,7 +86,7 @@ bool same_chip(const Tuned& a, const Tuned& b) {
   return one == other;
 }
 
-/// Whether the newly compiled scenario has the same run up to now.
+/// Whether the newly compiled scenario has the same run up to the present instant.
 bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
   if (!same_chip(
           {before.drive, {}, before.product, before.sensorless, before.field, before.own, before.estimator},
@@ -101,8 +102,8 @@ bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, 
   return true;
 }
 
-/// The first control tick before which the segments so far have not looked. Its seconds must convert back to a
-/// tick not earlier.
+/// The first control tick that the segments so far have not included. Converting its time to seconds and back
+/// must not give an earlier tick.
 Instant next_change(const Instant& now, const Instant& next_tick, const Instant& reach, std::int64_t period) {
   std::int64_t from = std::max(now.ticks + (now.offset > 0 ? 1 : 0), reach.ticks);
   if (now < next_tick) from = std::max(from, now.ticks + 1);
@@ -111,8 +112,8 @@ Instant next_change(const Instant& now, const Instant& next_tick, const Instant&
   return {tick, 0.0};
 }
 
-/// Keeps the run on the general kernel if the event that needed it is after the end. Adds an event with
-/// straight wires, which changes nothing.
+/// Keeps the run on the general kernel, even if the event that needed this kernel now comes after the end:
+/// adds an event with straight wires, which changes nothing.
 Scenario on_same_kernel(Scenario s, const Compiled& before) {
   if (!before.general || needs_general_plant(s)) return s;
   At straight;
@@ -147,7 +148,7 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   if (!compiled) return compiled.problems();
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
-  compiled->board.sensors.decodes_hall = true;  // a line may break at any time
+  compiled->board.sensors.decodes_hall = true;  // a Hall line may break at any time
   compiled->board.chip = instead;
   rig::Timeline timeline = std::move(compiled->timeline);
   base::Result<std::unique_ptr<AnyRun>> run = detail::made_by(scenario, *compiled, std::move(timeline));
@@ -189,14 +190,14 @@ bool Session::go(const Instant& asked, bool read) {
   if (!to_end && !(s.now() < asked)) {
     if (read && s.last) return s.look_back(asked);
     Slice here = s.slice(asked);
-    if (read) s.run->look(here);  // skipped to here: no earlier instant was kept
+    if (read) s.run->look(here);  // reads the present instant, because skip() has kept no earlier one
     return true;
   }
   Slice slice = s.slice(to_end ? end : asked);
   slice.unread = !read;
   if (!read) s.last.reset();
   s.stop = s.now() < slice.until ? s.run->advance(end, slice) : sim::Stop::observer;
-  // Actions due at the end of the run are done.
+  // Carries out actions that are due at the end of the run.
   if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = s.run->advance(end, slice);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
   if (!slice.taken && read) s.run->look(slice);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run in slices. It can be advanced, read, changed, saved and resumed, and ends as a scenario that can be run
-// again. Test benches with knobs, co-simulations and scripts are built on it.
-//
-//   bits     slices and reads do not change a bit of the run: a slice ends after an event
-//   change   everything that [[at]] can change, at the next control tick. The session adds it to its scenario. An
-//            invalid change is refused like an invalid file, and then nothing has changed
-//   copy     a session is a value: a copy is a saved state, and continues independently
-//   replay   run(session.scenario()) has the digest of the session that was run to its end, or closed
+// A run in slices. It can be advanced, read, changed, saved and resumed, and ends as a scenario that can be
+// run again. Test benches with knobs, co-simulations and scripts are built on it.
+// - Bits: slices and reads do not change a bit of the run, because a slice ends after an event.
+// - Change: everything that [[at]] can change, at the next control tick. The session adds the change to its
+//   scenario. An invalid change is refused like an invalid file, and then nothing has changed.
+// - Copy: a session is a value. A copy is a saved state, and continues independently.
+// - Replay: run(session.scenario()) has the digest of the session, if that was run to its end or closed.
 #pragma once
 #include <memory>
 
@@ -17,8 +16,8 @@ namespace sixstep::study {
 
 class Session {
  public:
-  /// Opens a session at t = 0. Fixed point: the scaling [control.full_scale] holds for the whole session.
-  /// `instead`: a chip that sets the gates in the drive's place; copies of the session share it.
+  /// Opens a session at t = 0. In fixed point, the scaling [control.full_scale] holds for the whole session.
+  /// `instead` is a chip that sets the gates in the drive's place; copies of the session share it.
   static base::Result<Session> open(const Scenario& scenario, const Listeners& listeners = {},
                                     const rig::ChipPort& instead = {});
 
@@ -28,31 +27,32 @@ class Session {
   Session& operator=(Session&&) noexcept;
   ~Session();
 
-  /// Advances to to_s, then up to the next event: now_s() may lie a little after to_s, present() does not.
-  /// False if the run is over: its end, a fault, or a listener that stopped it.
+  /// Advances to to_s in seconds, and then up to the next event. now_s() may therefore lie a little after
+  /// to_s; present() does not. Returns false if the run is over: it reached its end, a fault stopped it, or a
+  /// listener did.
   bool advance(double to_s);
-  /// The same without reading: present() keeps its values. Reading costs as much as one or two PWM periods. An advance()
-  /// to an instant before now_s() then reads the values of now_s().
+  /// Advances like advance() without reading: present() keeps its values. Reading costs as much as one or two
+  /// PWM periods. A later advance() to an instant before now_s() reads the values of now_s().
   bool skip(double to_s);
-  /// The same as advance(), and calls done(present()) once per PWM period; `true` ends the advance.
+  /// Advances like advance(), and calls done(present()) once per PWM period; `true` ends the advance.
   template <class Done>
   bool advance_until(double to_s, Done&& done);
 
-  /// Advances to the next control tick after the present instant and reads it. The controller has not yet acted on it.
-  /// False as by advance().
+  /// Advances to the next control tick after the present instant and reads it. The controller has not yet
+  /// acted at this tick. Returns false like advance().
   bool advance_to_tick();
-  /// Whether the present instant is a control tick on which the controller has not yet acted.
+  /// Whether the present instant is a control tick at which the controller has not yet acted.
   bool at_tick() const;
-  /// Calls the controller with the measurement of the present instant, in a copy of its state: the session is
-  /// unchanged. The session must be at_tick().
+  /// Calls the controller with the measurement of the present instant, in a copy of the controller's state,
+  /// so that the session stays unchanged. The session must be at_tick().
   void call_controller() const;
 
-  /// Changes values at the next control tick. `at.time_s` is not read: the result is the instant, also in
-  /// scenario().
+  /// Changes values at the next control tick, and returns its time in s, which scenario() has as well.
+  /// `at.time_s` is not read.
   base::Result<double> change(At at);
 
-  /// Values at the instant of the last advance; if the run stopped before it, or has not begun, at the present
-  /// instant.
+  /// Values at the instant of the last advance. If the run stopped before that instant, or has not begun:
+  /// values at the present instant.
   const Present& present() const;
   double now_s() const;
   bool over() const;
@@ -63,8 +63,9 @@ class Session {
 
   /// Ends the session and returns the results. A run that is not over ends at the next control tick: this
   /// becomes the scenario's duration_s, and later events are dropped. If the reference was changed or the
-  /// session ends early, figures have other windows than at the begin: they are then taken from a replay, or
-  /// left out without `replay`, for a controller that is not part of the scenario.
+  /// session ends early, the figures' windows differ from those at the beginning. The figures are then taken
+  /// from a replay. Without `replay`, they are left out; this is for a controller that is not part of the
+  /// scenario.
   base::Result<Outcome> close(bool replay = true);
 
  private:

@@ -18,7 +18,7 @@ void shorten(std::vector<double>& times_s, std::vector<double>& values, double e
   values.resize(std::min(values.size(), kept));
 }
 
-/// If all steps are after the end, the value before them remains, as with a ramp that has not begun.
+/// If all steps come after the new end, the value before them remains, as with a ramp that has not begun.
 void shorten(Reference& r, double length_s) {
   if (r.shape != Shape::steps) return;
   shorten(r.times_s, r.values, length_s);

@@ -9,21 +9,22 @@
 #define ALIGN_DUTY 200u
 #define ALIGN_SLEW 10u                           /* periods per count: slowly, so that the rotor does not swing */
 #define FIRST_INTERVAL 16000u                    /* counts of the first sector of the ramp: 8 ms */
-#define LAST_INTERVAL 3000u                      /* of its last one: 1.5 ms */
+#define LAST_INTERVAL 3000u                      /* counts of the ramp's last sector: 1.5 ms */
 #define RAMP_CUBE 7000u                          /* constant acceleration: the interval falls by its cube */
-#define EMF_DUTY 700000u                         /* duty against the back-EMF is this by the interval */
+#define EMF_DUTY 700000u                         /* this over the interval is the duty that balances the back-EMF */
 #define MIN_DUTY 200u
 #define SLEW 4u                                  /* greatest rise of the duty per period */
 #define CATCH_CROSSINGS 12u                      /* crossings that are polled before interrupts count */
 #define CATCH_SAMPLES 2u                         /* equal samples that make a polled crossing */
 #define MISSES 4u                                /* sectors in a row without a crossing that are a desync */
-#define THROTTLE_ON 120u                         /* of 4095 */
-#define LIMIT (30u * HAL_COUNTS_PER_A)           /* above it the duty falls */
-#define TRIP (80u * HAL_COUNTS_PER_A)            /* above it the bridge turns off until the throttle is released */
+#define THROTTLE_ON 120u                         /* throttle that starts the motor, of 4095 */
+#define LIMIT (30u * HAL_COUNTS_PER_A)           /* current above which the duty falls */
+#define TRIP (80u * HAL_COUNTS_PER_A)            /* current above which the bridge turns off until the throttle is
+                                                    released */
 #define LOWEST_BUS (9u * HAL_COUNTS_PER_V)
 
-/* By step: the leg that is chopped, the leg that is low, the leg that floats. The floating phase's back-EMF rises in
- * odd steps and falls in even ones. */
+/* For each step: the chopped leg, the low leg, the floating leg. The floating phase's back-EMF rises in odd steps
+ * and falls in even ones. */
 static const uint8_t order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
 
 static esc_status is;
@@ -81,7 +82,7 @@ static void align(void) {
 static void ramp(void) {
   enter(ESC_RAMP);
   is.interval = FIRST_INTERVAL;
-  step = 1; /* the next one pulls the aligned rotor by 90 degrees */
+  step = 1; /* the next step pulls the aligned rotor by 90 degrees */
   commutate();
   hal_timer(is.interval);
 }

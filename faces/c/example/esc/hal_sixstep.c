@@ -22,11 +22,11 @@ static struct {
   int64_t now, period;          /* present instant, begin of the PWM period */
   uint8_t leg[3];
   uint8_t wanted[3];            /* of a leg: 0 none, 1 upper switch, 2 lower switch */
-  int64_t since[3];             /* when that was first wanted */
+  int64_t since[3];             /* instant at which this was first wanted */
   uint32_t gates;
   int64_t changed;              /* last change of a gate */
   uint16_t compare, preload;
-  int64_t sample, timer;        /* next ones */
+  int64_t sample, timer;        /* instants of the next sample and compare match */
   int64_t blank;                /* end of the firmware's blanking */
   int phase, level, sought;     /* watched comparator, -1: none; its output; the output that is sought */
   int hall;                     /* code that was last seen, -1: not watched */

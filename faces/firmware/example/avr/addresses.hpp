@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists registers of an ATmega2560 by their data-memory addresses, and their bits: for the firmware, which
-// writes them, and for the emulated board (faces/loop/avr/), which models them. Source: Atmel data sheet 2549,
-// register summary (33) and interrupt vectors (14.1).
+// Lists registers of an ATmega2560 by their data-memory addresses, and their bits. The firmware writes these
+// registers, and the emulated board (faces/loop/avr/) models them. Source: Atmel data sheet 2549, register
+// summary (33) and interrupt vectors (14.1).
 #pragma once
 #include <cstdint>
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes the board around the chip, as the scenario simulated it. A transducer in each phase on ADC0..ADC2;
-// each period samples the leg that feeds the driven pair. A potentiometer on ADC3 as the setpoint, 0 in its
-// middle. Hall pins on PK0..PK2.
+// Describes the board around the chip, as the scenario simulated it:
+// - a transducer for each phase current on ADC0..ADC2; each period samples the leg that feeds the driven
+//   pair;
+// - a potentiometer on ADC3 as the setpoint, which is 0 in the potentiometer's middle;
+// - Hall pins on PK0..PK2.
 #pragma once
 #include <drive_config.hpp>
 
@@ -25,7 +27,7 @@ static_assert(exported::pwm_centre_aligned,
 static_assert(exported::sampled_in_middle, "BOTTOM starts the conversion, the middle of the on-time");
 static_assert(exported::adc_bits == 10, "the converter that is there");
 static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
-#ifndef SIXSTEP_DESPITE  // tools/firmware_image.sh --despite, and an emulated chip
+#ifndef SIXSTEP_DESPITE  // defined by tools/firmware_image.sh --despite, and for an emulated chip
 static_assert(
     exported::cleared,
     "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
@@ -34,26 +36,27 @@ static_assert(exported::dead_time_ps > 0,
               "a leg would change between its two switches with both on: set bridge.dead_time_s");
 
 constexpr std::uint32_t clock_Hz = 16'000'000;
-// Timer counts of 62.5 ns in half a period, because it counts up and down.
+// Counts of the timer in half a period, 62.5 ns each. Half a period, because the timer counts up and down.
 constexpr std::uint64_t pwm_counts = exported::pwm_period_ps / 62'500 / 2;
 static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
-// Rounded up; change_over() waits at least four.
+// Dead time in cycles, rounded up. change_over() waits for at least four.
 constexpr std::uint64_t dead_cycles =
     exported::dead_time_ps <= 250'000 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
 static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
 
-// Readings in counts that no sound board has:
+// Readings in counts that no intact board has:
 constexpr std::uint16_t middle = 512;
-/// A phase current above it is a fault: 0.9 of its transducer's range. Set it below the limits of switches and
-/// motor.
+/// A phase current above this value is a fault: 0.9 of its transducer's range. Set it below the limits of
+/// switches and motor.
 constexpr std::uint16_t over_current_counts = 461;
-/// A reading so near to an end of the converter means a broken wire. Each input needs a resistor of at most 10
-/// kohm to ground, which pulls a broken wire there against the charge of the previous channel.
+/// A reading this near to an end of the converter's range means a broken wire. Each input needs a resistor of
+/// at most 10 kohm to ground, which pulls a broken wire to ground against the charge of the previous channel.
 constexpr std::uint16_t end_counts = 8;
-/// Bound of the three currents' sum, larger than any ripple, because their samples are half a period apart.
+/// Bound of the three currents' sum. It is larger than any ripple, because the currents' samples are half a
+/// period apart.
 constexpr std::uint16_t sum_counts = 192;
 constexpr std::uint8_t strange_sums = 3;
-/// Band of the potentiometer around its middle that counts as 0.
+/// Band around the potentiometer's middle in which the setpoint counts as 0.
 constexpr std::uint16_t zero_counts = 10;
 
 constexpr bool is_within(std::uint16_t counts, std::uint16_t of_middle) {
@@ -71,7 +74,8 @@ constexpr AdcConfig<Scalar> potentiometer{
     .offset_counts = middle};
 constexpr std::uint8_t potentiometer_channel = 3;
 
-/// Tables indexed by the Hall pins as in port K: a look-up takes a few cycles, the computation dozens.
+/// Tables indexed by the Hall pins as port K reads them. A look-up takes a few cycles, the computation
+/// dozens.
 struct ByPins {
   std::uint8_t code[8], source[8], second[8], third[8];
 };
@@ -87,14 +91,15 @@ constexpr ByPins by_pins = [] {
   return by;
 }();
 
-/// Majority of three readings six cycles apart: an edge of the bridge disturbs the pins for about 0.3 us (4.8
-/// cycles), and so only one reading. An edge of the rotor between them causes the Hall interrupt again.
-/// Written in assembly (19 cycles), because a compiler does not guarantee the distance.
+/// Majority of three readings of the Hall pins, six cycles apart. A switching edge of the bridge disturbs the
+/// pins for about 0.3 us (4.8 cycles), and so only one reading. If a Hall edge occurs between the readings,
+/// it causes the Hall interrupt again. Written in assembly (19 cycles), because a compiler does not guarantee
+/// the distance.
 inline std::uint8_t hall_pins() {
   std::uint8_t pins, second, third;
   asm volatile(
       "lds %[pins], %[PINK]\n\t"
-      "rjmp .+0\n\t"  // two cycles in one word
+      "rjmp .+0\n\t"  // takes two cycles, in one word of code
       "rjmp .+0\n\t"
       "lds %[second], %[PINK]\n\t"
       "mov %[third], %[pins]\n\t"
@@ -109,11 +114,12 @@ inline std::uint8_t hall_pins() {
   return pins & 7;
 }
 static_assert(clock_Hz == 16'000'000);
-/// The pins at the last Hall interrupt; the gates have the pair for them. A newer edge causes the next Hall
-/// interrupt.
+/// The pins at the last Hall interrupt. The gates have the pair for these pins. A later edge causes the next
+/// Hall interrupt.
 inline volatile std::uint8_t pins_seen = 0;
 
-/// Like adc_value(), but 10 bits cannot saturate, and 32-bit differences would cost a hundred cycles.
+/// Like adc_value(), but without saturation, which 10 bits cannot need, and in 16 bits, because 32-bit
+/// differences would cost a hundred cycles.
 inline Scalar value_of(const AdcConfig<Scalar>& config, std::int16_t offset, std::uint16_t counts) {
   const auto eighths = static_cast<std::int16_t>(static_cast<std::int16_t>(counts * 8) - offset);
   return ScalarTraits<Scalar>::product(Scalar::from_raw(eighths), config.per_eighth);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs an exported current or duty loop on an ATmega2560 at 16 MHz. tools/firmware_image.sh makes an image of
-// this program, and `sixstep run SCENARIO --on avr` runs it in the loop. The control interrupt occurs once a
-// period, after the conversion. Two interrupts may interrupt it: the Hall interrupt, which commutates the
-// bridge, and TOP's, from which on a new sign is in effect. The main loop logs to the serial line and feeds
-// the watchdog. A fault turns the gates off, and its reason is printed as long as the drive stands.
+// this program, and `sixstep run SCENARIO --on avr` runs it in the loop.
+// - The control interrupt occurs once a period, after the conversion.
+// - The Hall interrupt, which commutates the bridge, may interrupt it.
+// - TOP's interrupt, from which a new sign is in effect, may interrupt it too.
+// - The main loop logs to the serial line and feeds the watchdog.
+// - A fault turns the gates off, and its reason is printed as long as the drive is stopped.
 #include "faces/firmware/example/avr/set_up.hpp"
 #include "faces/firmware/example/log.hpp"
 
@@ -13,15 +15,15 @@ DriveState<Scalar> state;
 std::int16_t offset_eighths[3] = {};  // measured by calibrate()
 std::uint16_t offset_sum = 0;         // in counts
 Setpoint<Scalar> setpoint;
-Telemetry<Scalar> telemetry;  // the drive never reads it
+Telemetry<Scalar> telemetry;  // telemetry that the drive writes and this program ignores
 std::uint8_t sums_too_far = 0;
 
-/// The other two legs' currents, measured every second period: which of them is being converted.
+/// The conversions of the other two legs' currents, in every second period: which of them is in progress.
 enum class Legs : std::uint8_t { none, second, third } legs = Legs::none;
 std::uint8_t third_leg = 0;
 std::uint16_t second_counts = 0;
 
-/// The log's values of a control tick.
+/// The values of a control tick that the log prints.
 struct Row {
   std::uint16_t clock;
   std::uint8_t heart, hall;
@@ -31,7 +33,7 @@ LogSlot<Row> log;
 std::uint16_t row_clock = 0;      // at the beginning of the control interrupt
 volatile std::uint8_t heart = 0;  // counts control interrupts
 
-/// Sets all three compare registers, so that a leg after a commutation has its pulse at once.
+/// Sets all three compare registers, so that a leg has its pulse immediately after a commutation.
 void set_on_time(std::uint16_t counts) {
   word(atmega2560::OCR1AL) = counts;
   word(atmega2560::OCR1BL) = counts;
@@ -42,13 +44,13 @@ void note_row(std::uint8_t pins, Scalar current, Scalar reference, Scalar duty) 
   if (log.waiting() == nullptr) log.take({row_clock, heart, by_pins.code[pins], current, reference, duty});
 }
 
-/// Stops because of a current that no sound drive has.
+/// Stops the drive because of a current that no intact drive has.
 void stop_by_current(std::uint16_t counts) {
   stop(is_at_end(counts) ? Reason::current_sensor : Reason::over_current);
 }
 
-/// The bridge has been off since the reset, so the current is 0 A. The sum of eight samples is their mean in
-/// eighths of a count.
+/// Measures the transducers' offsets. The bridge has been off since the reset, so that the current is 0 A.
+/// The sum of eight samples is their mean in eighths of a count.
 void calibrate() {
   static std::uint8_t samples = 0;
   for (std::uint8_t leg = 0; leg < 3; ++leg) {
@@ -65,8 +67,8 @@ void calibrate() {
   phase = Phase::waits;
 }
 
-/// Waits until the setpoint has been 0, so that the motor does not start at power-up with any position of the
-/// potentiometer.
+/// Waits until the setpoint is 0, so that the motor does not start at power-up, whatever the position of the
+/// potentiometer is.
 void wait_for_zero() {
   convert(potentiometer_channel);
   const std::uint16_t counts = conversion();
@@ -74,7 +76,7 @@ void wait_for_zero() {
   if (is_within(counts, zero_counts)) phase = Phase::drives;
 }
 
-/// A period without a drive. A gate that is on by some fault is on for one period at most.
+/// A period in which the drive does not run. A gate that is on by some error stays on for one period at most.
 __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   if (phase == Phase::stands) turn_off();
   const std::uint8_t pins = hall_pins();
@@ -86,9 +88,9 @@ __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   convert_at_bottom(pins_seen);
 }
 
-/// Without extras a drive uses the Hall code only for the pair, which is at the pins already. Its loop
-/// therefore computes in one fixed sector, whose legs are compile-time constants; this saves 100 cycles of
-/// conversion between motor and phase currents.
+/// The Hall code for which the loop computes. Without extras a drive uses the code only for the pair, and the
+/// pins already have the right pair. Its loop therefore computes in one fixed sector, whose legs are
+/// compile-time constants. This saves 100 cycles of conversion between motor and phase currents.
 constexpr std::uint8_t code_of_loop = 0b101;
 
 void control(std::uint8_t pins, std::uint16_t counts) {
@@ -101,15 +103,15 @@ void control(std::uint8_t pins, std::uint16_t counts) {
   step(drive, state, m, setpoint, telemetry);
 }
 
-/// Applies the answer at the next TOP, when the timer loads the on-time. The TOP interrupt is enabled if the
-/// sign changes, or if the third leg's conversion must begin.
+/// Sets the answer for the next TOP, when the timer loads the on-time. The TOP interrupt is enabled if the
+/// sign changes, or if the third leg's conversion must start there.
 void answer(bool legs_are_next) {
   set_on_time(counts_of(state.command.duty));
   wanted = state.reversed ? Way::negative : Way::positive;
   byte(atmega2560::TIMSK1) = legs_are_next || wanted != shown ? atmega2560::ICIE1 : std::uint8_t{0};
 }
 
-/// Checks all three currents of this period; their sum only if the pair did not change in between.
+/// Checks all three currents of this period; their sum only if the pair did not change between the samples.
 void check_legs(bool commutated, std::uint16_t first, std::uint16_t third) {
   if (!is_within(second_counts, over_current_counts)) return stop_by_current(second_counts);
   if (!is_within(third, over_current_counts)) return stop_by_current(third);
@@ -139,17 +141,18 @@ constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
 static_assert(full_mA < 65536, "times a signal of 16 bits");
 
-/// Periods between two rows without a control interrupt: elapsed time in periods, rounded, minus the number
-/// of interrupts.
+/// Number of periods without a control interrupt between two rows: the elapsed time in periods, rounded,
+/// minus the number of interrupts.
 std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
   constexpr std::uint16_t period_half_us = pwm_counts / 4;
   std::uint16_t periods = 0;
-  if constexpr (pwm_counts % 4 == 0) {  // a 32-bit division takes as long as the rest of the row
+  if constexpr (pwm_counts % 4 == 0) {  // avoids a 32-bit division, which takes as long as the rest of the
+                                        // row
     for (; half_us > period_half_us; half_us = static_cast<std::uint16_t>(half_us - period_half_us))
       ++periods;
     if (half_us > period_half_us / 2) ++periods;
   } else {
-    constexpr auto half = static_cast<std::uint32_t>(pwm_counts);  // a period, in cycles
+    constexpr auto half = static_cast<std::uint32_t>(pwm_counts);  // cycles in half a period
     periods = static_cast<std::uint16_t>((std::uint32_t{half_us} * 8 + half) / (half + half));
   }
   return static_cast<std::uint8_t>(periods - came);
@@ -157,7 +160,7 @@ std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
 
 void send(const Row& row) {
   static Instant now;
-  static std::uint16_t clock = conversion_half_us;  // a row's time is that of its sample
+  static std::uint16_t clock = conversion_half_us;  // the time of a row is that of its sample
   static std::uint8_t seen = 0;
   static bool begun = false;
   const auto passed = static_cast<std::uint16_t>(row.clock - clock);
@@ -179,8 +182,8 @@ void send(const Row& row) {
   begun = true;
 }
 
-/// Feeds the watchdog while control interrupts occur, and while the drive is stopped, so that it continues to
-/// print the reason.
+/// Feeds the watchdog in two cases: while control interrupts occur, and while the drive is stopped, so that
+/// the program continues to print the reason.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   if (heart == seen && phase != Phase::stands) return;
@@ -188,7 +191,7 @@ void feed_watchdog() {
   asm volatile("wdr");
 }
 
-/// Prints when the drive stops or begins to wait, and then once a second.
+/// Prints the phase when the drive stops or begins to wait, and then once a second.
 void tell_phase() {
   constexpr std::uint8_t second = 31;  // overflows of timer 3, each 33 ms
   static Phase told = Phase::calibrates;
@@ -207,7 +210,7 @@ void tell_phase() {
 
 }  // namespace firmware
 
-/// The end of the conversion that BOTTOM started.
+/// Interrupt at the end of the conversion that BOTTOM started.
 extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
   using namespace firmware;
   const std::uint16_t counts = converted();
@@ -229,10 +232,11 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
     stop_by_current(counts);
   }
   const std::uint16_t last = conversion();
-  const bool has_legs = legs == Legs::third;  // otherwise TOP did not occur in time
+  const bool has_legs = legs == Legs::third;  // false if the TOP interrupt did not occur in time
   legs = Legs::none;
   const std::uint8_t last_pins = pins_seen;
-  convert_at_bottom(last_pins);  // as early as possible: an earlier BOTTOM would be a period without control
+  convert_at_bottom(last_pins);  // as early as possible, because a BOTTOM before it would start no
+                                 // conversion: a period without control
   if (phase != Phase::drives) return;
   note_row(pins, telemetry.motor_current_A, setpoint.value, telemetry.duty);
   answer(!looks_at_legs);
@@ -242,7 +246,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
     check_legs(pins != last_pins, counts, last);
 }
 
-/// TOP.
+/// Interrupt at TOP.
 extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER1_CAPT() {
   using namespace firmware;
   if (wanted != shown) {
@@ -250,7 +254,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER1_CAPT() {
     show(pins_seen);
   }
   if (legs == Legs::second) {
-    if (converts()) return;  // not done: at the next TOP
+    if (converts()) return;  // not done now, but at the next TOP
     second_counts = converted();
     convert(third_leg);
     legs = Legs::third;
@@ -268,7 +272,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
   show(pins);
 }
 
-/// Interrupt after too long a time without a control interrupt.
+/// Interrupt if no control interrupt has occurred for too long.
 extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER0_OVF() {
   firmware::stop(firmware::Reason::converter);
 }

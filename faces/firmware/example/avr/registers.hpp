@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes an ATmega2560's registers variables, and names the interrupts that the program serves.
+// Declares an ATmega2560's registers as variables, and names the interrupts that the program handles.
 #pragma once
 #include "faces/firmware/example/avr/addresses.hpp"
 
@@ -8,15 +8,15 @@ namespace firmware {
 inline volatile std::uint8_t& byte(atmega2560::Address address) {
   return *reinterpret_cast<volatile std::uint8_t*>(address);
 }
-/// `address` is the low byte's. The compiler writes the high byte first and reads it last, as 16-bit registers
-/// need it.
+/// A 16-bit register; `address` is that of the low byte. The compiler writes the high byte first and reads it
+/// last, as these registers need it.
 inline volatile std::uint16_t& word(atmega2560::Address address) {
   return *reinterpret_cast<volatile std::uint16_t*>(address);
 }
 
 }  // namespace firmware
 
-// Interrupts by their numbers, as the compiler requires them (14.1).
+// Names of interrupt functions with their numbers, in the form that the compiler requires (14.1).
 #define INTERRUPT_PCINT2 __vector_11
 #define INTERRUPT_TIMER1_CAPT __vector_16
 #define INTERRUPT_TIMER0_OVF __vector_23

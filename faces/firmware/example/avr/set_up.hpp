@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the registers before the first interrupt. All gates are inputs with external pull-downs until a command
-// enables one.
+// Sets the registers before the first interrupt. All gates are inputs, with external pull-downs, until a
+// command enables a gate.
 #pragma once
 #include "faces/firmware/example/avr/converter.hpp"
 #include "faces/firmware/example/avr/standing.hpp"
@@ -9,7 +9,7 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Sets the watchdog to 16 ms; the two writes must be within four cycles. Returns the cause of the reset
+/// Sets the watchdog to 16 ms. Its two writes must be within four cycles. Returns the cause of the reset
 /// (MCUSR).
 inline std::uint8_t set_up_watchdog() {
   using namespace atmega2560;
@@ -37,8 +37,8 @@ inline void set_up_timer() {
   byte(TCCR1B) = WGM13 | CS10;
 }
 
-/// Timer 0 overflows if no control interrupt resets it for half a millisecond or, with long periods, for two and
-/// a half of them.
+/// Timer 0 overflows if no control interrupt resets it for half a millisecond or, with long periods, for two
+/// and a half periods.
 constexpr bool is_long_period = exported::pwm_period_ps > 200'000'000;
 constexpr std::uint64_t patience_ps = is_long_period ? exported::pwm_period_ps / 2 * 5 : 500'000'000;
 constexpr std::uint64_t patience_counts = patience_ps / (is_long_period ? 64'000'000 : 4'000'000);
@@ -55,8 +55,9 @@ inline void set_up_supervisor() {
   byte(TIMSK0) = TOIE0;
 }
 
-/// Timer 3 counts half microseconds independent of interrupts, and wraps after 33 ms. It is started in .init3 of
-/// avr-libc, because the initialisation of variables before main() takes a quarter of a millisecond.
+/// Timer 3 counts half microseconds, independently of interrupts, and wraps after 33 ms. It is started in
+/// .init3 of avr-libc, because the initialisation of variables before main() takes a quarter of a
+/// millisecond, which must count.
 inline std::uint16_t log_clock() { return word(atmega2560::TCNT3L); }
 static_assert(atmega2560::TCCR3B == 0x91 && atmega2560::by_8 == 2);
 asm(".pushsection .init3,\"ax\",@progbits\n\t"
@@ -64,7 +65,7 @@ asm(".pushsection .init3,\"ax\",@progbits\n\t"
     "sts 0x91, r24\n\t"
     ".popsection");
 
-/// Enables the pull-ups of port K: a broken wire reads 1, not the signal of its neighbour.
+/// Enables the pull-ups of port K, so that a broken wire reads 1 and not the signal of the neighbouring wire.
 inline void set_up_hall_pins() {
   byte(atmega2560::PORTK) = 7;
   byte(atmega2560::PCMSK2) = 7;
@@ -78,13 +79,13 @@ inline void set_up_converter() {
 }
 
 inline void set_up() {
-  byte(atmega2560::DDRA) = 7;  // the lower gates, low
+  byte(atmega2560::DDRA) = 7;  // the lower gates become outputs, which are low
   set_up_serial_line();
   set_up_timer();
   set_up_hall_pins();
   set_up_converter();
   if (phase != Phase::stands) set_up_supervisor();
-  byte(atmega2560::SMCR) = atmega2560::SE;  // idle: timer, converter and serial line run on
+  byte(atmega2560::SMCR) = atmega2560::SE;  // sleep mode idle: timer, converter and serial line continue
 }
 
 }  // namespace firmware

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the phase of the drive and the reason of its stop. The drive starts at one place only: after the
-// offsets are measured and the potentiometer is at its middle. The reason of a stop is kept over resets.
+// Holds the phase of the drive and the reason of its stop. The drive starts at only one place in the program:
+// after the offsets are measured and the potentiometer is at its middle. The reason of a stop is kept over
+// resets.
 #pragma once
 #include "faces/firmware/example/avr/gates.hpp"
 #include "faces/firmware/example/fault_reason.hpp"
@@ -8,13 +9,13 @@
 namespace firmware {
 
 enum class Phase : std::uint8_t {
-  calibrates,  ///< the bridge is off, no current flows: the transducers' offsets are measured
-  waits,       ///< until the potentiometer is at its middle
+  calibrates,  ///< the bridge is off and no current flows, while the transducers' offsets are measured
+  waits,       ///< waits until the potentiometer is at its middle
   drives,
-  stands  ///< by a fault, until a power-up or a reset by the pin
+  stands  ///< stopped by a fault, until a power-up or a reset by the reset pin
 };
 
-// An interrupt during the control interrupt also writes these.
+// Volatile, because interrupts during the control interrupt write these variables too.
 inline volatile Phase phase = Phase::calibrates;
 inline volatile Reason reason = Reason::none;
 
@@ -31,8 +32,8 @@ static_assert(sizeof(firmware::KeptReason) == 6);
 
 namespace firmware {
 
-/// Stops the drive and keeps the first reason. The control tick calls it with interrupts on; an interrupt in
-/// between would enable the pair again, therefore it disables them.
+/// Stops the drive and keeps the first reason. The control tick calls this function with interrupts on. An
+/// interrupt during it would enable the pair again, so that it disables interrupts.
 inline void stop(Reason why) {
   const std::uint8_t interrupts = byte(atmega2560::SREG);
   asm volatile("cli" ::: "memory");
@@ -49,7 +50,7 @@ inline void stop(Reason why) {
 }
 
 /// Determines the reason from MCUSR and the kept reason. A reset without any bit in MCUSR was not requested:
-/// a boot loader has cleared the watchdog's bit, or the program jumped to its own beginning.
+/// either a boot loader has cleared the watchdog's bit, or the program jumped to its own beginning.
 inline Reason reason_after_reset(std::uint8_t cause) {
   const bool ran_before = kept_reason.key == KeptReason::right_key;
   if ((cause & atmega2560::WDRF) == 0 && (cause != 0 || !ran_before)) return Reason::none;

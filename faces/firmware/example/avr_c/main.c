@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A six-step current controller as it is often written for an AVR: C, avr-libc, integers of mA and timer counts, tables by Hall code. It
- * uses nothing of sixstep: map.toml tells sixstep how it hangs at the board.
+/* A six-step current controller as it is often written for an AVR: in C with avr-libc, integers of mA and timer
+ * counts, and tables by Hall code. It uses nothing of sixstep: map.toml says how it is connected to the board.
  *
- * NEVER FOR A BRIDGE. It shows how a firmware of one's own hangs at the simulated board, and no more: no over-current and no lost wire stop
- * it, it has no watchdog, and it starts by itself, also behind a wrong Hall code. What is made for a bridge lies in ../avr.
+ * NEVER FOR A BRIDGE. It only shows how a user's own firmware is connected to the simulated board. No over-current
+ * and no broken wire stops it, it has no watchdog, and it starts by itself, even after a wrong Hall code. Firmware
+ * for a bridge is in ../avr.
  *
- * ATmega2560 at 16 MHz. Timer 1 up and down in 100 us, upper gates of legs a, b, c at OC1C, OC1B, OC1A (PB7, PB6, PB5), lower gates at
- * PC3, PC4, PC5, Hall lines H1 H2 H3 at PK4, PK5, PK6. A transducer in each phase at ADC4..ADC6 (10 A over 1024 counts, 0 A in the
- * middle), the setpoint's potentiometer at ADC7 (2 A either way). */
+ * ATmega2560 at 16 MHz. Timer 1 counts up and down in 100 us. Upper gates of legs a, b, c are at OC1C, OC1B, OC1A
+ * (PB7, PB6, PB5), lower gates at PC3, PC4, PC5, Hall lines H1 H2 H3 at PK4, PK5, PK6. Each phase has a transducer
+ * at ADC4..ADC6 (10 A over 1024 counts, 0 A in the middle). The setpoint's potentiometer is at ADC7 (2 A in either
+ * direction). */
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
 
 #define TOP 800 /* counts of half a period */
-#define DEAD 16 /* cycles from the going of a gate to the coming of another one: 1 us */
+#define DEAD 16 /* cycles from turning a gate off to turning another one on: 1 us */
 #define MA(counts) (((int32_t)((int16_t)(counts)-512) * 625) >> 6) /* 9.77 mA a count */
 #define SETPOINT_MA(counts) (((int32_t)((int16_t)(counts)-512) * 125) >> 5) /* 3.9 mA a count */
 /* u = kp e + sum of ki e, in timer counts for mA, Q12: 2.3 V/A and 0.38 V/A at 24 V (sixstep design --method cancellation). */
@@ -21,19 +23,20 @@
 #define KI 52
 #define FULL ((int32_t)TOP << 12)
 
-/* By PK6..PK4 as a number, H1 lowest: the leg that feeds a positive current, and the one that takes it; 3: none. */
+/* Tables by PK6..PK4 as a number, with H1 as the lowest bit: the leg that feeds a positive current, and the leg
+   that takes it; 3: none. */
 static const uint8_t feeds[8] = {3, 0, 1, 0, 2, 2, 1, 3};
 static const uint8_t takes[8] = {3, 1, 2, 2, 0, 1, 0, 3};
 static const uint8_t upper[3] = {1 << PB7, 1 << PB6, 1 << PB5};
 static const uint8_t lower[3] = {1 << PC3, 1 << PC4, 1 << PC5};
 
 static int32_t integral; /* Q12 */
-static int16_t drive;    /* signed counts */
+static int16_t drive;    /* signed duty in timer counts */
 
 static uint8_t hall(void) { return (PINK >> 4) & 7; }
 
-/* Pulses stand at all three outputs of the timer; the direction register lets one out. What goes is off for the dead time before what
- * comes is on. Within interrupts alone. */
+/* All three outputs of the timer always have pulses, and the direction register enables one of them. A gate that
+ * turns off is off for the dead time before another one turns on. Call this function within interrupts only. */
 static void set_gates(uint8_t code)
 {
     uint8_t from = drive < 0 ? takes[code] : feeds[code];
@@ -92,10 +95,11 @@ int main(void)
     TCCR1B = (1 << WGM13) | (1 << CS10);
     PCMSK2 = 0x70;
     PCICR = 1 << PCIE2;
-    ADCSRB = (1 << ADTS2) | (1 << ADTS1); /* at timer 1's overflow, its bottom */
+    ADCSRB = (1 << ADTS2) | (1 << ADTS1); /* trigger: timer 1's overflow, at its bottom */
     ADMUX = (1 << REFS0) | 4;
     ADCSRA = (1 << ADEN) | (1 << ADATE) | (1 << ADIE) | (1 << ADPS2);
-    TIFR1 = 1 << TOV1; /* the flag's rise triggers: one that stands already never will */
+    TIFR1 = 1 << TOV1; /* only the flag's rising edge triggers, so that a flag that is already set would never
+                          trigger */
     set_sleep_mode(SLEEP_MODE_IDLE);
     sei();
     for (;;) sleep_mode();

@@ -16,7 +16,7 @@
 namespace firmware {
 
 #ifdef SIXSTEP_DESPITE
-constexpr bool accepts_uncleared = true;  // tools/firmware_image.sh --despite
+constexpr bool accepts_uncleared = true;  // set by tools/firmware_image.sh --despite
 #else
 constexpr bool accepts_uncleared = false;
 #endif
@@ -25,20 +25,20 @@ using namespace sixstep::control;
 using exported::Scalar;
 
 constexpr std::uint32_t clock_Hz = 72'000'000;
-/// The Nucleo's debugger supplies a clock of 8 MHz; with a crystal this is false.
+/// True: the Nucleo's debugger supplies a clock of 8 MHz. Set it to false for a crystal.
 constexpr bool has_external_clock = true;
 
-/// Whether bootstrap capacitors feed the upper gates; they charge while the leg's output is low (IR21xx, L638x
-/// and most shields). Then all lower gates pulse for a while before the first pulse, every on-time ends with
-/// a least off-time, and no pattern keeps an upper gate on.
+/// Whether bootstrap capacitors feed the upper gates (IR21xx, L638x and most shields). They charge while the
+/// leg's output is low. With them, all lower gates pulse for a while before the first pulse, every on-time
+/// ends with a least off-time, and no pattern keeps an upper gate on.
 constexpr bool upper_gates_by_bootstrap = true;
 constexpr std::uint32_t charge_ns = 2'000, charge_periods = 100, least_gap_ns = 1'500;
 /// The level of the break input that turns all gates off. The chip pulls the pin to this level, so that a
-/// broken wire has the same effect. An output with an open drain therefore needs a separate pull-up at its
-/// end of the wire.
+/// broken wire has the same effect. An open-drain output that drives the wire therefore needs its own pull-up
+/// at the other end of the wire.
 constexpr bool break_active_high = false;
 
-// The rest follows from the drive.
+// All other constants follow from the drive.
 static_assert(
     exported::cleared || accepts_uncleared,
     "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
@@ -48,9 +48,9 @@ constexpr std::uint32_t counts_of_ns(std::uint64_t ns) {
 }
 constexpr auto pwm_counts =
     static_cast<std::uint32_t>(exported::pwm_period_ps * (clock_Hz / 1'000'000) / 1'000'000);
-/// Worst-case instructions of a control tick and a Hall interrupt, one count each: with a shorter period each
-/// Hall edge would cost a period. The flash's wait states are added. A late answer takes effect a period
-/// later and is reported (tests/target/image_load.py).
+/// Least control period in timer counts: the worst-case instructions of a control tick and a Hall interrupt,
+/// one count each, plus the flash's wait states. With a shorter period each Hall edge would cost a period. A
+/// late answer takes effect a period later and is reported (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
               "TIM1 has 16 bits, and the interrupts take 1600 counts: pwm.period_s = 22.3e-6 or more");
@@ -61,8 +61,9 @@ static_assert(
     "without a dead time both switches of a leg are on for a moment: give the scenario bridge.dead_time_s");
 static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
 static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
-/// The converter samples three currents and the bus one microsecond before the update, before the switching at the
-/// period's start. The period's change of outputs comes some counts before the update (event_count).
+/// The converter samples the three currents and the bus one microsecond before the update, so that the
+/// samples precede the switching at the period's start. The period's change of outputs is prepared some
+/// counts before the update (event_count).
 constexpr std::uint32_t sample_count = pwm_counts - clock_Hz / 1'000'000, event_count = pwm_counts - 12;
 constexpr std::uint32_t most_on_counts = pwm_counts - counts_of_ns(least_gap_ns);
 constexpr std::uint32_t charge_counts = counts_of_ns(charge_ns);
@@ -91,17 +92,18 @@ static_assert(
     exported::timer_Hz == clock_Hz,
     "TIM2 counts the core's clock: set sensors.capture_Hz to it, or every speed is wrong by their ratio");
 
-/// Majority of three readings a quarter of a microsecond apart: an edge of the bridge disturbs one of them.
+/// Majority of three readings a quarter of a microsecond apart, because a switching edge of the bridge
+/// disturbs only one of them.
 inline std::uint8_t hall_pins_once() {
   const std::uint32_t a = gpio_a().IDR, b = gpio_b().IDR;
   return static_cast<std::uint8_t>((a >> 15 & 1) << 2 | (b >> 3 & 1) << 1 | (b >> 10 & 1));
 }
 inline void quarter_of_a_microsecond() {
 #pragma GCC unroll 18
-  for (int n = 0; n < 18; ++n) asm volatile("nop");  // at least one clock each
+  for (int n = 0; n < 18; ++n) asm volatile("nop");  // each nop takes at least one clock
 }
 static_assert(clock_Hz / 4'000'000 == 18);
-/// PA15 is H1, the highest bit.
+/// The Hall code of the pins; PA15 is H1, the highest bit.
 inline std::uint8_t hall_pins() {
   const unsigned first = hall_pins_once();
   quarter_of_a_microsecond();

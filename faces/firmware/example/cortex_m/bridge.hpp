@@ -10,13 +10,14 @@
 //    0     1     driven low            OCxREF                no dead time
 //    1     1     OCxREF                not OCxREF            dead time at each edge of OCxREF
 //
-// A leg with only one switch in use needs one enable; the timer then inserts no dead time. Therefore a leg
-// that changes between its switches is off for the dead time, by two commutation events (COM) at least the
-// dead time apart. At the first event it turns off, and all other legs get their new outputs; at the second
-// event it gets its new outputs. Only a leg with both enables before and after changes at once, because the
-// timer inserts its own dead time. Off is driven: CCxE or CCxNE alone, OCxREF forced low. A leg turns off by
-// its mode alone and changes its enables while OCxREF is low, so that the order within one event has no
-// effect.
+// A leg with only one switch in use needs one enable bit, and the timer then inserts no dead time. Therefore
+// a leg that changes from one switch to the other is off for the dead time. This takes two commutation events
+// (COM) at least the dead time apart. At the first event the leg turns off, and all other legs get their new
+// outputs. At the second event the leg gets its new outputs. Only a leg with both enables before and after
+// changes at once, because the timer inserts its own dead time.
+//
+// Off is driven: CCxE or CCxNE alone, with OCxREF forced low. A leg turns off by its mode alone and changes
+// its enables while OCxREF is low, so that their order within one event has no effect.
 //
 // bridge_timer.hpp decides when the events occur.
 #pragma once
@@ -25,8 +26,8 @@
 
 namespace firmware {
 
-/// OCxM, CCxE as bit 0 and CCxNE as bit 2, and the switches that it may turn on, in one byte, so that interrupts
-/// compare it quickly.
+/// Output of a leg in one byte, so that interrupts compare it quickly: OCxM, CCxE as bit 0, CCxNE as bit 2,
+/// and the switches that it may turn on.
 class LegOutput {
  public:
   static constexpr unsigned upper_alone = 1, lower_alone = 4, both = 5;
@@ -35,7 +36,7 @@ class LegOutput {
       : bits_(static_cast<std::uint8_t>(mode | enables << 3 | switches_of(mode, enables) << 6)) {}
   constexpr std::uint32_t mode() const { return bits_ & 7u; }
   constexpr std::uint32_t enables() const { return bits_ >> 3 & 7u; }
-  /// Switches that are on at any time of a period: 1 the upper one, 2 the lower one.
+  /// Switches that are on at any time of a period: bit 0 is the upper switch, bit 1 the lower one.
   constexpr unsigned switches() const { return bits_ >> 6; }
   constexpr bool operator==(const LegOutput&) const = default;
 
@@ -47,8 +48,8 @@ class LegOutput {
   std::uint8_t bits_;
 };
 
-/// Output of a leg from its two gates in the on-time and in the rest of the period; bit 0 is the upper gate,
-/// bit 1 the lower one.
+/// Output of a leg from its two gates during the on-time and during the rest of the period; bit 0 is the
+/// upper gate, bit 1 the lower one.
 constexpr LegOutput leg_output(unsigned on, unsigned off) {
   constexpr unsigned upper = 1, lower = 2;
   if (on & off & upper) return {bit::force_high, LegOutput::upper_alone};
@@ -60,21 +61,21 @@ constexpr LegOutput leg_output(unsigned on, unsigned off) {
   return {};
 }
 
-/// Both switches off, from any state.
+/// The output with both switches off, which may follow any output `from`.
 constexpr LegOutput leg_off(LegOutput from) {
   const bool lower = from.enables() == LegOutput::lower_alone;
   return {bit::force_low, lower ? LegOutput::lower_alone : LegOutput::upper_alone};
 }
 
-/// Whether a leg must be off in between: it changes from one switch to the other, and the timer does not
-/// insert the dead time before and after.
+/// Whether a leg must be off between two outputs: it changes from one switch to the other, and the timer
+/// inserts no dead time in at least one of them.
 constexpr bool needs_pause(LegOutput from, LegOutput to) {
   const unsigned before = from.switches(), behind = to.switches();
   if (((before >> 1 & behind) | (behind >> 1 & before)) == 0 || from == to) return false;
   return from.enables() != LegOutput::both || to.enables() != LegOutput::both;
 }
 
-/// Legs a, b, c.
+/// Outputs of legs a, b, c.
 struct BridgeOutputs {
   LegOutput leg[3];
   constexpr bool operator==(const BridgeOutputs& other) const {
@@ -89,7 +90,7 @@ constexpr BridgeOutputs outputs(const sixstep::control::BridgeCommand<Scalar>& c
       {leg_output(on & 3, off & 3), leg_output(on >> 2 & 3, off >> 2 & 3), leg_output(on >> 4, off >> 4)}};
 }
 
-/// The intermediate state: off for each leg that must pause.
+/// The outputs between the two commutation events: off for each leg that must pause.
 constexpr BridgeOutputs between(const BridgeOutputs& from, const BridgeOutputs& to) {
   BridgeOutputs way = to;
   for (int n = 0; n < 3; ++n)
@@ -97,20 +98,20 @@ constexpr BridgeOutputs between(const BridgeOutputs& from, const BridgeOutputs& 
   return way;
 }
 
-/// Turns all legs off at once.
+/// The outputs with all legs off.
 constexpr BridgeOutputs legs_off(const BridgeOutputs& from) {
   return {{leg_off(from.leg[0]), leg_off(from.leg[1]), leg_off(from.leg[2])}};
 }
 
-/// Whether a switch may turn on that could not before.
+/// Whether a switch may turn on with `to` that could not with `from`.
 constexpr bool turns_on(const BridgeOutputs& from, const BridgeOutputs& to) {
   unsigned more = 0;
   for (int n = 0; n < 3; ++n) more |= to.leg[n].switches() & ~from.leg[n].switches();
   return more != 0;
 }
 
-/// The registers' values. CCMR2 also has the mode of the fourth channel, whose reference rises at its compare
-/// value and starts the converter.
+/// Values of the output registers. CCMR2 also has the mode of the fourth channel, whose reference rises at
+/// its compare value and starts the converter.
 struct GateOutputs {
   std::uint32_t CCMR1, CCMR2, CCER;
 };
@@ -121,7 +122,7 @@ constexpr GateOutputs registers(const BridgeOutputs& o) {
           o.leg[0].enables() | o.leg[1].enables() << 4 | o.leg[2].enables() << 8};
 }
 
-/// DTG for a dead time in counts, rounded up (20.4.18): steps of 1, 2, 8 and 16 counts.
+/// The bits DTG for a dead time in counts, rounded up (20.4.18). They have steps of 1, 2, 8 and 16 counts.
 constexpr std::uint32_t dead_time_bits(std::uint32_t counts) {
   const auto steps = [counts](std::uint32_t of, std::uint32_t from) { return (counts + of - 1) / of - from; };
   if (counts < 128) return counts;

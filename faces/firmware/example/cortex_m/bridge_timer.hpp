@@ -38,17 +38,18 @@ class InterruptsOff {
   std::uint32_t were_off_;
 };
 
-/// A command, and whether it is for the negative direction: a Hall edge moves the pair of each direction
-/// differently.
+/// A command, and whether it is for the negative direction. A Hall edge changes the pairs of the two
+/// directions differently.
 struct Commanded {
   BridgeCommand<Scalar> bridge;
   bool reversed;
 };
 
-Commanded in_effect, waiting;  // for this period, and for the next one
+Commanded in_effect, waiting;  // commands for this period and for the next one
 BridgeOutputs legs;            // after the last commutation event
-std::uint32_t changed_at = 0;  // TIM2's count at that event
-bool charging = false;         // short pulses of all lower gates charge the bootstraps, no command is on
+std::uint32_t changed_at = 0;  // count of TIM2 at that event
+bool charging = false;         // while short pulses of all lower gates charge the bootstrap capacitors, no
+                               // command is on
 
 constexpr std::uint32_t compare_of(Scalar duty) {
   const auto counts = static_cast<std::uint32_t>(duty * static_cast<float>(pwm_counts));
@@ -61,7 +62,7 @@ inline void preload(const GateOutputs& out) {
   tim1().CCER = out.CCER;
 }
 
-/// The commutation event: all channels load their preloaded values at once.
+/// Causes the commutation event, at which all channels load their preloaded values.
 inline void commutation_event() {
   tim1().EGR = bit::COMG;
   changed_at = tim2().CNT;
@@ -85,7 +86,7 @@ inline Change change(const BridgeOutputs& way, const BridgeOutputs& to) {
 }
 inline Change change(const BridgeOutputs& to) { return change(between(legs, to), to); }
 
-/// Executes a change whose first event is preloaded and due.
+/// Executes a change whose first event is due and whose values are preloaded.
 inline void make(const Change& change) {
   commutation_event();
   if (change.pauses) {
@@ -105,15 +106,15 @@ inline void change_at_once(const BridgeOutputs& to) {
   make(now);
 }
 
-Change coming;            // at the period's end,
-bool change_due = false;  // if there is one
+Change coming;            // change at the period's end,
+bool change_due = false;  // if this is true
 
 inline void compare_next(std::uint32_t counts) {
   for (int n = 0; n < 3; ++n) tim1().CCR[n] = counts;
 }
 
-/// Enables the interrupt at the period's end. Its flag was set in this period, because each control tick
-/// clears it first.
+/// Enables the interrupt at the period's end. If its flag is set, it was set in this period, because each
+/// control tick clears it first.
 inline void arm_period_end(bool on) { tim1().DIER = (tim1().DIER & bit::BIE) | (on ? bit::CC4IE : 0); }
 
 /// Whether two enabled commands have the same gates at any duty.
@@ -121,8 +122,8 @@ inline bool same_gates(const BridgeCommand<Scalar>& a, const BridgeCommand<Scala
   return a.enabled && b.enabled && a.pair == b.pair && a.chopping == b.chopping && a.chopped == b.chopped;
 }
 
-/// Prepares the change at the period's end, from the present state of the legs. If their earlier state is
-/// unknown, a switch that turns on waits for the dead time, as in a simulation.
+/// Prepares the change at the period's end, from the present state of the legs. If it is unknown what the
+/// legs did before, a switch that turns on waits for the dead time, as in a simulation.
 inline void prepare_period_end() {
   change_due = false;
   if (same_gates(waiting.bridge, in_effect.bridge))
@@ -145,13 +146,13 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// The fourth compare unit's interrupt: waits for the update, which follows after some counts, and makes the
-/// period's change there. The event occurs with the update or some counts before it, in the off-time of the
-/// old pulse; later, the old pair would have a pulse of some counts.
+/// The interrupt of the fourth compare unit. It waits for the update, which follows after some counts, and
+/// makes the period's change there. The commutation event must be at the update or some counts before it, in
+/// the off-time of the old pulse. If it were later, the old pair would have a pulse of some counts.
 [[gnu::noinline]] void at_period_end() {
   const InterruptsOff hold;
-  // The interrupt was revoked after the core had accepted it, or a late control tick has already made the
-  // change.
+  // Nothing to do: the interrupt was revoked after the core had accepted it, or a late control tick has
+  // already made the change.
   if ((tim1().DIER & bit::CC4IE) == 0 || (tim1().SR & bit::CC4IF) == 0) return;
   if (change_due) {
     preload(coming.first);
@@ -159,25 +160,25 @@ inline void prepare_period_end() {
     for (std::uint32_t count = tim1().CNT; count >= sample_count && count < event_count; count = tim1().CNT)
       continue;
     make(coming);
-    change_due = false;  // made once
+    change_due = false;  // the change must be made only once
   }
   in_effect = waiting;
   arm_period_end(false);
 }
 
-/// Whether the period's end intended for an answer is over, or so near that its duty and its pair might not
-/// take effect together. Then both wait for the next end. A change still waiting for the passed end is made
-/// first.
+/// Whether the period's end that an answer is for has passed, or is so near that its duty and its pair might
+/// not take effect together. Both then wait for the next end. If a change is still waiting for the end that
+/// has passed, it is made first.
 inline bool period_is_over() {
-  if ((tim1().SR & bit::CC4IF) == 0) return false;  // control ticks clear it as they begin
+  if ((tim1().SR & bit::CC4IF) == 0) return false;  // each control tick clears the flag when it begins
   at_period_end();
   while (tim1().CNT >= sample_count) continue;
   tim1().SR = ~bit::CC4IF;
   return true;
 }
 
-/// The control tick's answer. `charges`: the drive is about to start, and pulses of the lower gates charge the
-/// bootstraps. False: the answer was late and takes effect a period later.
+/// Prepares the control tick's answer. `charges`: the drive is about to start, and pulses of the lower gates
+/// charge the bootstrap capacitors. Returns false if the answer was late and takes effect a period later.
 [[gnu::noinline]] bool at_next_period(const BridgeCommand<Scalar>& command, bool reversed, bool charges) {
   if (!command.enabled && (!charges || in_effect.bridge.enabled)) {
     gates_off();
@@ -192,14 +193,14 @@ inline bool period_is_over() {
   return in_time;
 }
 
-/// The Hall interrupt's answer; its pair has the sign of the last tick.
+/// Executes the Hall interrupt's answer; its pair has the sign of the last control tick.
 [[gnu::noinline]] void at_once(const BridgeCommand<Scalar>& command, bool reversed) {
   if (!command.enabled) {
     if (!charging) gates_off();
     return;
   }
   const InterruptsOff hold;
-  if (!waiting.bridge.enabled) return;  // turned off since that tick
+  if (!waiting.bridge.enabled) return;  // the drive was turned off since that tick
   waiting = {command, reversed};
   compare_next(compare_of(command.duty));
   if (in_effect.bridge.enabled) {

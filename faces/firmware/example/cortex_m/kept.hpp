@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the reason why the drive stood before the last reset.
+// Keeps the reason why the drive was stopped before the last reset.
 #pragma once
 #include "faces/firmware/example/fault_reason.hpp"
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs an exported product drive in float on an STM32F303 (Cortex-M4F, 72 MHz); tools/firmware_image.sh makes an
-// image of this program. The control interrupt occurs once a period, after four conversions; the Hall
-// interrupt commutates the bridge; the interrupt at the period's end puts a waiting command into effect. The
-// main loop reads commands from the serial line, logs to it, and feeds the watchdog.
+// Runs an exported product drive in float on an STM32F303 (Cortex-M4F, 72 MHz). tools/firmware_image.sh makes
+// an image of this program.
+// - The control interrupt occurs once a period, after four conversions.
+// - The Hall interrupt commutates the bridge.
+// - The interrupt at the period's end puts a waiting command into effect.
+// - The main loop reads commands from the serial line, logs to it, and feeds the watchdog.
 #include "faces/firmware/example/commands.hpp"
 #include "faces/firmware/example/cortex_m/standing.hpp"
 
@@ -10,19 +12,19 @@ namespace firmware {
 
 [[gnu::section(".noinit")]] KeptReason kept_reason;
 ProtectedState<Scalar> state;
-ProtectedTelemetry<Scalar> telemetry;  // the drive never reads it
+ProtectedTelemetry<Scalar> telemetry;  // telemetry that the drive writes and never reads
 Setpoint<Scalar> setpoint;
 
-/// Commands, written by the main loop with interrupts off. A stop and a clear each stay set until a control
-/// tick has read them, independent of later input.
+/// Commands, which the main loop writes with interrupts off. A stop and a clear each stay set until a control
+/// tick has read them, whatever is typed later.
 struct Asked {
   bool run, stop, clear;
 };
 Asked asked;
-bool wants_to_run = false;      // at this tick
-std::uint32_t charge_left = 0;  // periods until the bootstraps are charged
+bool wants_to_run = false;      // whether a run is requested at this tick
+std::uint32_t charge_left = 0;  // number of periods until the bootstrap capacitors are charged
 
-/// The log's values of a control tick.
+/// The values of a control tick that the log prints.
 struct Row {
   Instant t;
   Scalar speed, speed_reference, current, duty, bus;
@@ -33,10 +35,10 @@ struct Row {
 LogSlot<Row> log;
 Ring<64> received;
 volatile std::uint8_t heart = 0;  // counts control interrupts
-volatile bool listening = false;  // control interrupts are enabled
+volatile bool listening = false;  // true: control interrupts are enabled
 
 /// Measures time with the free-running counter. A period without a control interrupt still counts as time,
-/// and as missed. A period whose answer came after its end also counts as missed.
+/// and as missed. A period whose answer came after the period's end also counts as missed.
 struct LogClock {
   Instant t;
   std::uint32_t rest = 0;  // counts beyond the last microsecond
@@ -53,7 +55,7 @@ struct LogClock {
 };
 LogClock log_clock;
 
-/// The request for this tick. A request to run waits until the bootstraps are charged.
+/// The request for this tick. A request to run waits until the bootstrap capacitors are charged.
 Request request_now() {
   const bool clear = asked.clear;
   wants_to_run = asked.run && !asked.stop;
@@ -65,7 +67,7 @@ Request request_now() {
   return {.run = wants_to_run && charge_left == 0, .clear = clear};
 }
 
-/// Whether a run is requested and the drive does not run yet.
+/// Whether the bootstrap capacitors must be charged: a run is requested, and the drive does not run yet.
 bool charges() {
   const Activity now = state.activity.activity;
   return upper_gates_by_bootstrap && wants_to_run && (now == Activity::off || now == Activity::calibrate);
@@ -97,8 +99,8 @@ void send(const Row& row) {
   put('\n');
 }
 
-/// Feeds the watchdog while control interrupts occur, or while the board waits for a reset with the gates
-/// disabled.
+/// Feeds the watchdog in two cases: while control interrupts occur, and while the board waits for a reset
+/// with the gates disabled.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   const bool stands = needs_reset && !gates_may_work();
@@ -112,8 +114,8 @@ void tell_fault() {
   static Reason told = Reason::none;
   static std::uint32_t told_at = 0;
   const Reason of_board = board_fault;
-  const bool stands = telemetry.activity == Activity::fault && !asked.clear;  // the next tick reads
-                                                                              // asked.clear
+  // false after a typed c, which the next tick reads
+  const bool stands = telemetry.activity == Activity::fault && !asked.clear;
   const Reason why = of_board != Reason::none ? of_board
                      : stands                 ? reason_of(telemetry.first_fault)
                                               : Reason::none;
@@ -134,7 +136,7 @@ constexpr const char* unit = config.drive.mode == Mode::speed      ? "rad/s"
                              : config.drive.mode == Mode::position ? "deg"
                                                                    : "of the bus";
 
-/// Limits the typed setpoint, and prints the one that is in effect.
+/// Limits the typed setpoint, and prints the setpoint that is in effect.
 void take_setpoint(std::int32_t typed) {
   constexpr Scalar limit = config.setpoint_limit;
   constexpr auto most = static_cast<std::int32_t>(limit < 2e6f ? limit * 1000.0f : 2e9f);
@@ -149,7 +151,7 @@ void run() {
   asked.run = true;
 }
 
-/// Stops first and prints afterwards.
+/// Stops the drive first, and prints afterwards.
 void stop() {
   {
     const InterruptsOff hold;
@@ -191,7 +193,7 @@ void obey(const Command& command) {
   }
 }
 
-/// Treats the rest of the line as invalid.
+/// Makes the rest of the line count as invalid.
 void miss(Commands& commands) {
   commands.lost();
   put_text(put, "# a character was lost: nothing but s counts before the next Enter\n");
@@ -209,7 +211,7 @@ void miss(Commands& commands) {
   }
 }
 
-/// The kept reason, or `watchdog` after a watchdog's reset without one.
+/// The kept reason; `watchdog` if the watchdog caused the reset and no reason was kept.
 Reason reason_before_reset() {
   const bool bit_me = (rcc().CSR & bit::IWDGRSTF) != 0;
   rcc().CSR = rcc().CSR | bit::RMVF;
@@ -219,7 +221,7 @@ Reason reason_before_reset() {
 }
 
 void set_up() {
-  set_up_watchdog();  // before code that may hang
+  set_up_watchdog();  // first, before code that may hang
   const bool ready = set_up_clock();
   iwdg().KR = bit::reload;
   switch_parts_on();
@@ -244,12 +246,12 @@ void set_up() {
 
 }  // namespace firmware
 
-/// Comes once per PWM period at the end of the injected group that TIM1 triggers. It has the same priority as
-/// the Hall interrupt.
+/// Interrupt once per PWM period, at the end of the injected conversions that TIM1 triggers. It has the same
+/// priority as the Hall interrupt.
 extern "C" void ADC1_2_IRQHandler() {
   using namespace firmware;
   adc1().ISR = bit::JEOS;
-  tim1().SR = ~bit::CC4IF;  // the flag of the instant that started these conversions
+  tim1().SR = ~bit::CC4IF;  // clears the flag that was set when these conversions started
   BoardInput in;
   for (int n = 0; n < 3; ++n) in.current_counts[n] = static_cast<std::uint16_t>(adc1().JDR[n]);
   in.bus_counts = static_cast<std::uint16_t>(adc1().JDR[3]);
@@ -288,13 +290,14 @@ extern "C" void USART2_IRQHandler() {
     const char c = static_cast<char>(usart2().RDR);
     const bool disturbed = (status & (bit::FE | bit::NF)) != 0;
     if (disturbed) received.lose();
-    if (!disturbed || c == 's') received.put(c);  // a false stop is better than a lost one
+    // A stop (s) is accepted even if disturbed, because an unnecessary stop is better than a lost one.
+    if (!disturbed || c == 's') received.put(c);
   }
-  if ((status & bit::ORE) != 0) received.lose();  // after the character that was read
+  if ((status & bit::ORE) != 0) received.lose();  // the lost character came after the one that was read
   usart2().ICR = status & (bit::FE | bit::NF | bit::ORE);
 }
 
-/// Starts with the bridge off until r is typed, after a watchdog's reset as after any other.
+/// Starts with the bridge off until r is typed, after every kind of reset.
 int main() {
   using namespace firmware;
   const Reason before = reason_before_reset();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the registers of an STM32F303 that the program uses, and their bits. Source: ST RM0316, with the
-// section at each register; for the core itself (SCB, NVIC) Arm's ARMv7-M reference, B3.2 and B3.4.
+// section at each register. For the core itself (SCB, NVIC) the source is Arm's ARMv7-M reference, B3.2 and
+// B3.4.
 #pragma once
 #include <cstdint>
 
@@ -16,44 +17,45 @@ inline Block& block(Address address) {
 }
 inline Register& word_at(Address address) { return block<Register>(address); }
 
-/// Reset and clocks, 9.4.
+/// Registers of reset and clocks (9.4).
 struct Rcc {
   Register CR, CFGR, CIR, APB2RSTR, APB1RSTR, AHBENR, APB2ENR, APB1ENR, BDCR, CSR, AHBRSTR, CFGR2, CFGR3;
 };
 static_assert(sizeof(Rcc) == 0x34);
 
-/// Layout shared by TIM1 and TIM2, 20.4 and 21.4; registers that one of them lacks are not used there.
+/// Registers of TIM1 and TIM2, which have one layout (20.4 and 21.4). Registers that one of them lacks are
+/// not used there.
 struct Timer {
   Register CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR;
 };
 static_assert(sizeof(Timer) == 0x48);
 
-/// 15.5.
+/// Registers of a converter (15.5).
 struct Adc {
   Register ISR, IER, CR, CFGR, unused_1, SMPR1, SMPR2, unused_2[12], JSQR, unused_3[12], JDR[4];
 };
 static_assert(sizeof(Adc) == 0x90);
 
-/// 11.4.
+/// Registers of a port (11.4).
 struct Gpio {
   Register MODER, OTYPER, OSPEEDR, PUPDR, IDR, ODR, BSRR, LCKR, AFR[2];
 };
 static_assert(sizeof(Gpio) == 0x28);
 
-/// 29.8.
+/// Registers of a serial line (29.8).
 struct Usart {
   Register CR1, CR2, CR3, BRR, GTPR, RTOR, RQR, ISR, ICR, RDR, TDR;
 };
 static_assert(sizeof(Usart) == 0x2C);
 
-/// The independent watchdog, 25.4.
+/// Registers of the independent watchdog (25.4).
 struct Watchdog {
   Register KR, PR, RLR, SR;
 };
 
-// Memory map, 3.2.2.
+// Addresses from the memory map (3.2.2).
 inline Rcc& rcc() { return block<Rcc>(0x40021000); }
-inline Register& flash_acr() { return word_at(0x40022000); }  // 4.5.1
+inline Register& flash_acr() { return word_at(0x40022000); }  // section 4.5.1
 inline Timer& tim1() { return block<Timer>(0x40012C00); }
 inline Timer& tim2() { return block<Timer>(0x40000000); }
 inline Adc& adc1() { return block<Adc>(0x50000000); }
@@ -65,9 +67,9 @@ inline Usart& usart2() { return block<Usart>(0x40004400); }
 inline Watchdog& iwdg() { return block<Watchdog>(0x40003000); }
 inline Register& debug_apb1_freeze() { return word_at(0xE0042008); }
 inline Register& debug_apb2_freeze() { return word_at(0xE004200C); }
-inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // 12.1
-/// Interrupts of the peripherals: 32 per word to enable and to disable; one priority byte each, of which only
-/// the upper four bits are implemented.
+inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // section 12.1
+/// Registers for the peripherals' interrupts. To enable and to disable, 32 interrupts share a word. Each has
+/// a priority byte, of which only the upper four bits are implemented.
 inline Register& nvic_enable(unsigned irq) { return word_at(0xE000E100 + 4 * (irq / 32)); }
 inline Register& nvic_disable(unsigned irq) { return word_at(0xE000E180 + 4 * (irq / 32)); }
 inline volatile std::uint8_t& nvic_priority(unsigned irq) {
@@ -119,7 +121,7 @@ constexpr std::uint32_t SYSRESETREQ = 0x05FA0004;
 
 }  // namespace bit
 
-/// Numbers in the vector table after the core's own sixteen entries (14.1).
+/// Numbers of interrupts in the vector table, counted after the core's own sixteen entries (14.1).
 constexpr unsigned irq_adc1_2 = 18, irq_tim1_break = 24, irq_tim1_compare = 27, irq_tim2 = 28,
                    irq_usart2 = 38;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the registers before the first interrupt. tests/target/images.py runs it and compares each of them with
-// RM0316.
+// Sets the registers before the first interrupt. tests/target/images.py runs this code and compares each
+// register with RM0316.
 #pragma once
 #include "faces/firmware/example/cortex_m/board.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
@@ -9,9 +9,9 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Whether the condition became true within `looks` checks, so that a broken part does not prevent the others
-/// from reporting it. At 8 MHz the checks take 20 ms, less than the watchdog's time; a crystal starts within
-/// 10.
+/// Whether the condition became true within `looks` checks. The number is limited, so that a broken part does
+/// not prevent the others from reporting it. At 8 MHz the checks take 20 ms, less than the watchdog's time; a
+/// crystal starts within 10 ms.
 template <class Condition>
 bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
   for (; looks > 0; --looks)
@@ -20,14 +20,15 @@ bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
 }
 
 constexpr std::uint32_t own_clock_Hz =
-    8'000'000;  // the chip's own clock, after a reset and if the external one is missing
+    8'000'000;  // frequency of the chip's own clock, which is used after a reset and if the external one is
+                // missing
 
-/// Sets the clock to 8 MHz times nine. False: there is no external clock, and the chip runs on its own 8 MHz.
-/// If the clock stops later, TIM1's break turns the gates off, and NMI_Handler is called (9.2.7).
+/// Sets the clock to 8 MHz times nine. Returns false if there is no external clock; the chip then runs on its
+/// own 8 MHz. If the clock stops later, TIM1's break turns the gates off, and NMI_Handler is called (9.2.7).
 inline bool set_up_clock() {
   rcc().CR = rcc().CR | bit::HSEON | (has_external_clock ? bit::HSEBYP : 0);
   if (!waited_for([] { return (rcc().CR & bit::HSERDY) != 0; })) return false;
-  flash_acr() = bit::LATENCY_2 | bit::PRFTBE;  // above 48 MHz (4.5.1)
+  flash_acr() = bit::LATENCY_2 | bit::PRFTBE;  // wait states for clocks above 48 MHz (4.5.1)
   rcc().CFGR = bit::PPRE1_half | bit::PLLSRC_HSE | bit::PLLMUL_9;
   rcc().CR = rcc().CR | bit::PLLON;
   if (!waited_for([] { return (rcc().CR & bit::PLLRDY) != 0; })) return false;
@@ -37,18 +38,18 @@ inline bool set_up_clock() {
   return true;
 }
 
-/// Returns to the chip's own 8 MHz, to which it has already switched when the external clock stopped.
+/// Stays at the chip's own 8 MHz, to which the chip itself has switched when the external clock stopped.
 inline void fall_back_to_own_clock() { rcc().CFGR = 0; }
 
 inline void switch_parts_on() {
   rcc().AHBENR = rcc().AHBENR | bit::IOPAEN | bit::IOPBEN | bit::IOPCEN | bit::ADC12EN;
   rcc().APB2ENR = rcc().APB2ENR | bit::TIM1EN | bit::SYSCFGEN;
   rcc().APB1ENR = rcc().APB1ENR | bit::TIM2EN | bit::USART2EN;
-  // A debugger that stops the core also stops the timer, whose outputs are then off, the log's clock, and the
-  // watchdog.
+  // If a debugger stops the core, it also stops the timer, whose outputs are then off, the log's clock, and
+  // the watchdog.
   debug_apb2_freeze() = bit::TIM1_STOP;
   debug_apb1_freeze() = bit::IWDG_STOP | bit::TIM2_STOP;
-  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a core in lockup is a break too
+  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a core in lockup causes a break too
 }
 
 enum class PinMode : std::uint32_t { input, output, alternate, analog };
@@ -65,7 +66,7 @@ inline void set_pin(Gpio& port, unsigned pin, PinMode mode, Pull pull, std::uint
   port.MODER = with(port.MODER, 2, 16, static_cast<std::uint32_t>(mode));
 }
 
-/// Functions by the data sheet's tables of alternate functions (DS9118, DocID026415).
+/// Sets the pins' functions, from the data sheet's tables of alternate functions (DS9118, DocID026415).
 inline void set_up_pins() {
   for (unsigned pin = 8; pin <= 10; ++pin)
     set_pin(gpio_a(), pin, PinMode::alternate, Pull::down, 6);                              // TIM1_CHx
@@ -84,25 +85,25 @@ inline void set_up_pins() {
   }
 }
 
-/// Sets the line's rate for a bus of `bus_Hz`, with eight samples per bit if the bus is too slow for sixteen
-/// (29.5.4).
+/// Sets the line's rate for a bus clock of `bus_Hz`, with eight samples per bit if the bus is too slow for
+/// sixteen (29.5.4).
 inline void set_up_serial_line(std::uint32_t bus_Hz) {
   const bool eight = bus_Hz < 16 * baud;
   const std::uint32_t divider = (eight ? 2 * bus_Hz : bus_Hz) / baud;
-  usart2().CR1 = 0;  // off while these change
+  usart2().CR1 = 0;  // the line must be off while its settings change
   usart2().BRR = eight ? (divider & ~0xFu) | (divider & 0xF) >> 1 : divider;
   usart2().CR1 = (eight ? bit::OVER8 : 0) | bit::RXNEIE | bit::UE | bit::TE | bit::RE;
 }
 
-/// Enables the gates. The break input must have its quiet level.
+/// Enables the gates. The break input must then be inactive.
 inline void let_gates_work() { tim1().BDTR = tim1().BDTR | bit::MOE; }
 /// Disables the gates in hardware, independent of the output registers.
 inline void forbid_gates() { tim1().BDTR = tim1().BDTR & ~bit::MOE; }
 inline bool gates_may_work() { return (tim1().BDTR & bit::MOE) != 0; }
 
-/// The timer counts up; its update begins a period. Enables and modes are preloaded, and all three channels
-/// load them at once at a commutation event. The fourth channel has no pin: its reference rises a microsecond
-/// before the update and starts the converter. Without MOE the outputs are driven low too (OSSI).
+/// Sets TIM1. It counts up, and its update begins a period. Enables and modes are preloaded, and all three
+/// channels load them together at a commutation event. The fourth channel has no pin: its reference rises a
+/// microsecond before the update and starts the converter. Without MOE the outputs are driven low too (OSSI).
 inline void set_up_bridge_timer() {
   const GateOutputs off = registers(BridgeOutputs{});
   tim1().PSC = 0;
@@ -121,8 +122,8 @@ inline void set_up_bridge_timer() {
   tim1().CR1 = bit::ARPE | bit::CEN;
 }
 
-/// 32 bits at 72 MHz. Each edge of the XOR of its three inputs is captured after it has been stable for 256
-/// counts, 3.6 us: the ringing of a bridge's edge is shorter.
+/// Sets TIM2, with 32 bits at 72 MHz. Each edge of the XOR of its three inputs is captured after it has been
+/// stable for 256 counts, 3.6 us. The ringing after a switching edge of the bridge is shorter.
 inline void set_up_hall_timer() {
   tim2().PSC = 0;
   tim2().ARR = 0xFFFFFFFF;
@@ -134,24 +135,24 @@ inline void set_up_hall_timer() {
   tim2().CR1 = bit::CEN;
 }
 
-/// Injected sequence a, b, c, bus, 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts before the
-/// update, 52 to 44, 32 to 24, 12 to 4. False: the converter does not react.
+/// Sets the injected sequence a, b, c, bus with 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts
+/// before the update, 52 to 44, 32 to 24, 12 to 4. Returns false if the converter does not react.
 inline bool set_up_converter() {
   adc12_ccr() = bit::CKMODE_HCLK;
   adc1().CR = 0;
   adc1().CR = bit::ADVREGEN;
   for (std::uint32_t n = 0; n < clock_Hz / 100'000; ++n)
-    asm volatile("");  // 10 us for its regulator (15.3.6)
+    asm volatile("");  // waits 10 us for the converter's voltage regulator (15.3.6)
   adc1().CR = bit::ADVREGEN | bit::ADCAL;
   if (!waited_for([] { return (adc1().CR & bit::ADCAL) == 0; })) return false;
-  // ADEN takes effect only four converter clocks after the calibration (15.3.9): it is written until the
-  // converter is ready.
+  // ADEN takes effect only four converter clocks after the calibration (15.3.9). So it is written repeatedly
+  // until the converter is ready.
   if (!waited_for([] {
         adc1().CR = bit::ADVREGEN | bit::ADEN;
         return (adc1().ISR & bit::ADRDY) != 0;
       }))
     return false;
-  constexpr std::uint32_t clocks_7_5 = 3, a = 1, b = 7, c = 6, bus = 2;  // channels
+  constexpr std::uint32_t clocks_7_5 = 3, a = 1, b = 7, c = 6, bus = 2;  // sample time, and channels
   adc1().SMPR1 = clocks_7_5 << 3 * a | clocks_7_5 << 3 * b | clocks_7_5 << 3 * c | clocks_7_5 << 3 * bus;
   adc1().JSQR =
       bit::JL_4 | bit::JEXTSEL_TIM1_TRGO2 | bit::JEXTEN_rising | a << 8 | b << 14 | c << 20 | bus << 26;
@@ -160,18 +161,19 @@ inline bool set_up_converter() {
   return true;
 }
 
-/// The watchdog resets after 40 ms by its own clock of about 40 kHz.
+/// Starts the watchdog, which resets after 40 ms of its own clock of about 40 kHz.
 inline void set_up_watchdog() {
   iwdg().KR = bit::start;
   iwdg().KR = bit::unlock;
-  iwdg().PR = 0;  // a quarter of its clock
+  iwdg().PR = 0;  // prescaler: a quarter of its clock
   iwdg().RLR = 400;
   waited_for([] { return iwdg().SR == 0; });
   iwdg().KR = bit::reload;
 }
 
-/// The control tick and the Hall interrupt have one priority, so that neither interrupts the other. The period's
-/// end and the break interrupt both; the serial line waits for all. The chip implements the upper four bits.
+/// Sets priorities and enables interrupts. The control tick and the Hall interrupt have one priority, so that
+/// neither interrupts the other. The interrupts of the period's end and of the break interrupt both; that of
+/// the serial line waits for all. The chip implements the upper four bits of a priority.
 inline void listen_to_interrupts() {
   nvic_priority(irq_tim1_compare) = 0x00;
   nvic_priority(irq_tim1_break) = 0x00;

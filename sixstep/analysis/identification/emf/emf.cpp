@@ -20,7 +20,7 @@ double size_of(const Harmonic& h) { return std::sqrt(h.a_V * h.a_V + h.b_V * h.b
 /// The angle in a cos x + b sin x = size cos(x + angle).
 double angle_of(const Harmonic& h) { return base::atan2(-h.b_V, h.a_V); }
 
-/// The channel's harmonics relative to the fundamental, whose peak is at 0.
+/// The channel's harmonics relative to the fundamental, whose peak is at angle 0.
 ShapeHarmonics seen_by(const ChannelFit& channel) {
   ShapeHarmonics out;
   out.resize(channel.harmonics.size());
@@ -41,7 +41,7 @@ double lag_deg(const HarmonicFit& fit, std::size_t channel) {
   return lag - 360.0 * std::floor(lag / 360.0);
 }
 
-/// Finds in which order the channels follow each other; a Problem where they are no three phases.
+/// Finds the order in which the channels follow each other. A Problem if they are no three phases.
 base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
   constexpr double near_deg = 10.0;
   out.all_phases = fit.channels.size() > 1;
@@ -61,7 +61,7 @@ base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfR
   return {};
 }
 
-/// The longest run of rows at the greatest or the least value, as a part of the period.
+/// The longest run of rows at the greatest or the least value, as a fraction of the period.
 double clipped_part(const std::vector<double>& u, double rows_per_period) {
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   std::size_t longest = 0, run = 0;
@@ -91,7 +91,7 @@ void take_channels(const EmfRequest& request, const HarmonicFit& fit, EmfResult&
   }
 }
 
-/// Whether an order is equal in all phases, so that no voltage between two of them shows it.
+/// Whether a harmonic of this order is equal in all phases, so that it does not appear between two phases.
 bool is_common(int order, const EmfResult& result) {
   return order % 3 == 0 && result.between == EmfBetween::lines;
 }
@@ -99,7 +99,7 @@ bool is_common(int order, const EmfResult& result) {
 /// The phase's shape as the mean over the channels, with the deviation of each harmonic.
 struct MeanShape {
   ShapeHarmonics phase;
-  std::vector<double> deviation;  ///< standard deviations of each part's coordinates
+  std::vector<double> deviation;  ///< standard deviations of the coordinates of each harmonic
   std::vector<double> degrees_of_freedom;
 };
 MeanShape mean_shape(const HarmonicFit& fit, const EmfResult& so_far) {
@@ -127,7 +127,7 @@ MeanShape mean_shape(const HarmonicFit& fit, const EmfResult& so_far) {
   return out;
 }
 
-/// Lists the harmonics. The shape keeps only those above the noise.
+/// Lists all harmonics. The shape keeps only those above the noise.
 void take_harmonics(MeanShape& mean, EmfResult& out) {
   constexpr double one_in_twenty = 0.05;
   const double noise =
@@ -148,10 +148,10 @@ void take_harmonics(MeanShape& mean, EmfResult& out) {
   }
 }
 
-/// Uncertainty of a constant that is the fundamental's times a figure of the shape; the shape's harmonics add to
-/// it.
+/// Uncertainty of a constant that is the fundamental times a figure of the shape. The uncertainty of the
+/// shape's harmonics adds to that of the fundamental.
 struct Doubt {
-  double fundamental = 0.0;  ///< relative, deviation
+  double fundamental = 0.0;  ///< relative standard deviation
   double shape = 0.0;        ///< standard deviation of a value of the shape, absolute
   double student = 0.0;
   Interval of(double size, double figure, double shape_part) const {
@@ -219,14 +219,15 @@ void take_table(const ShapeHarmonics& phase, EmfResult& out) {
   ShapeTable table = table_of(phase, peak, 1, 2);
   out.angle_deg = std::move(table.angle_deg);
   out.shape = std::move(table.shape);
-  // Straight lines between two degrees reduce the mean of a round shape by 1e-4. Their error falls with the square
-  // of the step, so that two steps give it (Richardson).
+  // The table of the shape has straight lines between two degrees, which reduce the mean of a round shape by
+  // 1e-4. The error falls with the square of the step, so that tables with two steps allow its elimination
+  // (Richardson).
   const double told = wave_peak(phase).peak.value;
   out.shape_sector_mean =
       (4 * table_of(phase, told, 2, 1).sector_mean() - table_of(phase, told, 1, 1).sector_mean()) / 3;
 }
 
-/// Finds the pole pairs from the speed that the user read off; they must be a whole number.
+/// Finds the pole pairs from the speed that the user measured; they must be a whole number.
 base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
   constexpr double rpm = 30.0 / base::pi, whole = 0.1;
   out.pole_pairs = request.pole_pairs.value_or(0);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures a motor's constants in every frame, its harmonics and its back-EMF shape from open-circuit voltages.
+// Measures a motor's constants in every frame, its harmonics and its back-EMF shape from open-circuit
+// voltages.
 //
-// Constants are per electrical rad/s, which is the flux linkage of phase or line; with the pole pairs or the
-// shaft's speed also per mechanical rad/s, as K_e in notation.md.
+// Constants are given per electrical rad/s, which is the flux linkage of phase or line. If the pole pairs or
+// the shaft's speed are known, they are also given per mechanical rad/s, as K_e in notation.md.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,9 +24,10 @@ struct EmfRequest {
 struct EmfHarmonic {
   int order = 1;
   Interval part;       ///< amplitude relative to the fundamental
-  double floor = 0.0;  ///< limit above all orders of noise in 95 of 100 recordings
+  double floor = 0.0;  ///< 95 of 100 recordings have no order of noise above this limit
   bool stands_out = false;
-  /// Components of a phase's shape, over the fundamental: factors of cos and sin of order (theta_e - 60 deg).
+  /// Coordinates of a harmonic of the phase's shape, relative to the fundamental: factors of the cosine and
+  /// the sine of order times (theta_e - 60 deg).
   double in_phase = 0.0, across = 0.0;
 };
 
@@ -33,16 +35,16 @@ struct EmfChannelResult {
   std::string name;
   double offset_V = 0.0;
   Interval peak_V;     ///< peak of the fundamental
-  Interval phase_deg;  ///< lag to the first channel
+  Interval phase_deg;  ///< lag behind the first channel
   double residual_rms_V = 0.0;
-  double step_V = 0.0;   ///< least difference of two successive rows: the converter's step
-  double clipped = 0.0;  ///< longest run of rows at the greatest or least value, as a part of a period
+  double step_V = 0.0;   ///< smallest difference of two successive rows: the converter's step
+  double clipped = 0.0;  ///< longest run of rows at the greatest or least value, as a fraction of a period
 };
 
-/// V s per electrical rad; times the pole pairs per mechanical one.
+/// Constants in V s per electrical rad; multiplied by the pole pairs, per mechanical rad.
 struct EmfConstants {
   Interval line_peak, line_rms, line_fundamental;
-  /// Constants of a phase. From voltages between lines they lack harmonics of order 3, 9, ..
+  /// Constants of a phase. If they come from voltages between lines, they lack harmonics of order 3, 9, ..
   Interval phase_peak, phase_rms, phase_fundamental;
 };
 
@@ -50,21 +52,21 @@ struct EmfResult {
   EmfBetween between = EmfBetween::lines;
   std::size_t rows = 0;
   double seconds = 0.0, periods = 0.0;
-  Interval frequency_Hz;     ///< at the recording's middle
+  Interval frequency_Hz;     ///< frequency at the recording's middle
   double change_Hz_s = 0.0;  ///< rate of change of the frequency, at the middle
   int pole_pairs = 0;        ///< 0: unknown
   std::vector<EmfChannelResult> channels;
   bool backward = false;               ///< the voltages follow each other as c, b, a
-  bool all_phases = false;             ///< two or three channels: `backward` is known
-  std::vector<EmfHarmonic> harmonics;  ///< from the second on
+  bool all_phases = false;             ///< two or three channels, so that `backward` is known
+  std::vector<EmfHarmonic> harmonics;  ///< harmonics from the second on
   EmfConstants constants;
   double crest = 0.0;     ///< peak over rms of the probed voltage
-  double flat_deg = 0.0;  ///< width above 95 % of its peak
-  /// Phase a over an electrical turn, peak 1; positive half wave's middle at 60 degrees (notation.md).
-  /// Harmonics below the noise are not included.
+  double flat_deg = 0.0;  ///< width above 95 % of the peak
+  /// Phase a over an electrical turn, with peak 1. The middle of its positive half wave is at 60 degrees
+  /// (notation.md). Harmonics below the noise are not included.
   std::vector<double> angle_deg, shape;
-  HarmonicFit fit;                 ///< for a picture
-  double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; of the table within 1e-4
+  HarmonicFit fit;                 ///< the fit, for a picture
+  double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; the table agrees within 1e-4
 };
 
 /// flat_deg of a sine and of a trapezoid with a top of 120 degrees, for comparison.

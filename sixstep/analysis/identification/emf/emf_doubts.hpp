@@ -10,26 +10,27 @@
 
 namespace sixstep::analysis {
 
-/// Why a channel shows no period: missing rows, half waves of irregular length, or too few of them. `passed`:
-/// number of crossings of its mean; `regular`: its half waves are of similar length.
+/// The Problem of a channel that shows no period: missing rows, half waves of irregular length, or too few
+/// half waves. `passed`: number of crossings of the mean; `regular`: whether the half waves are of similar
+/// length.
 base::Problem no_period(const std::vector<double>& t_s, const std::string& channel, std::size_t passed,
                         bool regular);
 
-/// A Problem where the fit's residual exceeds the fitted part.
+/// A Problem if the fit's residual exceeds the fitted part.
 base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit);
 
-/// A Problem where tops are clipped: they are exactly flat, while the flanks are curved or noisy by more than a
-/// step of the converter, or continue beyond the top as a parabola. The straight flanks of a trapezoid, and steps
-/// that hide the noise, prove nothing.
+/// A Problem if tops are clipped. Clipped tops are exactly flat, and one of two things holds: the flanks are
+/// curved or noisy by more than a step of the converter, or they continue beyond the top as a parabola. The
+/// straight flanks of a trapezoid, and steps that hide the noise, prove nothing.
 base::Problems check_clipped(const EmfRecord& record, const EmfResult& result);
 
-/// Whether tops are constant for long, but have lost too little to distinguish clipping from a step of the
-/// converter. allow_for_clipping() raises the constants' upper bounds by such a loss.
+/// Whether tops are constant for a long time, but have lost too little to distinguish clipping from a step of
+/// the converter. allow_for_clipping() raises the constants' upper bounds by such a loss.
 bool may_be_clipped(const EmfChannelResult& channel);
 void allow_for_clipping(EmfResult& result);
 
-/// A Problem where fundamentals differ by more than those of one motor. allow_for_unlike_channels() widens the
-/// constants' bounds for smaller but unusual differences.
+/// A Problem if the channels' fundamentals differ by more than those of one motor.
+/// allow_for_unlike_channels() widens the constants' bounds for smaller but unusual differences.
 base::Problems check_alike(const EmfResult& result);
 void allow_for_unlike_channels(EmfResult& result);
 

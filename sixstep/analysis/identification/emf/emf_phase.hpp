@@ -11,8 +11,8 @@
 
 namespace sixstep::analysis {
 
-/// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, tau from the recording's middle. The speed is constant, linear
-/// or a parabola, because a drill slows down under a load and a free motor coasts.
+/// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, with tau counted from the recording's middle. The speed is
+/// constant, linear or a parabola: a drill slows down under a load, and a free motor coasts.
 struct EmfPhase {
   static constexpr std::size_t most_terms = 3;
   double middle_s = 0.0;
@@ -26,7 +26,7 @@ struct EmfPhase {
 /// Number of terms that this number of periods determines.
 std::size_t phase_terms(double periods);
 
-/// The phase of the channel with the greatest voltage, or the Problem why no period is visible.
+/// The phase of the channel with the greatest voltage, or a Problem that says why no period is visible.
 base::Result<EmfPhase> rough_phase(const EmfRecord& record);
 
 }  // namespace sixstep::analysis

@@ -12,17 +12,17 @@ namespace sixstep::analysis {
 
 /// The two points that a probe was connected to.
 enum class EmfBetween : std::uint8_t {
-  lines,  ///< two terminals: u_ab, u_bc, u_ca
+  lines,  ///< voltages between two terminals: u_ab, u_bc, u_ca
   star    ///< a terminal and the star point, real or from three equal resistors
 };
 
 struct EmfChannel {
-  std::string name;  ///< name of its column
+  std::string name;  ///< name of the channel's column
   std::vector<double> u_V;
 };
 
 struct EmfRecord {
-  std::vector<double> t_s;  ///< rising
+  std::vector<double> t_s;  ///< rising times
   std::vector<EmfChannel> channels;
   EmfBetween between = EmfBetween::lines;
 };

@@ -27,8 +27,8 @@ void drop_thirds(ShapeHarmonics& shape) {
   for (std::size_t n = 2; n < shape.size(); n += 3) shape.re[n] = shape.im[n] = 0.0;
 }
 
-/// e_a - e_b = Re E_h (1 - exp(-j h 120 deg)) exp(j h y); the bracket is sqrt 3 exp(+-j 30 deg), + for h = 1, 4, 7, and the
-/// line's own angle, 0 at its fundamental's peak, is y + 30 deg.
+/// e_a - e_b = Re E_h (1 - exp(-j h 120 deg)) exp(j h y). The bracket is sqrt 3 exp(+-j 30 deg), + for h = 1,
+/// 4, 7. The line's own angle, which is 0 at its fundamental's peak, is y + 30 deg.
 double line_ahead(int order) { return order % 3 == 1 ? thirty_deg * (1 - order) : -thirty_deg * (1 + order); }
 
 }  // namespace
@@ -52,7 +52,8 @@ double ShapeHarmonics::rms() const {
 }
 
 ShapeHarmonics seen_backward(ShapeHarmonics seen) {
-  // e = K w f(y), w < 0, and time runs with x = -y - 180 deg, so that the fundamental is positive at its peak again.
+  // e = K w f(y) with w < 0, and time runs with x = -y - 180 deg. The fundamental is then positive at its
+  // peak again.
   for (std::size_t n = 0; n < seen.size(); ++n) {
     const bool even = n % 2 == 1;
     if (even) seen.re[n] = -seen.re[n];
@@ -79,7 +80,8 @@ WavePeak wave_peak(const ShapeHarmonics& shape) {
   for (std::size_t n = 2 * count / 3; n < count; ++n)
     high += std::sqrt(shape.re[n] * shape.re[n] + shape.im[n] * shape.im[n]);
   const ShapePeak sum = peak_of(shape);
-  // A corner leaves 0.6 % and more of the fundamental in the last third of 25, a round shape next to nothing.
+  // Least part of a corner: the last third of 25 harmonics contains 0.6 % and more of the fundamental for a
+  // shape with a corner, almost nothing for a round shape.
   constexpr double least_corner = 3e-3;
   if (high < least_corner) return {sum};
   ShapeHarmonics mean = shape;
@@ -111,7 +113,7 @@ ShapePeak peak_of(const ShapeHarmonics& shape) {
   const double y0 = sign * value(top - 1), y1 = sign * value(top), y2 = sign * value(top + 1);
   const double bend = y0 - 2.0 * y1 + y2, aside = bend < 0.0 ? 0.5 * (y0 - y2) / bend : 0.0;
   ShapePeak out{y1 - 0.25 * (y0 - y2) * aside, (top + aside) * step, 0.0};
-  // A ripple on a flat top may dip below the line, so that the width counts all values above it.
+  // A ripple on a flat top may dip below the 95 % line, so that the width counts all values above the line.
   for (const double v : values)
     if (sign * v >= flat_part * out.value) out.flat_deg += 360.0 / steps;
   return out;

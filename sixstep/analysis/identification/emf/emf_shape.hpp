@@ -8,8 +8,8 @@
 
 namespace sixstep::analysis {
 
-/// Sum over h of re cos(h x) - im sin(h x), that is of the real part of (re + j im) exp(j h x). The fundamental
-/// is 1, its peak at x = 0.
+/// Sum over h of re cos(h x) - im sin(h x), which is the real part of the sum of (re + j im) exp(j h x). The
+/// fundamental is 1, with its peak at x = 0.
 struct ShapeHarmonics {
   std::vector<double> re{1.0}, im{0.0};  ///< [0] is the fundamental
 
@@ -22,26 +22,27 @@ struct ShapeHarmonics {
   double rms() const;
 };
 
-/// The shape over the angle, from the shape over time of a rotor that turned backwards.
+/// Converts the shape over time of a rotor that turned backwards to the shape over the angle.
 ShapeHarmonics seen_backward(ShapeHarmonics seen);
 
-/// Convert the shape of a voltage between two terminals to that of a phase, and back. Both have a fundamental of
-/// 1, which between lines is sqrt 3 of a phase's. Harmonics of order 3, 6, 9 are equal in all phases, so that
-/// they cancel between lines.
+/// Convert the shape of a voltage between two terminals to that of a phase, and back. Both shapes have a
+/// fundamental of 1; between lines it stands for sqrt 3 times a phase's fundamental. Harmonics of order 3, 6,
+/// 9 are equal in all phases, so that they cancel between lines.
 ShapeHarmonics phase_of_line(const ShapeHarmonics& line);
 ShapeHarmonics line_of_phase(const ShapeHarmonics& phase);
 
 struct ShapePeak {
   double value = 0.0;  ///< greatest |shape|
   double x_rad = 0.0;
-  double flat_deg = 0.0;  ///< width above 95 % of it
+  double flat_deg = 0.0;  ///< width above 95 % of this value
 };
 ShapePeak peak_of(const ShapeHarmonics& shape);
 
-/// The peak of the wave of which these are the first harmonics. The harmonics of a flat top go on beyond these:
-/// the sum without the rest overshoots by 1 to 5 % near the flanks (Gibbs). The sum averaged over a turn of
-/// the first missing harmonic (Lanczos) leaves a tenth of that. A pointed top lacks the part of the missing
-/// harmonics, and stays as summed. `below` and `above`: uncertainty of the peak.
+/// The peak of the wave whose first harmonics are given, with the peak's uncertainty in `below` and `above`.
+///
+/// The harmonics of a flat top continue beyond the given ones. The sum without the rest overshoots by 1 to 5
+/// % near the flanks (Gibbs). The sum averaged over a turn of the first missing harmonic (Lanczos) leaves a
+/// tenth of that overshoot. A pointed top lacks the part of the missing harmonics, and stays as summed.
 struct WavePeak {
   ShapePeak peak;
   double below = 0.0, above = 0.0;

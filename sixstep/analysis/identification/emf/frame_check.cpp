@@ -14,13 +14,13 @@ using base::Quantity;
 
 constexpr double rad_s_per_krpm = 1000.0 / base::rpm_per_rad_s;
 
-/// Constants in V s, or N m/A, per mechanical rad, by their frames.
+/// Constants in V s, or N m/A, per mechanical rad, each with the name of its frame.
 struct Frame {
   std::string_view name;
   Interval V_s;
 };
 
-/// Torque per ampere through the driven pair, per peak and per rms ampere of a sine in each phase.
+/// Torque per ampere: through the driven pair, and per peak and per rms ampere of a sine in each phase.
 std::vector<Frame> torque_frames(const EmfResult& m, double p) {
   return {{"terminal", scaled(m.constants.phase_peak, p * m.shape_sector_mean)},
           {"peak", scaled(m.constants.phase_fundamental, 1.5 * p)},
@@ -41,8 +41,8 @@ class Checks {
  public:
   explicit Checks(double tolerance) : tolerance_(tolerance) {}
 
-  /// `as` converts a constant in V s to the unit of the print; `only` is the frame of a key that has one frame
-  /// only.
+  /// `as` converts a constant in V s to the unit of the printed value. `only` is the frame of a key that has
+  /// one frame only.
   template <class As>
   void add(std::string_view key, const std::optional<Quantity>& q, std::string_view unit,
            const std::vector<Frame>& frames, std::string_view only, As as) {

@@ -10,17 +10,17 @@
 
 namespace sixstep::analysis {
 
-/// The measured value in one of the frames that the printed number may be in.
+/// The measured value in one of the frames that the printed number may have.
 struct FrameReading {
-  std::string_view frame;   ///< as in motor files; in words where they have no such frame
-  Interval measured;        ///< in the unit of the print
+  std::string_view frame;   ///< name as in motor files; in words for a frame that they do not have
+  Interval measured;        ///< in the unit of the printed value
   double deviation = 0.0;   ///< measured/printed - 1
-  bool is_printed = false;  ///< this is the frame that the sheet's file names
+  bool is_printed = false;  ///< whether this is the frame that the sheet's file names
   bool fits = false;
 };
 
 struct FrameCheck {
-  std::string key;  ///< as the file writes it
+  std::string key;  ///< the key as the file writes it
   std::string_view unit;
   double printed = 0.0;
   std::vector<FrameReading> readings;
@@ -29,13 +29,13 @@ struct FrameCheck {
   bool holds() const { return as_printed() && as_printed()->fits; }
 };
 
-/// Usual difference between motors of one kind, and between them and their sheet, by magnets and their
-/// temperature.
+/// Usual difference in the back-EMF between motors of one kind, and between a motor and its sheet. The causes
+/// are the magnets and their temperature.
 inline constexpr double usual_emf_tolerance = 0.05;
 
-/// One check for each line of the sheet about the back-EMF. A reading fits where its interval, widened by the
-/// tolerance and by half of the last printed digit, holds the printed value. Without pole pairs, only the flux
-/// linkage is checked.
+/// One check for each line of the sheet about the back-EMF. A reading fits if its interval contains the
+/// printed value; the interval is widened by the tolerance and by half of the last printed digit. Without
+/// pole pairs, only the flux linkage is checked.
 std::vector<FrameCheck> check_frames(const EmfResult& measured, const design::Sheet& sheet, double tolerance);
 
 }  // namespace sixstep::analysis

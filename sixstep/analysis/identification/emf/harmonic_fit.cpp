@@ -15,7 +15,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// One channel at a phase: offset, a_1, b_1, a_2 and so on, and their cofactors.
+/// The fit of one channel at a given phase: offset, a_1, b_1, a_2 and so on, and their cofactors.
 struct Linear {
   std::vector<double> unknowns;
   Symmetric cofactors;
@@ -41,8 +41,8 @@ class Fitter {
     return out;
   }
 
-  /// Adds the equations for the phase's rates that follow from the residual while the harmonics are free (Gauss
-  /// and Newton, the linear unknowns eliminated).
+  /// Adds the equations for the phase's rates that follow from the residual while the harmonics are free: a
+  /// Gauss-Newton step with the linear unknowns eliminated.
   void add_phase_equations(std::size_t channel, const EmfPhase& phase, const Linear& linear, Symmetric& left,
                            std::vector<double>& right) {
     const std::size_t free = 2 * harmonics_ + 1, terms = phase.terms;
@@ -182,14 +182,14 @@ ChannelFit channel_of(Fitter& fitter, const EmfRecord& record, const HarmonicPoi
   return out;
 }
 
-/// Fits all channels at the phase so far, and corrects the phase by them.
+/// Fits all channels at the present phase, and corrects the phase by these fits.
 class Iteration {
  public:
   Iteration(const EmfRecord& record, const HarmonicPoints& points, std::size_t harmonics)
       : record_(record), fitter_(points, harmonics), linear_(record.channels.size()) {}
 
-  /// One step of Gauss and Newton. Returns the change of the phase at the recording's ends, rad; empty: no
-  /// step is possible.
+  /// One Gauss-Newton step. Returns the change of the phase at the recording's ends, rad. Empty if no step is
+  /// possible.
   std::optional<double> step(EmfPhase& phase) {
     left_ = Symmetric(phase.terms);
     std::vector<double> right(phase.terms);
@@ -218,7 +218,7 @@ class Iteration {
 
   const Linear& linear(std::size_t channel) const { return linear_[channel]; }
   Fitter& fitter() { return fitter_; }
-  /// Deviation of the speed at the middle, if the residual were white.
+  /// Standard deviation of the speed at the middle if the residual is white.
   double speed_deviation() const {
     const std::optional<Cholesky> factors = Cholesky::of(left_);
     return factors ? std::sqrt(factors->inverse().at(0, 0)) : 0.0;
@@ -283,7 +283,8 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     if (*moved < nothing_rad) break;
   }
   out.periods = seconds * out.phase.rate[0] / base::turn_rad;
-  if (!(out.periods > 1.0)) return out;  // no spectrum between its harmonics: the caller refuses it
+  // No spectrum between the harmonics; the caller refuses such a recording.
+  if (!(out.periods > 1.0)) return out;
   if (base::Problems problems = take_channels(record, points, iteration, out); !problems.empty())
     return problems;
   return out;

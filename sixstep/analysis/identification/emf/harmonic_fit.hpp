@@ -4,9 +4,10 @@
 //
 //   u(t) = offset + w(t)/w_0 sum over h of (a_h cos h phase + b_h sin h phase)
 //
-// An induced voltage grows with the speed w. The residual is usually no white noise: a drill wobbles, the mains
-// hum, an oscilloscope has steps. So each harmonic's interval follows from the residual's own spectrum near
-// that harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975, 5.4).
+// The factor w(t)/w_0 is there because an induced voltage grows with the speed w. The residual is usually no
+// white noise: a drill wobbles, the mains hum, an oscilloscope has steps. So each harmonic's interval follows
+// from the residual's own spectrum near that harmonic (D. R. Brillinger, "Time Series: Data Analysis and
+// Theory", 1975, 5.4).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -25,9 +26,9 @@ struct ChannelFit {
   double offset_V = 0.0;
   std::vector<Harmonic> harmonics;  ///< harmonics[0] is the fundamental
   double residual_rms_V = 0.0;
-  double step_V = 0.0;          ///< least difference of two successive rows: the converter's step
-  double step_at_peak_V = 0.0;  ///< error of the peak by the steps, rms
-  double explained = 0.0;       ///< fitted part of the power about the mean
+  double step_V = 0.0;          ///< smallest difference of two successive rows: the converter's step
+  double step_at_peak_V = 0.0;  ///< rms error of the peak by the steps
+  double explained = 0.0;       ///< fraction of the power about the mean that the fit explains
 };
 
 struct HarmonicFit {
@@ -43,8 +44,8 @@ double fitted_V(const HarmonicFit& fit, std::size_t channel, double t_s);
 
 inline constexpr std::size_t most_harmonics = 25;
 
-/// Requires a `rough` phase within half a radian. Returns no channels if the recording has one period or
-/// less.
+/// Fits a recording from a `rough` phase with an error below half a radian. Returns no channels if the
+/// recording has one period or less.
 base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase& rough);
 
 }  // namespace sixstep::analysis

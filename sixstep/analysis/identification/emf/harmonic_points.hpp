@@ -9,7 +9,8 @@
 
 namespace sixstep::analysis {
 
-/// Points of a recording. Each is the mean of several rows where there are far more than harmonics need.
+/// Points of a recording. Each point is the mean of several rows if there are far more rows than the
+/// harmonics need.
 struct HarmonicPoints {
   std::vector<double> t_s;
   std::vector<std::vector<double>> u_V;  ///< voltages of each channel
@@ -19,7 +20,7 @@ struct HarmonicPoints {
 
 HarmonicPoints harmonic_points(const EmfRecord& record, double periods);
 
-/// Factor by which averaging reduces a sine.
+/// Factor to which averaging reduces a sine's amplitude.
 double left_by_averaging(const HarmonicPoints& points, double rad_s);
 
 /// cos and sin of phase, 2 phase and so on.

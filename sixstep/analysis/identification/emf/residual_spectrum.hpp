@@ -6,10 +6,11 @@
 
 namespace sixstep::analysis {
 
-/// Power of the residual at a few orders near each harmonic, which are not part of the fit.
+/// Power of the residual at a few orders near each harmonic. The fit does not contain these orders.
 class ResidualSpectrum {
  public:
-  static constexpr std::size_t ordinates = 6;  ///< on each side, one over the recording's periods apart
+  static constexpr std::size_t ordinates = 6;  ///< on each side of a harmonic, spaced by 1 over the
+                                               ///< recording's periods
 
   ResidualSpectrum(std::size_t harmonics, double periods)
       : periods_(periods), sums_(harmonics * 2 * ordinates), harmonics_(harmonics) {}
@@ -25,13 +26,13 @@ class ResidualSpectrum {
   struct Sum {
     double re = 0.0, im = 0.0;
   };
-  /// Fraction of the ordinates' power that remains after the fit, which removes a part of 1/periods.
+  /// Fraction of the ordinates' power that remains after the fit, which removes 1/periods of it.
   double left_part() const { return 1.0 - 1.0 / periods_; }
-  /// Below the fundamental the ordinates end at the offset.
+  /// Whether an ordinate counts: below the fundamental, the ordinates end at the offset (order 0).
   bool counts(std::size_t harmonic, std::size_t ordinate) const;
 
   double periods_;
-  std::vector<Sum> sums_;  // of each harmonic those above, then those below
+  std::vector<Sum> sums_;  // for each harmonic the ordinates above, then those below
   std::size_t harmonics_, points_ = 0;
 };
 

@@ -8,8 +8,8 @@
 
 namespace sixstep::analysis {
 
-/// A Problem where the fundamentals of the three voltages between terminals differ in size over the rotor's path.
-/// `edges` is the number of edges that the path was found from.
+/// A Problem if the fundamentals of the three voltages between terminals differ in size over the rotor's
+/// path. `edges` is the number of edges from which the path was found.
 base::Problems check_alike(const HallLog& log, const MotionPath& path, std::size_t edges);
 
 }  // namespace sixstep::analysis

@@ -19,8 +19,8 @@ std::string times(std::size_t count) { return count == 1 ? "once" : std::to_stri
 
 using Codes = std::vector<std::uint8_t>;
 
-/// The sequence of codes without repeated changes back and forth between two: a loose contact or a bouncing
-/// edge counts once, however often it changes.
+/// The sequence of codes without repeated changes between two codes: a loose contact or a bouncing edge
+/// counts once, however often it changes.
 Codes happenings(const std::vector<Stay>& stays) {
   Codes out;
   for (std::size_t n = 0; n < stays.size(); ++n) {
@@ -39,8 +39,8 @@ std::array<std::size_t, 3> changes_of(const Codes& codes) {
   return out;
 }
 
-/// A Problem for each line that never changes, or hardly. Half a turn that is missing at the log's ends leaves the
-/// counts of good lines within one of each other; a probe without magnet does not.
+/// A Problem for each line that never changes, or hardly ever. The counts of good lines differ by at most
+/// one, through the incomplete turns at the log's ends. A probe without magnet has a lower count.
 base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
   Codes seen;
   for (const Stay& s : stays) seen.push_back(s.code);
@@ -62,7 +62,7 @@ base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
   return problems;
 }
 
-/// A Problem where two lines change in the same rows, as if they were one.
+/// A Problem if two lines always change in the same rows, as if they were one line.
 base::Problems bridged_lines(const Codes& codes) {
   const std::array<std::size_t, 3> changes = changes_of(codes);
   for (unsigned a = 0; a < 3; ++a)
@@ -80,8 +80,9 @@ base::Problems bridged_lines(const Codes& codes) {
   return {};
 }
 
-/// Finds which pair of codes never occurs: the mask and its complement. Each code is a glitch with one probability
-/// for all, of which only the size, some per cent, is known beforehand (beta 1/2, 19/2).
+/// Finds the pair of codes that never occurs: the mask and its complement. Every code is a glitch with the
+/// same unknown probability. Beforehand only its size is known, some per cent: its prior is a beta
+/// distribution with parameters 1/2 and 19/2.
 void find_mask(const Codes& codes, HallEdges& out) {
   constexpr std::uint8_t masks[] = {0b000, 0b100, 0b010, 0b001};
   double logs[4], best = 0.0;
@@ -106,7 +107,7 @@ void find_mask(const Codes& codes, HallEdges& out) {
   out.mask_probability = 1.0 / sum;
 }
 
-/// Follows the path from one stay that shows its sector to the next.
+/// Follows the path from one stay to the next, leaving out stays that show no sector.
 class EdgeList {
  public:
   EdgeList(const std::vector<Stay>& stays, const RotorPath& way, HallEdges& out)
@@ -128,8 +129,8 @@ class EdgeList {
   }
 
  private:
-  /// Longest part of a sector for which the glitches between the two stays may last. With longer glitches the
-  /// path is unknown.
+  /// Longest duration of the glitches between two stays, as a fraction of the time in a sector. With longer
+  /// glitches the path is unknown.
   static constexpr double too_long_part = 0.75;
   void go_on(std::size_t last, std::size_t next) {
     const double unseen_s = stays_[next].came_before_s - stays_[last].left_s;
@@ -138,7 +139,7 @@ class EdgeList {
     if (steps == 0) return;
     if (steps == 3) {
       out_.skipped += 2;
-      return lose(next);  // in an unknown direction
+      return lose(next);  // the path continues in an unknown direction
     }
     sector_ += steps;
     if (steps == 2 || steps == -2)
@@ -170,8 +171,9 @@ class EdgeList {
   bool begins_ = true;
 };
 
-/// Removes a glitch that looks like a passage to the next sector and back at once. A rotor that really turns
-/// back stays in one sector for longer. If it was no glitch, the short time has very little information.
+/// Removes a glitch that looks like a passage to the next sector and immediately back. A rotor that really
+/// turns back stays in one sector for longer. If it was no glitch, its short time contains very little
+/// information.
 void drop_short_turns(HallEdges& out) {
   constexpr double short_part = 0.25;
   std::vector<HallEdge> kept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording of a motor whose shaft is turned: Hall lines, and voltages where probes were connected.
+// A recording of a motor whose shaft is turned: Hall lines, and voltages if probes were connected.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace sixstep::analysis {
 
 enum class RecordedVoltages : std::uint8_t {
   none,
-  lines,     ///< u_ab, u_bc, u_ca of the board's legs; the last may be left out
-  terminals  ///< u_a, u_b, u_c against any one point
+  lines,     ///< voltages u_ab, u_bc, u_ca of the board's legs; the last one may be left out
+  terminals  ///< voltages u_a, u_b, u_c against any one point
 };
 
-/// One row per sample, or one per change of a line, as logic analyzers export it.
+/// A log with one row per sample, or one per change of a line, as logic analyzers export it.
 struct HallLog {
-  std::vector<double> t_s;          ///< rising
-  std::vector<std::uint8_t> codes;  ///< H1 H2 H3 as bits 2, 1, 0
+  std::vector<double> t_s;          ///< rising times
+  std::vector<std::uint8_t> codes;  ///< H1, H2, H3 in bits 2, 1, 0
   RecordedVoltages voltages = RecordedVoltages::none;
   std::array<std::vector<double>, 3> u_V{};  ///< empty, or as long as t_s
 };

@@ -10,25 +10,30 @@
 
 namespace sixstep::analysis {
 
-/// The unknowns whose sum is an edge's place, and their indices: distance of each of the repeating edges behind
-/// its nominal place; hysteresis, half of it in the direction of motion; path during the delay.
+/// The unknowns whose sum is an edge's place, and their indices:
+/// - the distance of each repeating edge from its nominal place, counted in the direction of rotation;
+/// - the hysteresis, half of it in the direction of motion;
+/// - the path during the delay.
 struct EdgeEffects {
-  std::size_t own = 6;  ///< edges before they repeat: 6, or 6 for each pole pair
-  /// The rotor's angle is unknown: places count from that of the last edge, which is no unknown.
+  std::size_t own = 6;  ///< number of edges before they repeat: 6, or 6 for each pole pair
+  /// The rotor's angle is unknown. Places are then counted from that of the last edge, which is no unknown.
   bool relative = false;
-  bool hysteresis = false;         ///< is an unknown: the log turns both ways
-  bool delay = false;              ///< is an unknown: voltages show the rotor's angle
-  double usual_speed_deg_s = 0.0;  ///< at which the delay's path counts as the edges' own places
+  bool hysteresis = false;         ///< the hysteresis is an unknown, because the log turns both ways
+  bool delay = false;              ///< the delay is an unknown, because voltages show the rotor's angle
+  double usual_speed_deg_s = 0.0;  ///< speed at which the delay's path counts as part of the edges' own
+                                   ///< places
 
   std::size_t hysteresis_at() const { return own - static_cast<std::size_t>(relative); }
   std::size_t delay_at() const { return hysteresis_at() + static_cast<std::size_t>(hysteresis); }
   std::size_t count() const { return delay_at() + static_cast<std::size_t>(delay); }
 };
 
-/// The edge as a sighting. The time that sampling leaves open becomes an uncertainty of the place, by the speed.
+/// Converts an edge to a sighting. The time that sampling leaves open becomes an uncertainty of the place,
+/// through the speed.
 Sighting sighting_of(const HallEdge& edge, const EdgeEffects& effects, double speed_deg_s);
 
-/// Speed at each edge in deg/s, as a slope through the adjacent edges: exact enough for that uncertainty.
+/// Speed at each edge in deg/s, as a slope through the adjacent edges. It is exact enough for the uncertainty
+/// of sighting_of().
 std::vector<double> rough_speeds(const std::vector<HallEdge>& edges);
 
 struct FoundMotion {
@@ -42,18 +47,18 @@ struct FoundMotion {
   KeepGoing keep_going{};
 };
 
-/// Finds noise, effects and path, `rounds` times. Between two rounds it leaves out sightings that contradict all
-/// others, and calls `refine` to update the sightings. False where the sightings do not determine the effects, or
-/// keep_going ended it.
+/// Finds noise, effects and path in `rounds` rounds. Between two rounds it leaves out sightings that
+/// contradict all others, and calls `refine` to update the sightings. Returns false if the sightings do not
+/// determine the effects, or if keep_going ended the work.
 bool find_motion(FoundMotion& motion, int rounds, const std::function<void(FoundMotion&)>& refine);
 
-/// Possible error of each of the repeating edges because the rows were synchronous with it: at the rotor's
-/// speed, the edge always fell into the same part of the time between two rows. Then sampling does not
-/// average out, and its uncertainty stays. Half widths, 95 %; 0 where chance would bring edges and rows as
-/// close together (Rayleigh's test, 5 %).
+/// Possible error of each repeating edge if the rows were synchronous with it: at the rotor's speed, the edge
+/// then always lies in the same part of the time between two rows. Sampling does not average out in this
+/// case, and its uncertainty remains. Half widths in degrees, 95 %. 0 if chance alone would bring edges and
+/// rows as close together (Rayleigh's test, 5 %).
 std::vector<double> in_step_deg(const FoundMotion& motion);
 
-/// The motion from the edges alone, `own` of them before they repeat; empty where they do not determine it.
+/// The motion from the edges alone, of which `own` repeat. Empty if the edges do not determine it.
 std::optional<FoundMotion> motion_of_edges(const HallEdges& edges, std::size_t own,
                                            const KeepGoing& keep_going = {});
 

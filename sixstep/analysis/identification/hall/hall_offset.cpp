@@ -16,7 +16,7 @@ std::string parity_columns(const HallLog& log) {
   return log.u_V[2].empty() ? "u_ab, u_bc" : "u_ab, u_bc, u_ca";
 }
 
-/// The same path with its angle scaled and moved.
+/// The same path with its angle scaled and shifted.
 MotionPath turned(std::vector<MotionPoint> points, double factor, double off_deg) {
   for (MotionPoint& p : points) {
     p.angle_deg = factor * p.angle_deg + off_deg;
@@ -37,11 +37,13 @@ std::vector<HallEdge> in_place(const std::vector<HallEdge>& edges, const HallOff
 constexpr std::size_t fewest_each_way = 6;
 
 /// Whether enough edges lie between the rotor's reversals to find the hysteresis. An edge beyond which the
-/// rotor turns back shows the place of the reversal, not the width of the hysteresis. The voltages are very
-/// low there, and the path bends most, more on one side of the reversal than on the other: a spline of one
-/// stiffness does not fit it, and its error would count as hysteresis. Where jitter decides whether the edge
-/// is passed, the passed ones are a biased sample. So these edges are excluded in all rounds. Where too few
-/// lie between the reversals they stay, and no hysteresis is given.
+/// rotor turns back shows the place of the reversal, not the width of the hysteresis, for two reasons:
+/// - The voltages are very low there, and the path bends most, more on one side of the reversal than on the
+///   other. A spline of one stiffness does not fit such a path, and its error would count as hysteresis.
+/// - If jitter decides whether the edge is passed, the passages are a biased sample.
+///
+/// So these edges are excluded in all rounds. If too few edges lie between the reversals, all edges are used,
+/// and no hysteresis is given.
 bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   std::size_t forward = 0, backward = 0;
@@ -53,7 +55,7 @@ bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
   return std::min(forward, backward) >= fewest_each_way && *std::min_element(seen.begin(), seen.end()) >= 2;
 }
 
-/// Edges and voltages in the order of their times. An excluded edge stays excluded.
+/// Edges and voltages in the order of their times. An edge that has been excluded stays excluded.
 class Sightings {
  public:
   Sightings(const std::vector<VoltageVector>& vectors, std::vector<HallEdge> edges)
@@ -65,7 +67,7 @@ class Sightings {
     return static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));
   }
 
-  /// Makes the sightings of `m`, with the present estimate of the path.
+  /// Makes the sightings of `m` with the present estimate of the path.
   void bring(FoundMotion& m, VoltageModel& model, const MotionPath& path) {
     if (const std::optional<VoltageModel> better = fit_voltages(vectors_, path)) model = *better;
     turned_into_place(model);
@@ -78,7 +80,8 @@ class Sightings {
       const std::optional<MotionPath::At> at = path.at(edges_[n].t_s);
       m.sightings.push_back(sighting_of(edges_[n], m.effects, at ? at->speed_deg_s : 0.0));
       m.sightings.back().left_out = left_out_[n];
-      while (next < seen.size() && seen[next].t_s < edges_[n].t_s) ++next;  // outside all stretches
+      // the edge lies outside all stretches
+      while (next < seen.size() && seen[next].t_s < edges_[n].t_s) ++next;
     }
   }
 
@@ -107,12 +110,13 @@ bool speeds_differ(const std::vector<MotionPoint>& points, double usual) {
   });
 }
 
-/// Finds the sequence of the lines, with the odds of the two; a Problem where neither fits.
+/// Finds in which of the two sequences the lines follow each other, with the odds of the two. A Problem if
+/// neither fits.
 base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector<VoltageVector>& vectors,
                                            const FoundMotion& by_edges, MotionPath& path) {
   // Differences of log likelihoods. With noise alone, ten unknowns reach 20 once in 60000 logs (half of chi
-  // square), and 14 once in 500, but then they explain very little. Where most of the power is the rotor's,
-  // 14 is enough, for example for a log that goes to and fro by a few edges.
+  // square), and 14 once in 500, but then they explain very little. If the rotor explains most of the power,
+  // 14 is enough, for example for a log of a rotor that turns forward and backward by a few edges.
   constexpr double sure = 20.0, likely = 14.0;
   HallOffsetEstimate out;
   std::optional<VoltageModel> models[2];

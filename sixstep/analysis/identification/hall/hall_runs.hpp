@@ -8,8 +8,8 @@
 
 namespace sixstep::analysis {
 
-/// A code and the time for which it stood. It began at some instant of [came_after_s, came_before_s], between the
-/// last row without it and the first one with it.
+/// A code and the time for which it lasted. It began at some instant of [came_after_s, came_before_s],
+/// between the last row of the code before and its own first row.
 struct Stay {
   std::uint8_t code = 0;
   double came_after_s = 0.0, came_before_s = 0.0;
@@ -18,8 +18,8 @@ struct Stay {
   double duration_s() const { return left_s - came_before_s; }
 };
 
-/// Stays of the log: a new one begins at the first row and at each change of code. Where rows are changes,
-/// their times are exact.
+/// Stays of the log: a new one begins at the first row and at each change of code. If each row is a change,
+/// the times are exact.
 std::vector<Stay> stays_of(const HallLog& log);
 bool rows_are_changes(const HallLog& log);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t orders = vector_orders.size();
 
-/// The model's basis at one place: w exp(j h theta).
+/// The model's basis at one angle: w exp(j h theta).
 struct Basis {
   std::array<double, orders> re{}, im{};
 };
@@ -33,7 +33,7 @@ struct Vector {
   double re = 0.0, im = 0.0;
 };
 
-/// The model there, and its derivative by the angle, per rad.
+/// The modelled vector at an angle, and its derivative by the angle, per rad.
 struct Modelled {
   Vector value, slope;
 };
@@ -50,9 +50,10 @@ Modelled modelled(const VoltageModel& m, const Basis& b) {
   return out;
 }
 
-/// Counts rows as independent ones: correlated residuals of neighbouring rows carry as much information as fewer
-/// independent ones, here by the correlation of two neighbours, if it decays geometrically with their distance. A
-/// residual that turns with the rotor is smooth instead, and its neighbours are almost equal.
+/// Counts how many rows are independent. Correlated residuals of neighbouring rows have as much information
+/// as fewer independent ones. Their number follows from the correlation of two neighbours, if it decays
+/// geometrically with their distance. A residual that turns with the rotor is smooth instead, and its
+/// neighbours are almost equal.
 class Memory {
  public:
   void take(const Vector& r) {
@@ -70,11 +71,12 @@ class Memory {
   Vector before_;
 };
 
-/// Uncertainty of the amplitude. Half turns give it independently of each other, with all their errors of noise
-/// and speed. Few of them, or a few fast ones among slow ones, bias the amplitude towards themselves, so that
-/// their residuals are too small. So each counts by its residual without its own influence, and Student's
-/// degrees of freedom are those of the weights (R. M. Bell and D. F. McCaffrey, "Bias reduction in standard
-/// errors for linear regression with multi-stage samples", Survey Methodology 28, 2002, for one unknown).
+/// Uncertainty of the amplitude. Each half turn gives an amplitude of its own, with all its errors of noise
+/// and speed. If there are few half turns, or a few fast ones among slow ones, they bias the amplitude
+/// towards themselves, so that their residuals are too small. So each half turn counts by its residual
+/// without its own influence, and Student's degrees of freedom are those of the weights (R. M. Bell and D. F.
+/// McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage samples", Survey
+/// Methodology 28, 2002, for one unknown).
 class HalfTurns {
  public:
   void take(double angle_deg, const Vector& fundamental, const Vector& residual) {
@@ -84,7 +86,7 @@ class HalfTurns {
     off_ += fundamental.re * residual.re + fundamental.im * residual.im;
   }
   std::size_t count() const { return clusters_.size() + (part_ > 0.0 ? 1 : 0); }
-  /// Half width as a part of the amplitude.
+  /// Half width of the amplitude's interval, as a fraction of the amplitude.
   double half_width() {
     close();
     if (clusters_.size() < 2) return 1.0;
@@ -131,8 +133,8 @@ void judge(const std::vector<VoltageVector>& vectors, const MotionPath& path, Vo
                      model.re_Vs[0] * b.im[0] + model.im_Vs[0] * b.re[0]},
                     residual);
   }
-  // The limit holds however smooth the residuals are, because each edge jitters by itself, and the path's error
-  // between two edges ends with the sector.
+  // Largest number of rows that count as one, however smooth the residuals are: each edge jitters
+  // independently, and the path's error between two edges ends with the sector.
   constexpr double sectors = 3.0;  // in half a turn
   const double most = static_cast<double>(model.rows) /
                       (sectors * static_cast<double>(std::max<std::size_t>(half_turns.count(), 1)));
@@ -193,14 +195,14 @@ std::optional<VoltageModel> fit_voltages(const std::vector<VoltageVector>& vecto
   out.residual_V2 = found->residual_square;
   const auto rows = static_cast<double>(out.rows);
   out.still_V2 = equations.square() - (sum_alpha * sum_alpha + sum_beta * sum_beta) / rows;
-  // A recording without any noise still has its last digit.
+  // A recording without any noise still has the rounding of its last digit.
   out.variance_V2 = std::max(found->residual_square / (2.0 * rows - unknowns), 1e-24 * out.still_V2 / rows);
   judge(vectors, path, out);
   return out;
 }
 
 double turned_into_place(VoltageModel& model) {
-  // z = K_h w exp(j h (path + off)) reads as K_h exp(j h off) over the path.
+  // z = K_h w exp(j h (path + off)) is fitted as K_h exp(j h off) over the path.
   const double off = base::atan2(model.im_Vs[0], model.re_Vs[0]) + base::sector_rad;
   for (std::size_t n = 0; n < orders; ++n) {
     const base::SinCos turn = base::sin_cos(-vector_orders[n] * off);
@@ -213,8 +215,8 @@ double turned_into_place(VoltageModel& model) {
 
 namespace {
 
-/// Rows over a few degrees of the path, and the correction of the path's angle that they give together, by one
-/// step of Gauss and Newton.
+/// Rows over a few degrees of the path, and the common correction of the path's angle that they give, by one
+/// Gauss-Newton step.
 class Window {
  public:
   bool holds(double angle_deg) const { return rows_ == 0 || std::fabs(angle_deg - begin_deg_) < longest_deg; }
@@ -244,7 +246,7 @@ class Window {
 
  private:
   static constexpr double longest_deg = 30.0;
-  static constexpr double blurred_deg = 20.0;  ///< a sighting that is less exact is not used
+  static constexpr double blurred_deg = 20.0;  ///< a sighting with a larger uncertainty is not used
   double begin_deg_ = 0.0, weight_ = 0.0, product_ = 0.0, t_s_ = 0.0;
   std::size_t rows_ = 0;
 };

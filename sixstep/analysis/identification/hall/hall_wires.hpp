@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the wires that explain the codes at the pins in each sector.
+// Finds the wirings that explain the codes at the pins in each sector.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,23 +12,23 @@ namespace sixstep::analysis {
 /// Probes behind the pins of a board, as in a scenario.
 struct HallWires {
   bool spaced_60 = false;
-  rig::WireOrder probes = rig::WireOrder::abc;  ///< at pins H1, H2, H3
+  rig::WireOrder probes = rig::WireOrder::abc;  ///< probes at pins H1, H2, H3
   std::uint8_t inverted = 0;                    ///< inverted pins, as bits of a code
 
   bool operator==(const HallWires&) const = default;
   bool are_straight() const { return *this == HallWires{}; }
 };
 
-/// H1 H2 H3 in sectors 0 to 5.
+/// H1 H2 H3 as a code, in sectors 0 to 5.
 using PinCodes = std::array<std::uint8_t, 6>;
 
 PinCodes codes_behind(const HallWires& wires);
 
-/// All wires that show these codes, the plainest first: fewest inverted lines (all three count as one, because one
-/// stage inverts them), then probes 120 degrees apart, then each at its own pin. The codes alone do not
-/// distinguish these wires, and the table for a drive is the same. Where 000 and 111 never occur, the first are
-/// probes 120 degrees apart, with no line or all lines inverted; they make every order of codes that three lines
-/// can show, in one way.
+/// All wirings that show these codes, the simplest first: fewest inverted lines (three inverted lines count
+/// as one, because one stage inverts them), then probes 120 degrees apart, then each line at its own pin. The
+/// codes alone do not distinguish these wirings, and the table for a drive is the same. If 000 and 111 never
+/// occur, the first wirings have probes 120 degrees apart and no line or all lines inverted. Each order of
+/// codes that three lines can show has exactly one wiring of this kind.
 std::vector<HallWires> wires_behind(const PinCodes& codes);
 
 }  // namespace sixstep::analysis

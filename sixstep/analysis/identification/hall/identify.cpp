@@ -17,7 +17,7 @@ namespace {
 
 constexpr double sector_deg = 60.0;
 
-/// Weights of the effects whose sum is a result.
+/// Weights of the effects in a result, which is a weighted sum of them.
 class Weights {
  public:
   explicit Weights(const EdgeEffects& effects) : effects_(effects), values_(effects.count()) {}
@@ -31,7 +31,7 @@ class Weights {
     if (!effects_.relative || n + 1 < effects_.own) values_[n] += factor;
     return *this;
   }
-  /// The hysteresis at standstill: without the delay's path at the usual speed.
+  /// The hysteresis at standstill, without the delay's path at the usual speed.
   Weights& hysteresis() {
     values_[effects_.hysteresis_at()] = 1.0;
     if (effects_.delay) values_[effects_.delay_at()] = -2.0 * effects_.usual_speed_deg_s;
@@ -54,7 +54,7 @@ base::Problem not_fixed() {
           .cure = "turn the shaft by more turns in one go"};
 }
 
-/// Whole sectors in an offset: beyond 30 degrees another sector is nearer.
+/// Number of whole sectors in an offset: beyond 30 degrees the next sector is nearer.
 int whole_sectors(double offset_deg) {
   return static_cast<int>(std::floor((offset_deg + sector_deg / 2.0) / sector_deg));
 }
@@ -98,7 +98,7 @@ std::vector<EdgePassage> passages_of(const FoundMotion& motion, int shift) {
   return out;
 }
 
-/// A Problem where an edge of the shaft's turn is passed less than twice.
+/// A Problem if an edge of the shaft's turn is passed less than twice.
 std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   for (const HallEdge& e : edges.edges) ++seen[repeating(e.boundary, own)];
@@ -173,7 +173,7 @@ void take_codes(const FoundMotion& motion, const MotionPosterior& posterior, Hal
   out.jitter_deg.low = 0.0;
 }
 
-/// The results from the edges alone, without their uncertainty.
+/// The results that follow from the edges alone, without their uncertainty.
 HallIdentity counted(const HallLog& log, const HallEdges& edges) {
   return {.rows = log.t_s.size(),
           .seconds = log.t_s.back() - log.t_s.front(),
@@ -234,7 +234,8 @@ base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs, const Ke
   if (keep_going && !keep_going()) return base::Problem{"identify", "", "was interrupted", "start it again"};
   if (!found) return found;
   const double frequency_Hz = 1.0 / (6.0 * found->sector_s);
-  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // 1: the six edges that all pairs share
+  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // with 1 pole pair asked for, the six edges stand
+                                                            // for all pairs
   base::Problems wrong = check_built_speed(frequency_Hz, known_pairs);
   if (wrong.empty() && found->place)
     wrong =

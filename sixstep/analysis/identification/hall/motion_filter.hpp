@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kalman's filter for an angle of which one derivative is white noise. One update serves all columns that are
-// filtered together.
+// Kalman's filter for an angle of which one derivative is white noise. One update applies to all columns that
+// are filtered together.
 #pragma once
 #include <array>
 #include <cstddef>
 
 namespace sixstep::analysis {
 
-/// Angle, speed and so on up to the last derivative before the noise.
+/// Angle, speed and further derivatives, up to the last one before the noise.
 template <std::size_t order>
 using MotionState = std::array<double, order>;
 
@@ -20,11 +20,11 @@ class Step {
     for (std::size_t n = 1; n < terms_.size(); ++n) terms_[n] = terms_[n - 1] * T / static_cast<double>(n);
     T_ = T;
   }
-  /// T^n/n!
+  /// T^n/n! for the step's time T.
   double term(std::size_t n) const { return terms_[n]; }
   double seconds() const { return T_; }
 
-  /// Taylor's series of the angle.
+  /// Advances a state by Taylor's series.
   void pass(MotionState<order>& x) const {
     for (std::size_t i = 0; i < order; ++i)
       for (std::size_t k = i + 1; k < order; ++k) x[i] += terms_[k - i] * x[k];
@@ -44,7 +44,7 @@ template <std::size_t order>
 struct MotionSpread {
   std::array<std::array<double, order>, order> P{};
 
-  /// P = F P F' + Q, Q the integral of the noise's response over the step.
+  /// Advances the covariance: P = F P F' + Q, with Q the integral of the noise's response over the step.
   void pass(const Step<order>& step, double intensity) {
     for (std::size_t c = 0; c < order; ++c)
       for (std::size_t i = 0; i < order; ++i)

@@ -9,7 +9,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Columns that are filtered together: the data, each effect, and each unknown of a stretch's begin.
+/// Columns that are filtered together: the data, each effect, and each unknown of a stretch's beginning.
 template <std::size_t order>
 class Columns {
  public:
@@ -21,8 +21,8 @@ class Columns {
     begin_stretch();
   }
 
-  /// Adds the stretch's sums of data and effects, with its begin eliminated. A stretch that is too short for
-  /// this adds nothing.
+  /// Adds the stretch's sums of data and effects, with the unknowns of its beginning eliminated. A stretch
+  /// that is too short to eliminate them adds nothing.
   void end_stretch() {
     if (seen_ >= order) {
       Symmetric begin(order);
@@ -95,7 +95,7 @@ class Columns {
   std::size_t effects_;
   std::vector<MotionState<order>> states_;
   std::vector<double> innovations_;
-  Symmetric sums_;                 // of this stretch, the lower half
+  Symmetric sums_;                 // sums of this stretch, the lower half
   Symmetric total_{effects_ + 1};  // sums of the earlier stretches, in the same order
   double stretch_log_ = 0.0, log_sum_ = 0.0;
   std::size_t seen_ = 0;

@@ -18,7 +18,8 @@ using Place = std::array<double, 3>;
 struct Bounds {
   double low, high;
 };
-constexpr Bounds bounds[] = {{-13.8, 4.6}, {-6.9, 3.4}, {-4.6, 9.2}};  // 1e-6 .. 100, 1e-3 .. 30, 0.01 .. 1e4
+// bounds of the three numbers: 1e-6 .. 100, 1e-3 .. 30, 0.01 .. 1e4
+constexpr Bounds bounds[] = {{-13.8, 4.6}, {-6.9, 3.4}, {-4.6, 9.2}};
 
 constexpr double none = -std::numeric_limits<double>::infinity();
 
@@ -39,7 +40,8 @@ class Likelihood {
   Place place_of(const MotionNoise& n) const {
     return {0.5 * base::log(n.intensity * stray2_), base::log(n.jitter_deg), base::log(n.voltage_scale)};
   }
-  /// Empty also where keep_going has ended the work: then no place has a likelihood, and every search ends.
+  /// The fit at a place. It is also empty after keep_going has ended the work: then no place has a
+  /// likelihood, and every search ends.
   std::optional<MotionFit> fit_at(const Place& p) const {
     if (keep_going_ && !keep_going_()) return {};
     return fit_motion(sightings_, effects_, noise_at(p));
@@ -67,7 +69,7 @@ struct Top {
   double height = none;
 };
 
-/// Climbs along each axis in turn, by steps that halve where none leads up.
+/// Climbs along each axis in turn, with steps that are halved if no step leads up.
 Top climbed(const Likelihood& likelihood, Top top, double first_step) {
   const std::size_t axes = likelihood.axes();
   for (double step = first_step; step > 0.04; step *= 0.5)
@@ -99,7 +101,7 @@ Top highest(const Likelihood& likelihood) {
   return top.height > none ? climbed(likelihood, top, 1.0) : top;
 }
 
-/// Distance along an axis at which the log likelihood has lost `enough`, or the bound.
+/// Distance along an axis at which the log likelihood has decreased by `enough`, or at which the bound lies.
 double reach(const Likelihood& likelihood, const Top& top, std::size_t axis, double way, double enough) {
   const auto lost = [&](double step) {
     Place p = top.place;
@@ -143,7 +145,7 @@ std::optional<MotionPosterior> MotionPosterior::of(std::span<const Sighting> sig
                                                    double sector_s, const MotionNoise& likeliest,
                                                    const KeepGoing& keep_going) {
   constexpr int points = 9;
-  constexpr double enough = 5.0;  // exp(-5) of the top: the rest has less than 0.2 %
+  constexpr double enough = 5.0;  // exp(-5) of the maximum: what lies beyond has less than 0.2 %
   const Likelihood likelihood(sightings, effects, sector_s, likeliest.smoothness, keep_going);
   const Place place = likelihood.place_of(likeliest);
   const Top top{place, likelihood.at(place)};
@@ -165,7 +167,7 @@ std::optional<MotionPosterior> MotionPosterior::of(std::span<const Sighting> sig
       std::optional<MotionFit> fit = likelihood.fit_at(p);
       if (!fit || !std::isfinite(fit->log_likelihood)) continue;
       const MotionNoise noise = likelihood.noise_at(p);
-      // Jeffreys's prior of a variance that adds to a known one, over the logarithm of the deviation.
+      // Jeffreys's prior, over the logarithm of the deviation, of a variance that is added to a known one.
       const double jitter2 = noise.jitter_deg * noise.jitter_deg;
       const double log_weight = fit->log_likelihood + base::log(jitter2 / (jitter2 + known));
       best = std::max(best, log_weight);
@@ -176,7 +178,8 @@ std::optional<MotionPosterior> MotionPosterior::of(std::span<const Sighting> sig
   for (Possible& p : out.all_) sum += p.weight = base::exp(p.weight - best);
   for (Possible& p : out.all_) p.weight /= sum;
   out.jitter_step_ = (high[1] - low[1]) / (points - 1);
-  constexpr double told_apart = 1.92;  // of logarithms of likelihoods: half of chi square's 95 %
+  constexpr double told_apart = 1.92;  // difference of log likelihoods that distinguishes two models: half of
+                                       // chi square's 95 %
   out.maybe_none_ = top.height - likelihood.at({place[0], bounds[1].low, place[2]}) < told_apart;
   return out;
 }

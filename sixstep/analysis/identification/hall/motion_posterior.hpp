@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes results as means over the unknown noise of a log. The freedom of the rotor's motion and the jitter
 // of its edges are unknown beforehand, and every result depends on both. Restricted likelihood estimates
-// them, and each result is the mean over all values that the log allows, with their weights. An interval for
-// the likeliest values alone would be too narrow where the log is short.
+// both, and each result is the mean over all values that the log allows, with their weights. An interval for
+// the likeliest values alone would be too narrow for a short log.
 #pragma once
 #include <optional>
 #include <span>
@@ -13,26 +13,26 @@
 
 namespace sixstep::analysis {
 
-/// The likeliest noise; empty where the sightings do not determine the effects. `sector_s`: typical time of a
-/// sector, which only sets where to search. Where no sighting is a voltage, the scale stays 1.
+/// The likeliest noise; empty if the sightings do not determine the effects. `sector_s`: typical time of a
+/// sector, which only determines where the search begins. If no sighting is a voltage, the scale stays 1.
 std::optional<MotionNoise> likeliest_noise(std::span<const Sighting> sightings, std::size_t effects,
                                            double sector_s, const KeepGoing& keep_going = {});
-/// The same from a noise that was likely for nearly the same sightings.
+/// The likeliest noise, searched from a noise that was likely for nearly the same sightings.
 MotionNoise likelier_noise(std::span<const Sighting> sightings, std::size_t effects, double sector_s,
                            const MotionNoise& likely, const KeepGoing& keep_going = {});
 
 class MotionPosterior {
  public:
-  /// Made from the possible noises around the likeliest one.
+  /// Computes the posterior from the possible noises around the likeliest one.
   static std::optional<MotionPosterior> of(std::span<const Sighting> sightings, std::size_t effects,
                                            double sector_s, const MotionNoise& likeliest,
                                            const KeepGoing& keep_going = {});
 
   /// Interval of the sum of the effects with these weights.
   Interval effects(std::span<const double> weights) const;
-  /// Probability that this sum lies in [low, high].
+  /// Probability that this weighted sum lies in [low, high].
   double probability(std::span<const double> weights, double low, double high) const;
-  /// Begins at 0 where the log is explained as well without jitter.
+  /// The interval begins at 0 if the log is explained as well without jitter.
   Interval jitter_deg() const;
 
  private:
@@ -44,7 +44,7 @@ class MotionPosterior {
   std::vector<Component> mixture(std::span<const double> weights) const;
 
   std::vector<Possible> all_;
-  double jitter_step_ = 0.0;  // of its logarithm
+  double jitter_step_ = 0.0;  // step of the jitter's logarithm
   bool maybe_none_ = false;
 };
 

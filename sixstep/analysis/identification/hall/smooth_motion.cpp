@@ -12,15 +12,15 @@ namespace {
 /// Results of the forward pass at a sighting, for the backward pass.
 template <std::size_t order>
 struct Passed {
-  Step<order> step{0.0};     ///< since the one before
-  MotionState<order> state;  ///< predicted
+  Step<order> step{0.0};     ///< step since the sighting before
+  MotionState<order> state;  ///< predicted state
   MotionSpread<order> spread;
   double innovation = 0.0;
   MotionGain<order> gain;
 };
 
-/// Filters one stretch forward from its likeliest begin, then smooths it backward (P. de Jong, "Smoothing and
-/// interpolation with the state-space model", J. Amer. Statist. Assoc. 84, 1989).
+/// Filters one stretch forward from its likeliest beginning, then smooths it backward (P. de Jong, "Smoothing
+/// and interpolation with the state-space model", J. Amer. Statist. Assoc. 84, 1989).
 template <std::size_t order>
 class Stretch {
  public:
@@ -40,7 +40,8 @@ class Stretch {
     return x;
   }
 
-  /// Least squares with known effects: the filter once more, with the begin's unknowns as columns.
+  /// Least squares with known effects: a second pass of the filter, with the unknowns of the beginning as
+  /// columns.
   MotionState<order> find_begin() {
     NormalEquations equations(order);
     std::array<MotionState<order>, order> columns{};
@@ -96,7 +97,7 @@ class Stretch {
     }
   }
 
-  /// r is the information of the sightings from here on about the state, N its precision.
+  /// r is the information about the state from this sighting and all later ones; N is its precision.
   void back(std::vector<MotionPoint>& points) const {
     MotionState<order> r{};
     std::array<std::array<double, order>, order> N{};
@@ -175,7 +176,7 @@ std::optional<MotionPath::At> MotionPath::at(double t_s) const {
   const double T = b.t_s - a.t_s;
   if (!(T > 0.0)) return At{a.angle_deg, a.speed_deg_s};
   const double x = (t_s - a.t_s) / T, y = 1.0 - x, rise = b.angle_deg - a.angle_deg;
-  // Hermite: a line, bent by the two speeds.
+  // Hermite's polynomial: a straight line, bent by the speeds at its two ends.
   const double bend_a = a.speed_deg_s * T - rise, bend_b = rise - b.speed_deg_s * T;
   const double bend = bend_a * y + bend_b * x;
   return At{a.angle_deg + rise * x + x * y * bend, (rise + (y - x) * bend + x * y * (bend_b - bend_a)) / T};

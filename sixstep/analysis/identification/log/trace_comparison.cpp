@@ -21,8 +21,8 @@ const Values* values_of(const study::Trace& trace, const std::string& column) {
   return nullptr;
 }
 
-/// The value of a column at a time; at a jump, the value after it. Empty beyond the ends, and where a row holds no
-/// number.
+/// The value of a column at a time; at a jump, the value after it. Empty beyond the column's ends, and if a
+/// row holds no number.
 std::optional<double> value_at(const Values& t_s, const Values& values, double t) {
   const auto next = static_cast<std::size_t>(std::upper_bound(t_s.begin(), t_s.end(), t) - t_s.begin());
   if (next == 0) return {};
@@ -34,7 +34,7 @@ std::optional<double> value_at(const Values& t_s, const Values& values, double t
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// The columns of one name in both, with their times.
+/// The columns of one name in simulation and log, with their times.
 struct Both {
   const Values *simulated_t, *simulated, *log_t, *log;
 };
@@ -88,7 +88,7 @@ std::vector<TraceComparison> trace_comparison(const study::Trace& simulated, con
 
 namespace {
 
-/// Least difference of two values of a column.
+/// Smallest difference of two values of a column.
 double least_step(Values values) {
   std::sort(values.begin(), values.end());
   double least = std::numeric_limits<double>::infinity();
@@ -97,12 +97,12 @@ double least_step(Values values) {
   return std::isfinite(least) ? least : 0.0;
 }
 
-/// A column from which the shift is found.
+/// A column that is used to find the shift.
 struct Weighed {
   Both both;
-  double scale = 1.0;  ///< its span, or its log's least step
+  double scale = 1.0;  ///< the column's span, or the least step of its log
   double step = 0.0;
-  std::size_t rows = 0;  ///< compared without a shift
+  std::size_t rows = 0;  ///< rows that can be compared without a shift
 };
 
 std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study::Trace& log,
@@ -115,21 +115,22 @@ std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study:
     const double step = least_step(*found->log), scale = std::max(here.span, step);
     if (scale > 0.0) out.push_back({*found, scale, step, here.rows});
   }
-  // A column without a value in the run has no common row at any shift.
+  // A column that never has a value in the run has no common row at any shift.
   if (std::any_of(out.begin(), out.end(), [](const Weighed& w) { return w.rows > 0; }))
     std::erase_if(out, [](const Weighed& w) { return w.rows == 0; });
   return out;
 }
 
-/// Geometric mean of the columns' rms, relative to their scales: the likelihood where the accuracy of each
-/// column is unknown. A column that fits at no shift, such as a duty that acts a period later, then does not
-/// outweigh one that does. Empty where a shift leaves too few rows to compare, because it would win.
+/// Geometric mean of the columns' rms, relative to their scales. This is the likelihood if the accuracy of
+/// each column is unknown. A column that fits at no shift, such as a duty that acts a period later, then does
+/// not outweigh one that fits. Empty if a shift leaves too few rows to compare, because such a shift would
+/// win.
 struct Apart {
   double rms = 0.0;
   bool within_steps = true;  ///< no column differs by more than its log's step
 };
 std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, std::size_t every) {
-  // The rms that a log's step alone leaves.
+  // The rms that a log's step alone causes, 1/sqrt(12) of the step.
   constexpr double rms_of_a_step = 0.28867513459481287, least_part = 1e-6;
   double logs = 0.0;
   Apart out;
@@ -147,8 +148,8 @@ std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, 
 }  // namespace
 
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s) {
-  // The difference has many minima where a current ripples. Therefore the search uses a grid, then finer ones
-  // around the best value.
+  // The difference has many minima if a current ripples. Therefore the search uses a grid, and then finer
+  // grids around the best value.
   constexpr int asked_values = 4000, times_finer = 10, grids = 4;
   constexpr double counts = 1e-3, much_less = 0.9;
   const Values* const times = values_of(log, "t_s");

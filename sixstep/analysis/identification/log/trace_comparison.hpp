@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares a board's log with a simulation of it, column by column. Both are traces: a jump has two rows at
-// one instant; between rows a trace is linear.
+// Compares a board's log with a simulation of the board, column by column. Both are traces: a jump has two
+// rows at one instant; between rows a trace is linear.
 #pragma once
 #include <string>
 #include <vector>
@@ -14,46 +14,49 @@ namespace sixstep::analysis {
 struct TraceComparison {
   study::Column column;
   std::size_t rows = 0;
-  double span = 0.0;      ///< highest minus lowest simulated value there
+  double span = 0.0;      ///< highest minus lowest simulated value over the compared rows
   double rms = 0.0;       ///< rms of log minus simulation
-  double greatest = 0.0;  ///< log minus simulation farthest from 0, with its sign
-  double at_s = 0.0;      ///< its time
+  double greatest = 0.0;  ///< the difference log minus simulation that is farthest from 0, with its sign
+  double at_s = 0.0;      ///< time of this difference
 };
 
-/// Compares each column that both have, except the time. `shift_s` is added to the log's times. A column without a
-/// common row is left out.
+/// Compares each column that both traces have, except the time. `shift_s` is added to the log's times. A
+/// column without a common row is left out.
 std::vector<TraceComparison> trace_comparison(const study::Trace& simulated, const study::Trace& log,
                                               double shift_s);
 
 /// Least number of rows of a comparison: with one row alone every difference may be 0.
 inline constexpr std::size_t fewest_compared = 5;
 
-/// The shift within +-`most_s` with the least difference of all columns together, because a board's clock starts
-/// some time after power-on. The difference is the geometric mean of the columns' rms, each as a part of its span
-/// or, where that is greater, of the least step of its log. The search uses a grid of `step_s`, then finer
-/// ones; of thousands of rows it uses a part. 0 where a shift gains too little: less than a thousandth of the
-/// spans, a tenth of the difference, or the log's own steps.
+/// The shift in s within +-`most_s` with the least difference of all columns together. A board's clock needs
+/// it, because it starts some time after power-on. The difference is the geometric mean of the columns' rms.
+/// Each rms is a fraction of the column's span or, if that is greater, of the least step of its log.
+///
+/// The search uses a grid of `step_s`, then finer ones; of thousands of rows it uses only some. The result is
+/// 0 if a shift gains too little: less than a thousandth of the spans, a tenth of the difference, or the
+/// log's own steps.
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s);
 
-/// Shift for a clock that counts since midnight or since power-on: minus the first row's time where no row lies in
-/// the simulated time, else 0.
+/// Shift in s for a clock that counts from midnight or from power-on: minus the first row's time if no row
+/// lies in the simulated time, else 0.
 double start_shift_s(const study::Trace& simulated, const study::Trace& log);
 
-/// The compared columns, and those left out with the reason.
+/// The compared columns, and the left-out columns with the reason.
 struct Overlay {
   std::vector<TraceComparison> columns;
   struct LeftOut {
     std::string column, reason;
   };
   std::vector<LeftOut> left_out;
-  std::size_t rows = 0, inside = 0;  ///< rows of the log; rows in the simulated time
+  std::size_t rows = 0, inside = 0;  ///< rows of the log, and those of them in the simulated time
 };
 
-/// trace_comparison() of the columns with enough rows. A Problem where no column has them; `name` is the log's.
+/// trace_comparison() of the columns with enough rows. A Problem if no column has enough; `name` is the log's
+/// name.
 base::Result<Overlay> overlay(const std::string& name, const study::Trace& simulated, const study::Trace& log,
                               double shift_s);
 
-/// The log at these instants, its times shifted; NaN beyond its ends.
+/// The log at these instants, with shifted times; NaN beyond the log's ends.
 study::Trace at_instants(const study::Trace& log, double shift_s, const std::vector<double>& t_s);
 
 }  // namespace sixstep::analysis
