@@ -3,7 +3,8 @@
 // a timer. In the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
 //   soft           the switch that is not chopped stays on: the sink's lower one, or the source's upper one
 //   hard           no switch is on
-//   complementary  as soft, and also the other switch of the chopped leg, after the dead time that the timer inserts
+//   complementary  as soft, and also the other switch of the chopped leg, after the dead time that the timer
+//                  inserts
 #pragma once
 #include <cstdint>
 

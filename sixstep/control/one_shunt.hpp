@@ -5,9 +5,10 @@
 // amplifier had time to settle.
 //
 // During a commutation one phase keeps its current i_k, one current rises and one decays through a diode:
-//   sink changes    the old sink's current returns to the upper rail; the shunt shows i_k minus that current, which is
-//                   the rising current
-//   source changes  the old source conducts through a lower diode; the shunt shows the new source's current, which rises
+//   sink changes    the old sink's current returns to the upper rail; the shunt shows i_k minus that current,
+//                   which is the rising current
+//   source changes  the old source conducts through a lower diode; the shunt shows the new source's current,
+//                   which rises
 // In both cases the shunt shows the rising current i_in, and i_m = (i_k + i_in)/2, where i_k is near its last
 // value. This block uses this estimate until the rising current has reached i_k, or for a configured number
 // of samples.

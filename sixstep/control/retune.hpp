@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces the configuration while the drive runs, between two ticks: gains, limits, chopping, mode.
 //
-//   same mode     All states stay. A PI in velocity form continues from its last output and its last error: with the
-//                 new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], which is 0 at zero error. The positional
-//                 form keeps its integral; its output changes by the change of K times the error. An observer and a
-//                 sliding surface continue from their states.
-//   other law     The new law of the speed loop begins at the output that the old one holds; at zero error the output
-//                 does not change (in a positional form only if its setpoint is not weighted).
-//   other mode    A loop of both modes keeps its state. A loop of the new mode alone begins at rest, with output 0. A
-//                 setpoint that slews or has a profile starts at the measurement (drive_extras.hpp). The bridge keeps
-//                 the last command until the next tick.
-//   other limits  A position profile with other limits continues from its position and speed, without acceleration.
+//   same mode     All states stay. A PI in velocity form continues from its last output and its last error:
+//                 with the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], which is 0 at zero
+//                 error. The positional form keeps its integral; its output changes by the change of K times
+//                 the error. An observer and a sliding surface continue from their states.
+//   other law     The new law of the speed loop begins at the output that the old one holds; at zero error
+//                 the output does not change (in a positional form only if its setpoint is not weighted).
+//   other mode    A loop of both modes keeps its state. A loop of the new mode alone begins at rest, with
+//                 output 0. A setpoint that slews or has a profile starts at the measurement
+//                 (drive_extras.hpp). The bridge keeps the last command until the next tick.
+//   other limits  A position profile with other limits continues from its position and speed, without
+//                 acceleration.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 

@@ -10,7 +10,8 @@
 // on. b is the speed that full torque adds in a sample, and l the load as a fraction of full torque. Then,
 // inside the limit,
 //
-//   |s| > P   s changes by b (R - l) per sample: from s_0 the layer is reached after (|s_0| - P)/(b (R - l)) samples
+//   |s| > P   s changes by b (R - l) per sample: from s_0 the layer is reached after (|s_0| - P)/(b (R - l))
+//             samples
 //   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: it ends at P l/R, where R sat(s/P) is the load, and y = r
 //
 // At a limit m is changed so that u is exactly that limit, as far as the layer allows. Outside of the layer m

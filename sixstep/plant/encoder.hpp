@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number of turns.
 //
-//   A = [frac(N theta/2 pi) < 1/2], B follows A a quarter of a line later, Z = 1 over the first line of a turn
+//   A = [frac(N theta/2 pi) < 1/2], B follows a quarter of a line later, Z = 1 over the first line of a turn
 //   counted x4: floor(4 N theta/2 pi);   absolute: the Gray code of floor(2^n frac(theta/2 pi))
 #pragma once
 #include <cmath>

@@ -36,8 +36,8 @@ template <bool sine, class Real>
 struct PairLaw {
   int j, k, floating;
   typename LegsLaw<Real>::Terms slope;
-  Real from_w0, from_w1;    // di/dt per w phi0 and w phi1
-  Real torque_0, torque_1;  // per phi0 i and phi1 i
+  Real from_w0, from_w1;    // coefficients of w phi0 and w phi1 in di/dt
+  Real torque_0, torque_1;  // torque per phi0 i and per phi1 i
 
   PairLaw(const LegsLaw<Real>& law, const ShapeLine<sine, Real>& f)
       : j(law.leg[0]), k(law.leg[1]), floating(law.leg[2]), slope(law.slope) {
@@ -166,10 +166,10 @@ struct TwoCurrents {
   static constexpr bool sine_shape = sine;
   struct Slope {
     typename LegsLaw<Real>::Terms terms;
-    Real w0, w1;  // per w phi0 and w phi1
+    Real w0, w1;  // coefficients of w phi0 and w phi1
   };
   Slope a, b;
-  Real torque_0a, torque_0b, torque_1a, torque_1b;  // per phi i_a, phi i_b
+  Real torque_0a, torque_0b, torque_1a, torque_1b;  // torque per phi0 i_a, phi0 i_b, phi1 i_a, phi1 i_b
   series::Coefficients<Real> y0, y1;
 
   TwoCurrents(const Rotor<Real>&, const Constants<Real>& c, const LegsLaw<Real>& law,

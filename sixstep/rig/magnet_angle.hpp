@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// True direction of the magnet. It lags the angle of the equations, which counts from phase a's axis, by 150
-// electrical degrees (control/frames.hpp).
+// True direction of the magnet from phase a's axis: theta_d = theta_e - 150 electrical degrees
+// (control/frames.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"

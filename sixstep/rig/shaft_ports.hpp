@@ -3,10 +3,11 @@
 // samples:
 //
 //   incremental   The timer counts the quarters of lines, captures the time of the last one, and latches its
-//                 count where the index passes. Edges that it misses are not counted. It evaluates the pins alone:
-//                 with A or B stuck, each edge of the other line reverses the step of the edge before.
+//                 count where the index passes. Edges that it misses are not counted. It evaluates the pins
+//                 alone: with A or B stuck, each edge of the other line reverses the step of the edge before.
 //   absolute      The code is latched some time before it is read; a track may be stuck.
-//   resolver      Both windings go to converters, sampled at the peaks of the excitation, or to a tracking chip.
+//   resolver      Both windings go to converters, sampled at the peaks of the excitation, or to a tracking
+//                 chip.
 #pragma once
 #include <cmath>
 

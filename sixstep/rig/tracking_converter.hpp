@@ -2,7 +2,8 @@
 // A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock. It
 // outputs an angle of a number of bits, and the speed from its integrator (model.md 10).
 //
-//   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 with the sign of the shorter rotation
+//   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 with the sign of the
+//              shorter rotation
 //   followed   control/sensing/tracking.hpp, per clock of the chip
 //   output     the angle predicted for this clock, not for the next: no lag at constant speed;
 //              at constant acceleration a the output lags by a T^2/K_i

@@ -5,15 +5,17 @@
 // motor.
 //
 //   zeroing    measures the offsets of the three amplifiers, with the bridge off
-//   rising     raises a voltage vector until the test current flows; the vectors of this current and of half of it
-//              are the two levels
-//   leaning    pulls the rotor to a quarter turn, because at 0 alone it could stay at a dead point, half a turn away
+//   rising     raises a voltage vector until the test current flows; the vectors of this current and of half
+//              of it are the two levels
+//   leaning    pulls the rotor to a quarter turn, because at 0 alone it could stay at a dead point, half a
+//              turn away
 //   aligning   pulls the rotor to 0, where it rests until the end of the steps
 //   stepping   level_steps.hpp
 //   turning    hall_survey.hpp, forward and backward
 //   spinning   accelerates the rotor until the back-EMF is half of the vector
-//   measuring  flux_turn.hpp; spinning and measuring are repeated at three quarters of the speed. If the two results
-//              differ, the rotor was lost; it is aligned and spun again with a quarter of the acceleration.
+//   measuring  flux_turn.hpp; spinning and measuring are repeated at three quarters of the speed. If the two
+//              results differ, the rotor was lost; it is aligned and spun again with a quarter of the
+//              acceleration.
 //   done, failed
 //
 // Call commissioning_step once per control tick, and commissioning_hall in the interrupt of the Hall pins.

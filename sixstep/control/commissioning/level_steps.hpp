@@ -10,7 +10,8 @@
 // whatever voltage is lost:
 //
 //   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, minus the delay from a sample to its voltage
-//   x = T/tau:  S = coth(x/2)/2 for samples at the ends of periods, 1/(2 sinh(x/2)) for samples in their middles
+//   x = T/tau:  S = coth(x/2)/2 for samples at the ends of periods, 1/(2 sinh(x/2)) for samples in their
+//               middles
 //   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              exact to x^4/720 and x^4/640
 //
 // Steps up and down alternate, and their areas are added. The converters' rounding changes I_2 - I_1 by at

@@ -3,7 +3,8 @@
 // V t/L. L depends on x, the angle from the magnet's north to the pair's axis, and on the current i (model.md
 // 7):
 //
-//   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x,      x = 60 s - 30 degrees - theta_d for the pair of sector s
+//   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x
+//   x = 60 s - 30 degrees - theta_d for the pair of sector s
 //
 // y_s = 1/I_s is proportional to L. The second harmonic of the six values shows the magnet's axis, by
 // saliency, but not which end is north. The first harmonic shows north, by saturation, and the axis roughly;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts the drive without a rotor position sensor after finding the rotor by six pulses (pulse_position.hpp):
 //
-//   off -> catching -> pulses -> ramping        north was found: the ramp begins in its sector, without alignment or swing
-//                           '---> aligning       north was not found: the start of sensorless.hpp without pulses
+//   off -> catching -> pulses -> ramping        north was found: the ramp begins in its sector, without
+//                                               alignment or swing
+//                           '---> aligning       north was not found: the start of sensorless.hpp without
+//                                                pulses
 //
 // Call these functions instead of those of sensorless_drive.hpp. With pulse_ticks = 0 the drive is that of
 // sensorless_drive.hpp.

@@ -10,8 +10,8 @@
 // voltage is one of two:
 //
 //   axes     each axis has its PI's own limit
-//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction. d comes first, because it
-//            weakens the field when the bus is too low, and q has the rest, sqrt(U_s^2/3 - v_d^2)
+//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction. d comes first,
+//            because it weakens the field when the bus is too low, and q has the rest, sqrt(U_s^2/3 - v_d^2)
 //
 // In both cases the PI's state is its output after the limit, minus e. It cannot wind up against a bound that
 // changes with the speed and with the other axis.

@@ -10,8 +10,8 @@
 // two steps:
 //
 //   1  the driving torque is reduced: i_q falls towards 0 at the same i_d, as far as the voltage requires
-//   2  if that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: i moves along the line to the
-//      disc's centre, up to its rim
+//   2  if that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: i moves along the line to
+//      the disc's centre, up to its rim
 //
 // For a round rotor step 2 gives the nearest current. A projection onto a disc brings no two points further
 // apart, so that |i'| is at most |i| plus the least current that flows.

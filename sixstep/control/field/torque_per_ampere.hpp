@@ -7,7 +7,8 @@
 // |i| is least where i_d^2 - i_q^2 = psi i_d/(L_q - L_d) (Jahns, Kliman and Neumann, Interior
 // Permanent-Magnet Synchronous Motors for Adjustable-Speed Drives, IEEE Trans. IA 22, 1986). The solution is
 //
-//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d));   here i_d = -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
+//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d))
+//   here i_d = -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
 //
 // The second form has no difference of two nearly equal numbers, and no a, which no format holds for a round
 // rotor; there k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, which is i_q up to 2.8 a,

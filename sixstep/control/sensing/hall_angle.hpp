@@ -2,10 +2,11 @@
 // Computes the electrical angle between Hall edges, and the speed from the true widths of the sectors.
 //
 //   at an edge n        theta = edge[n] +- h, + forward: half of the hysteresis, h, delays the edge
-//   between edges       theta + way, way = 2^32 since/turn_ticks, up to the next edge and a margin; plus the rotation
-//                       within the delay of an edge, 2^32 delay/turn_ticks
+//   between edges       theta + way, way = 2^32 since/turn_ticks, up to the next edge and a margin; plus the
+//                       rotation within the delay of an edge, 2^32 delay/turn_ticks
 //   turn_ticks          ticks over the last k sectors x 2^32/(width of these sectors, as calibrated)
-//   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor just before its next edge
+//   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor just before its next
+//                       edge
 //
 // The edges are where hall_calibration.hpp found them, by default every 60 degrees (model.md 3). Edge n is
 // the border between the sectors n-1 and n. With true widths one sector (k = 1) suffices for the speed; more

@@ -3,8 +3,8 @@
 // Kamiyama, M. Tachikawa, "A microprocessor-controlled high-accuracy wide-range speed regulator for motor
 // drives", IEEE Trans. Ind. Electron. IE-29, 1982).
 //
-//   w = M (2 pi/4N) timer_Hz/T     M counts and the time T from the last edge before a control tick to the last edge
-//                                  before a later one
+//   w = M (2 pi/4N) timer_Hz/T     M counts and the time T from the last edge before a control tick to the
+//                                  last edge before a later one
 //   |w| <= (2 pi/4N) timer_Hz/(ticks since the last edge minus one)     as long as the next edge has not come
 //
 // M counts from edge to edge and is exact, and T is exact to one tick of the timer. The relative error of w
@@ -18,8 +18,8 @@
 // weighs each reading by a tick. For the loop the speed is too low by
 //
 //   missed before another edge    factor 1 - 1/M in that tick, in M - 1 of M cases
-//   missed as a tick's last edge  the bound, c/since with `since` from c to 2 c: on average too low by 1 - ln 2; and the
-//                                 factor M/(M + 1) in the next tick
+//   missed as a tick's last edge  the bound, c/since with `since` from c to 2 c: on average too low by 1 - ln
+//                                 2; and the factor M/(M + 1) in the next tick
 //   in total                      e (2 - ln 2 - 1/(M (M + 1))): 0.81 e at M = 1, 1.14 e at 2, 1.31 e for many
 //
 // The bound treats a missed edge as a shaft that slows down; before the next edge the two cannot be

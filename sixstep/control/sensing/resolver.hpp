@@ -3,8 +3,8 @@
 //
 //   V_c = k V sin(w_x t + d) cos phi,   V_s = (1 + a) k V sin(w_x t + d) sin(phi + q),   phi = p_r theta_m
 //
-//   demodulated   x = +-(this sample - the sample half a period before)/2: an offset of the converter cancels. x is
-//                 valid for the middle between both samples, a quarter of a period ago
+//   demodulated   x = +-(this sample - the sample half a period before)/2: an offset of the converter
+//                 cancels. x is valid for the middle between both samples, a quarter of a period ago
 //   corrected     c = g_c x_c - o_c,   s = g_s x_s - o_s - tan q c,   g_s = g_c/((1 + a) cos q)
 //   detected      with an estimate theta:  along = c cos theta + s sin theta = A cos(phi - theta)
 //                                          across = s cos theta - c sin theta = A sin(phi - theta)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the time of the next commutation from the times of the zero crossings (zero_crossing.hpp):
 //
-//   T = mean of the last k intervals between crossings; the last interval alone if it differs by more than a quarter
+//   T = mean of the last k intervals between crossings; the last interval alone if it differs by more than
+//       a quarter
 //   t = crossing + T (1/2 - advance) - lead,     not before the crossing itself
 //
 // A crossing that was not found is put at its expected time, and once the next one is found, halfway between

@@ -7,8 +7,8 @@
 // terminal gives the floating leg's own voltage:
 //
 //   no current    3 w = 2 u_f - u_s - u_k of the sample, which is 3 g: the same in the pulse and in the freewheel
-//   a current     a diode holds the leg at a rail for the whole period: 3 w = 2 u_f - d U (soft, complementary) or
-//                 2 u_f - U (hard)
+//   a current     a diode holds the leg at a rail for the whole period: 3 w = 2 u_f - d U (soft,
+//                 complementary) or 2 u_f - U (hard)
 //
 // The second line is used while the motor is driven and the old current decays: at the lower rail if the
 // back-EMF falls, at the upper one if it rises. At the other rail, which has the sign of the back-EMF, there

@@ -3,14 +3,15 @@
 // cause of a loss. A loss is detected within two commutations of its cause.
 //
 //   masked crossing        no crossing within `window` of the sector's expected time
-//   long demagnetisation   the old current hid the crossing, in `tolerated` sectors in a row or for a whole window
+//   long demagnetisation   the old current hid the crossing, in `tolerated` sectors in a row or for a whole
+//                          window
 //   wrong sector           one of these:
-//                          - in `tolerated` sectors in a row the terminal showed a crossing before it was possible
-//                          - in as many, the time between crossings was below 5/8 or above 8/5 of the one before, or
-//                            shorter than this motor on this bus can turn
-//                          - the back-EMF returned after its crossing
-//                          - the back-EMF is larger than at the assumed speed: 2 u_f - u_s - u_k times T is at most
-//                            3 K_e (pi/3)/p
+//                          - in `tolerated` sectors in a row the terminal showed a crossing too early
+//                          - in as many, the time between crossings was below 5/8 or above 8/5 of the one
+//                            before, or shorter than this motor on this bus can turn
+//                          - in `unlike_samples` samples in a row the back-EMF had returned after its
+//                            crossing, or was larger than at the assumed speed: 2 u_f - u_s - u_k times T is
+//                            at most 3 K_e (pi/3)/p
 //   terminals              the driven legs' terminals contradict the command: a divider or its wire is broken
 //   start                  the ramp ended without trusted crossings
 #pragma once

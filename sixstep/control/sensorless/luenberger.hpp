@@ -5,7 +5,7 @@
 //   L di/dt = w - R i - e,   de/dt = 0                                              the model, (1) of model.md
 //   i_p = a i^ + b (w - e^),   a = exp(-R T/L),   b = (1 - a)/R                      exact for w, e constant in a period
 //   eps = i - i_p,   i^ = i_p + l eps,   e^ = e^ - h eps
-//   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      the observer's two poles p1, p2 in z
+//   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      its two poles p1, p2 in z
 //
 // w is the mean over the period that ends with the sample of i. With both poles at p, the estimate of a
 // back-EMF that grows as a ramp is 2 p/(1 - p) periods late. Half a period is added, because a mean is valid

@@ -8,7 +8,8 @@
 // decays the observer has no input. The first sample after it sets the estimate. A crossing in that time is
 // reported as passed, as for the terminal's own back-EMF.
 //
-//   luenberger     crossing of the estimate, minus the estimate's lag; commutation half a sector later by the clock
+//   luenberger     crossing of the estimate, minus the estimate's lag; commutation half a sector later by the
+//                  clock
 //   sliding mode   as luenberger
 //   flux           crossing of the mean back-EMF; commutation where the flux linkage has fallen by its level
 //

@@ -5,7 +5,8 @@
 //
 //   Hall to back-EMF   `agreed` sectors in a row, each with a crossing found between its two edges
 //   back-EMF to Hall   `agreed` edges in a row, each within a quarter of a sector of the commutation
-//   a line fails       (hall.hpp: an invalid code) at once; if no crossings were found before, by catching the spin
+//   a line fails       (hall.hpp: an invalid code) at once; if no crossings were found before, by catching
+//                      the spin
 #pragma once
 #include <cstdint>
 

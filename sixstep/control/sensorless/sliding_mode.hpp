@@ -4,7 +4,7 @@
 //
 //   L di^/dt = w - R i^ - z,   z = k sat((i^ - i)/phi)          sat: the sign, but linear in a layer of width phi
 //   discretised exactly:   i^[n+1] = a i^[n] + b (w - z[n]),   a = exp(-R T/L),   b = (1 - a)/R
-//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass of z, which contains the equivalent control
+//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass of z: the equivalent control
 //
 // If k is above every back-EMF, the error i^ - i is driven into the layer. Inside the layer error[n+1] = (a -
 // b k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would chatter

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the back-EMF's zero crossing in the floating leg, from the three terminal voltages.
 //
-//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      if both other legs are connected and f carries no current
-//                                                            (model.md 2)
+//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      if both other legs are connected and f carries
+//                                                            no current (model.md 2)
 //
 // The star point drops out, and so does the bus. With the legs at both rails, by switches or diodes, u_s +
 // u_k is the bus; in a freewheel through two lower switches or diodes it is about zero. The crossing is in
@@ -11,11 +11,11 @@
 //
 // After a commutation the leg's old current decays through a diode, and its terminal is at a rail. There are
 // three cases.
-//   driving motor   The rail is the one that looks like "crossed already". Until the current has ended the sum shows
-//                   nothing (blanking), and this time is measured.
-//   braking motor   The rail is the other one, which looks like "not yet": nothing needs to be blanked.
-//   soft chopping at a small duty   A negative e_f drives a current through the leg's lower diode, and the on-time is
-//                   too short to end it. This rail has the sign of e_f too.
+//   driving motor    The rail is the one that looks like "crossed already". Until the current has ended the
+//                    sum shows nothing (blanking), and this time is measured.
+//   braking motor    The rail is the other one, which looks like "not yet": nothing needs to be blanked.
+//   small duty       In soft chopping a negative e_f drives a current through the leg's lower diode, and the
+//                    on-time is too short to end it. This rail has the sign of e_f too.
 // The crossing is on the straight line between the last sample with y > 0 and the first with y <= 0. If the
 // former was at the rail and shows no voltage, the crossing is halfway between the two.
 //

@@ -10,13 +10,14 @@
 namespace sixstep::design {
 
 /// Thresholds of the warnings, from practice:
-///   least_phase_deg, greatest_sensitivity  with the delay of a real chip (Astrom, Hagglund: sensitivity 1.2 to 2)
-///   unusable_phase_deg   with less, a loop is not usable: it amplifies some disturbance at least 1/(2 sin 10 deg) =
-///                        2.9 times, and its steps swing
+///   least_phase_deg, greatest_sensitivity  with the delay of a real chip (Astrom, Hagglund: sensitivity 1.2
+///                                          to 2)
+///   unusable_phase_deg   with less, a loop is not usable: it amplifies some disturbance at least 1/(2 sin 10
+///                        deg) = 2.9 times, and its steps swing
 ///   least_separation     ratio of the crossovers of nested loops
 ///   greatest_ripple      relative to the nominal current
-///   greatest_speed_step  torque that a step of the measured speed causes, relative to the torque limit; the other half
-///                        is for the load
+///   greatest_speed_step  torque that a step of the measured speed causes, relative to the torque limit; the
+///                        other half is for the load
 ///   greatest_overload    current limit over the nominal current; 2 to 3 is usual
 inline constexpr double least_phase_deg = 45.0, unusable_phase_deg = 20.0, greatest_sensitivity = 2.0,
                         least_separation = 4.0, greatest_ripple = 0.2, greatest_speed_step = 0.5,

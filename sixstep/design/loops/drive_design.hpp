@@ -117,7 +117,7 @@ enum class Concern : std::uint8_t {
 };
 
 struct Warning {
-  std::string what;  ///< one sentence
+  std::string what;  ///< the warning, in one sentence
   /// Cure that trials found (analysis/verify/advice.hpp); empty if no trial helped.
   std::string cure;
   bool grave = false;  ///< true: not safe for a motor

@@ -2,14 +2,15 @@
 // Computes the numbers of the estimator of a field-oriented drive without a rotor sensor
 // (control/field/magnet_estimator.hpp), from the sheet, the board's period and the bus:
 //
-//   tracking       damping 1 (tracking_loop.hpp). With w_n the acceleration by the current, a = 3/2 p psi I/J, makes an
-//                  error p a/w_n^2 of 5 degrees. w_b is between a hundredth and a twentieth of the control frequency
+//   tracking       damping 1 (tracking_loop.hpp). With w_n the acceleration by the current, a = 3/2 p psi
+//                  I/J, makes an error p a/w_n^2 of 5 degrees. w_b is between a hundredth and a twentieth of
+//                  the control frequency
 //   injection      V is a quarter of U_s/sqrt 3, or less: h_d = V T/L_d is at most a fifth of the current
 //   axis           followed for 30/w_n: by then the loop has left even an angle 0.001 degrees from the unstable one
-//   north          I_sat times a part: at most 1/5, and at most half of the part that would reverse the saliency,
-//                  L_q/L_d - 1 or 1 - L_q/L_d
-//   flux           at w_high the magnet's back-EMF is a tenth of U_s/sqrt 3; w_low is half of w_high, and w_g half of
-//                  p w_high
+//   north          I_sat times a part: at most 1/5, and at most half of the part that would reverse the
+//                  saliency, L_q/L_d - 1 or 1 - L_q/L_d
+//   flux           at w_high the magnet's back-EMF is a tenth of U_s/sqrt 3; w_low is half of w_high, and w_g
+//                  half of p w_high
 //
 // Without injection a voltage R I along the assumed axis aligns the rotor. The rotor swings as a motor does
 // at a stiff voltage, and its back-EMF damps the swing:

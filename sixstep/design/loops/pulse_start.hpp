@@ -5,18 +5,19 @@
 //
 //   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x
 //
-//   time       t = (n - 1/2) T: a pulse begins with a period and ends with its sample, in the middle of a period. The
-//              periods by which a command is delayed are subtracted from n
+//   time       t = (n - 1/2) T: a pulse begins with a period and ends with its sample, in the middle of a
+//              period. The periods by which a command is delayed are subtracted from n
 //   current    I = U/R (1 - exp(-R t/2 L_S)); at worst with the least L(x) that an allowed current can make,
 //              L_least = min(L_d (1 - (2/sqrt 3) I_most/(2 I_sat)), L_q)
-//   north      (3/4) m k of I by saturation, m = (2/sqrt 3) L_d I/(2 I_sat L_S). k = x/(e^x - 1), x = R t/2 L_S, is the
-//              factor by which the resistance reduces the effect of an inductance
+//   north      (3/4) m k of I by saturation, m = (2/sqrt 3) L_d I/(2 I_sat L_S). k = x/(e^x - 1), x = R t/2
+//              L_S, is the factor by which the resistance reduces the effect of an inductance
 //   axis       (|L_D|/L_S) k of I by saliency
 //   over noise the two signals times sqrt 3 I_0/sigma, with sigma as pulse_position.hpp defines it
-//   length     the shortest pulse whose signals are twice the certain level. If there is none, or the sheet has no
-//              I_sat, the longest allowed pulse: the pulses are tried, and if they find nothing the rotor is aligned
-//   allowed    a current of at most the start's, 9/10 of the converter's range and I_sat/2 along the magnet; a length
-//              of at most 2 L_S/R; and pulses that turn the rotor by at most a quarter of a sector
+//   length     the shortest pulse whose signals are twice the certain level. If there is none, or the sheet
+//              has no I_sat, the longest allowed pulse: the pulses are tried, and if they find nothing the
+//              rotor is aligned
+//   allowed    a current of at most the start's, 9/10 of the converter's range and I_sat/2 along the magnet;
+//              a length of at most 2 L_S/R; and pulses that turn the rotor by at most a quarter of a sector
 //
 // Turning. Opposite pairs follow each other at a time D. The impulse of the first pulse, P = (pi/3) K_t I t,
 // is cancelled by that of the second, and the rotor has moved by P D/J. Three pairs together make at most

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Designs a back-EMF observer (control/sensorless/observer.hpp) from the sheet, with one rule for all three kinds:
 //
-//   lag             1/5 of a sector at no-load speed: long enough to average, and short enough that crossing + lag + one
-//                   period is before the commutation. The observer itself has m = lag/T - 1/2 periods of it
+//   lag             1/5 of a sector at no-load speed: long enough to average, and short enough that crossing
+//                   + lag + one period is before the commutation. The observer itself has m = lag/T - 1/2
+//                   periods of it
 //   Luenberger      both poles at p = m/(2 + m): (1 - l) a = p^2, h b = (1 - p)^2
-//   sliding mode    k = U, which is above 4/3 K_e w up to 3/2 of the no-load speed; phi = k b/a; low-pass c = 1/(1 + m)
-//   flux linkage    psi_c = K_e/p integral over 30 degrees after the crossing; the drive commutates when psi has fallen
-//                   by (1 - advance/30)^2 of it; the lag is T/2
+//   sliding mode    k = U, which is above 4/3 K_e w up to 3/2 of the no-load speed; phi = k b/a; low-pass c =
+//                   1/(1 + m)
+//   flux linkage    psi_c = K_e/p integral over 30 degrees after the crossing; the drive commutates when psi
+//                   has fallen by (1 - advance/30)^2 of it; the lag is T/2
 //
 // Effect of wrong parameters. No current flows in the floating leg, so that neither R nor L moves the
 // crossing; they only make the old estimate decay a little faster or slower. K_e moves the commutation only

@@ -2,31 +2,33 @@
 // Computes every number of a sensorless drive (control/sensorless/) from motor and board, so that no number
 // has to be tuned:
 //
-//   threshold       for y = 2 u_f - u_s - u_k: noise of three converters, their steps, and the mismatch of the dividers
+//   threshold       for y = 2 u_f - u_s - u_k: noise of three converters, their steps, and the mismatch of
+//                   the dividers
 //   lowest speed    2 K_e w is `clear` times the threshold; at least lowest_part of the no-load speed
-//   start current   `overload` times the nominal current, and at most 4/5 of the current that the bus drives through a
-//                   held rotor
+//   start current   `overload` times the nominal current, and at most 4/5 of the current that the bus drives
+//                   through a held rotor
 //   alignment       each of its two steps (start_up.hpp) lasts `swings` periods of sqrt(p K_t I/J)
 //   ramp            half of the start current's excess over the greatest load: a = (K_t I - T_load)/(2 J)
 //   hand-over       a speed loop continues from the ramp's current, (J a + T_c + B w)/K_t, not from the start current
-//   catching        currents are zero after 6 L_s I/U. The rotor is at rest if there is no crossing for two sectors of
-//                   the lowest speed
-//   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), with I_N in addition to
-//                   the load's current. A faster growth would hide the crossing behind its freewheel. Half of it in
-//                   two cases. Hard chopping: its duty changes the voltage twice as much. Complementary chopping:
-//                   while braking, the freewheel holds the old leg at its diode, and the current there grows until
-//                   K_e w |s_f| has fallen below d U/2
+//   catching        currents are zero after 6 L_s I/U. The rotor is at rest if there is no crossing for two
+//                   sectors of the lowest speed
+//   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), with I_N in
+//                   addition to the load's current. A faster growth would hide the crossing behind its
+//                   freewheel. Half of it in two cases. Hard chopping: its duty changes the voltage twice as
+//                   much. Complementary chopping: while braking, the freewheel holds the old leg at its
+//                   diode, and the current there grows until K_e w |s_f| has fallen below d U/2
 //   highest speed   two samples before the crossing and one after the freewheel: four control periods per sector
-//   filters         terminals and bus have equal lags tau: y is tau late, and the lead is reduced by tau. 3.5 tau after
-//                   an edge a leg is at its rail within the 3 % that the chip requires. This time is half of the least
-//                   on-time, and the blanking after commutation and freewheel. It costs one sample: five control
-//                   periods per sector. With hard chopping a diode may hold the leg up to any instant of the on-time:
-//                   the sign of y is then right, but its size has no meaning
-//   comparators     offset and half the hysteresis are added to the threshold, counted in y: 3 times with the virtual
-//                   star, 2 times with half the bus. The lead is reduced by the low-pass's tau. With the virtual star
-//                   5 tau are at most half a sector at no-load speed, so that the freewheel's effect has decayed; with
-//                   half the bus 7 tau are at most the least on-time. One sample after the freewheel and one after the
-//                   edge: three control periods per sector
+//   filters         terminals and bus have equal lags tau: y is tau late, and the lead is reduced by tau. 3.5
+//                   tau after an edge a leg is at its rail within the 3 % that the chip requires. This time
+//                   is half of the least on-time, and the blanking after commutation and freewheel. It costs
+//                   one sample: five control periods per sector. With hard chopping a diode may hold the leg
+//                   up to any instant of the on-time: the sign of y is then right, but its size has no
+//                   meaning
+//   comparators     offset and half the hysteresis are added to the threshold, counted in y: 3 times with the
+//                   virtual star, 2 times with half the bus. The lead is reduced by the low-pass's tau. With
+//                   the virtual star 5 tau are at most half a sector at no-load speed, so that the
+//                   freewheel's effect has decayed; with half the bus 7 tau are at most the least on-time.
+//                   One sample after the freewheel and one after the edge: three control periods per sector
 #pragma once
 #include <vector>
 

@@ -2,14 +2,15 @@
 // Computes the lag of an encoder or a resolver in a speed loop, the jitter of its speed, and the lowest speed that it
 // measures.
 //
-//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over the time T between two edges that control ticks
-//              have found, T = max(T_s, c), held for c = (2 pi/4N)/w until the next edge. A tick of the timer in T is
-//              1/(f T) of the speed; the lowest speed is one count per time-out
-//   absolute   the mean over k samples, late by the code's latency. One count in k T_s is (2 pi/2^n)/(k T_s); a lower
-//              speed reads as zero or as this speed
-//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2). It is 2 D/w_n late at frequencies
-//              far below w_n, where a speed loop should be; the delay of the angle is added. Noise of s rad in each
-//              step of T_l makes a jitter of s sqrt(T_l w_n^3/(4 D)). Every speed is measured
+//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over the time T between two edges that control
+//              ticks have found, T = max(T_s, c), held for c = (2 pi/4N)/w until the next edge. A tick of the
+//              timer in T is 1/(f T) of the speed; the lowest speed is one count per time-out
+//   absolute   the mean over k samples, late by the code's latency. One count in k T_s is (2 pi/2^n)/(k T_s);
+//              a lower speed reads as zero or as this speed
+//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2). It is 2 D/w_n late at
+//              frequencies far below w_n, where a speed loop should be; the delay of the angle is added.
+//              Noise of s rad in each step of T_l makes a jitter of s sqrt(T_l w_n^3/(4 D)). Every speed is
+//              measured
 //
 // All speeds are mechanical. On the load's side of a gear, n turns of the motor are one turn of the sensor.
 #pragma once

@@ -20,8 +20,8 @@ struct NoLoadSides {
   bool of_friction = false;  ///< true: a current that is compared with the friction lines
 };
 
-/// Relations of the first and the second point: one for each speed and each current that also follows from other
-/// lines of the sheet.
+/// Relations of the first and the second point: one for each speed and each current that also follows from
+/// other lines of the sheet.
 std::vector<NoLoadSides> no_load_sides(const Sheet& sheet, const SheetConstants& constants);
 
 }  // namespace sixstep::design
