@@ -118,8 +118,8 @@ extern "C" void on_exit_of_the_program() {
   end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
 }
 
-/// What the watchdog for calls that do not return has seen of a thread: its call, and the number of checks
-/// that found the same call.
+/// A thread as the watchdog for calls that do not return has seen it: its call, and the number of checks that
+/// found the same call.
 struct SeenCall {
   std::uint64_t calls = 0;
   int looks = 0;

@@ -90,7 +90,8 @@ class Flat final : public sixstep::base::Visitor {
     member.walk(*this);
     path_ = outer;
   }
-  /// Of all lists, only [[at]] changes a run. Values that an event does not change are omitted.
+  /// The list [[at]] is included, because it alone changes a run. Values that an event does not change are
+  /// omitted.
   void visit_list(std::string_view key, sixstep::base::ListMember& items, const About&) override {
     if (key != sixstep::study::events_list) return;
     Flat plain(motion_);

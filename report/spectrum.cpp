@@ -31,7 +31,7 @@ double value_at(const Values& time, const Values& y, double t) {
   return y[n - 1] + (y[n] - y[n - 1]) * (t - time[n - 1]) / (time[n] - time[n - 1]);
 }
 
-/// The last time, not after the row `last`, at which the straight lines through the rows were at `level`.
+/// The last time, not before `not_before`, at which the straight lines through the rows were at `level`.
 std::optional<double> last_crossing(const Values& time, const Values& y, double level, double not_before) {
   for (std::size_t n = time.size(); n-- > 1 && time[n] >= not_before;) {
     const double a = y[n - 1] - level, b = y[n] - level;

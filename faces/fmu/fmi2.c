@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* FMI 2.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi2Error, and the instance goes
- * on. */
+/* FMI 2.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi2Error, and the
+ * instance continues. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* FMI 3.0 for co-simulation, without event mode. A refused call changes nothing: it logs a message and returns fmi3Error,
- * and the instance goes on. fmi3_none.c has the functions that such a unit exports and cannot offer. */
+/* FMI 3.0 for co-simulation, without event mode. A refused call changes nothing: it logs a message and returns
+ * fmi3Error, and the instance continues. fmi3_none.c has the functions that such a unit exports and cannot offer. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

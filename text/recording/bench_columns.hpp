@@ -27,7 +27,7 @@ const std::vector<std::string_view>& names_of_hall_codes();
 
 Meaning meaning_of(const RecordedColumn& column);
 
-/// Of three columns, those that exist. Problem: two columns have the same name.
+/// The existing ones of three columns. Problem: two columns have the same name.
 using Three = std::array<std::optional<Picked>, 3>;
 base::Result<Three> three_of(const Recording& recording, const ThreeNames& names);
 

@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// What the words are for: a page describes the run's sensor, an exported header the sensor with which its
+/// Purpose of the words: a page describes the run's sensor, an exported header the sensor with which its
 /// constants were tested.
 enum class SensorWordsOf : std::uint8_t { page, header };
 

@@ -18,7 +18,7 @@ void TableReader::read(std::string_view key, std::optional<T>& member, const bas
     read(spelling_in_file(key, about)->key, present, about);
   if constexpr (std::is_arithmetic_v<T>)
     if (refused_)
-      present = static_cast<T>(within(about));  // the missing value has been reported; later checks treat it
+      present = static_cast<T>(within(about));  // the mistake has been reported; later checks treat the value
                                                 // as given
   member = std::move(present);
 }

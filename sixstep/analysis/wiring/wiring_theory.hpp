@@ -39,7 +39,7 @@ constexpr bool runs_well(WiringDoes does) {
 /// mean, but the torque still falls to 0 at one end of each sector.
 inline constexpr double well_above_part = 0.75, well_above_least = 0.2;
 
-/// What a wiring does, by theory. Each torque is per ampere through the driven pair.
+/// Result of the theory for one wiring. Each torque is per ampere through the driven pair.
 struct WiringTheory {
   WiringDoes does = WiringDoes::hums;
   std::array<Driven, 6> driven{};       ///< pair in each of the rotor's sectors

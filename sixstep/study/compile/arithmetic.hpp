@@ -12,7 +12,8 @@ namespace sixstep::study {
 
 /// The largest magnitudes that the loops can meet in this scenario:
 /// - current: twice the largest reference or limit, at most (bus + opposing back-EMF)/R. The factor 2 leaves
-///   room for the overshoot of a reversal, whose error would otherwise saturate (7.3.1 shows it).
+///   room for the overshoot of a reversal, whose error would otherwise saturate (scenario "7.3.1 turning"
+///   shows it).
 /// - speed: what the bus reaches without load and loss, U/K_t, and the speed at the start.
 /// - position: the largest reference and the position at the start.
 /// - bus: the source's voltage, and the bus voltage at the start.

@@ -19,7 +19,7 @@ static struct {
   sixstep_status status;
   int u[3], e[3], hall_lines;   /* signals: voltages of the terminals, back-EMFs, Hall code */
   FILE* log;
-  int64_t now, period;          /* present instant, begin of the PWM period */
+  int64_t now, period;          /* present instant, beginning of the PWM period */
   uint8_t leg[3];
   uint8_t wanted[3];            /* of a leg: 0 none, 1 upper switch, 2 lower switch */
   int64_t since[3];             /* instant at which this was first wanted */

@@ -62,8 +62,8 @@ static_assert(
 static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
 static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
 /// The converter samples the three currents and the bus one microsecond before the update, so that the
-/// samples precede the switching at the period's start. The period's change of outputs is prepared some
-/// counts before the update (event_count).
+/// samples precede the switching at the period's start. The interrupt for the period's change of outputs
+/// comes some counts before the update (event_count).
 constexpr std::uint32_t sample_count = pwm_counts - clock_Hz / 1'000'000, event_count = pwm_counts - 12;
 constexpr std::uint32_t most_on_counts = pwm_counts - counts_of_ns(least_gap_ns);
 constexpr std::uint32_t charge_counts = counts_of_ns(charge_ns);

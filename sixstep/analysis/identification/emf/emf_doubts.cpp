@@ -74,7 +74,7 @@ bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to
                      [&](double x) { return x == u[from]; });
 }
 
-/// The clipped tops at one extreme that are at least half as long as the longest one.
+/// The constant tops at one extreme that are at least half as long as the longest one.
 std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   constexpr std::size_t fewest_rows = 8;
   std::vector<Top> all;

@@ -11,7 +11,7 @@
 namespace sixstep::analysis {
 
 /// The unknowns whose sum is an edge's place, and their indices:
-/// - the distance of each repeating edge from its nominal place, counted in the direction of rotation;
+/// - the distance by which each repeating edge lies behind its nominal place;
 /// - the hysteresis, half of it in the direction of motion;
 /// - the path during the delay.
 struct EdgeEffects {

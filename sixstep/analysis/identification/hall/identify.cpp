@@ -234,8 +234,8 @@ base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs, const Ke
   if (keep_going && !keep_going()) return base::Problem{"identify", "", "was interrupted", "start it again"};
   if (!found) return found;
   const double frequency_Hz = 1.0 / (6.0 * found->sector_s);
-  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // with 1 pole pair asked for, the six edges stand
-                                                            // for all pairs
+  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // if pole_pairs is 1, the six edges are common to
+                                                            // all pairs
   base::Problems wrong = check_built_speed(frequency_Hz, known_pairs);
   if (wrong.empty() && found->place)
     wrong =
