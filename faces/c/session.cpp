@@ -132,6 +132,11 @@ std::int64_t Session::now_ps() const { return sim::to_instant(time_s()).ticks; }
 double Session::time_s() const {
   return run_ ? seen().present().t_s : std::numeric_limits<double>::quiet_NaN();
 }
+double Session::tick_after_s(double at_s) const {
+  constexpr double far_s = 1e6;  // a count of picoseconds has room for it
+  if (!run_ || !(std::abs(at_s) < far_s)) return std::numeric_limits<double>::quiet_NaN();
+  return run_->tick_after_s(at_s);
+}
 double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
 /// A fault that ended the run is told at once, from a copy that is finished in its place.

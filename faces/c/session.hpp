@@ -64,6 +64,7 @@ class Session {
   const std::vector<Command>& commands() const { return commands_; }
   std::uint64_t conversions() const { return conversions_; }
   double time_s() const;
+  double tick_after_s(double at_s) const;
   bool applies(int index) const { return applies_[static_cast<std::size_t>(index)]; }
   double value(int index) const;
   const std::optional<std::string>& outcome() const { return outcome_; }

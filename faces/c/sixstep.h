@@ -106,6 +106,8 @@ SIXSTEP_API void sixstep_free(sixstep_session* session);
 SIXSTEP_API sixstep_status sixstep_advance(sixstep_session* session, double to_s);
 /* Advances to the next control tick after the present instant, before the controller acts on it. */
 SIXSTEP_API sixstep_status sixstep_advance_to_tick(sixstep_session* session);
+/* Instant of the first control tick after an instant, s; both from the start of the run. NaN: none. */
+SIXSTEP_API double sixstep_tick_after(const sixstep_session* session, double at_s);
 /* The present instant, s. */
 SIXSTEP_API double sixstep_time(const sixstep_session* session);
 /* Length of a control period, and the run's duration, s. */

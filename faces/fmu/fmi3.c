@@ -104,47 +104,77 @@ FMI3_FUNCTION(Reset, (fmi3Instance c)) {
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */
 
-/* Every variable is a scalar: as many values as references. */
 static int has_arrays(fmi3Instance c, const char* function, unsigned phases, const void* references, size_t count,
-                      const void* values, size_t room) {
+                      const void* values) {
   if (!fmi3_may(c, function, phases)) return 0;
-  if (count == room && (count == 0 || (references && values))) return 1;
-  fmi3_fail(c, function, count == room ? "the references or the values are null" : "needs as many values as references");
+  if (count == 0 || (references && values)) return 1;
+  fmi3_fail(c, function, "the references or the values are null");
+  return 0;
+}
+
+/* Whether the values of these references are `room`, as the standard wants. */
+static int fits(fmi3Instance c, const char* function, const fmi3ValueReference r[], size_t count, size_t room) {
+  size_t n, needed = 0;
+  for (n = 0; n < count; ++n) needed += (size_t)drive_size(c, r[n]);
+  if (needed == room) return 1;
+  fmi3_fail(c, function, "the number of values must be that of the variables, an array's with all its elements");
   return 0;
 }
 
 FMI3_FUNCTION(GetFloat64, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3Float64 values[], size_t room)) {
-  size_t n;
-  if (!has_arrays(c, "fmi3GetFloat64", READABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n)
-    if (drive_get(c, "fmi3GetFloat64", r[n], DRIVE_REAL, &values[n]) != DRIVE_OK) return fmi3Error;
-  return fmi3OK;
-}
-FMI3_FUNCTION(GetInt32, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3Int32 values[], size_t room)) {
-  double value = 0.0;
-  size_t n;
-  if (!has_arrays(c, "fmi3GetInt32", READABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n) {
-    if (drive_get(c, "fmi3GetInt32", r[n], DRIVE_INTEGER, &value) != DRIVE_OK) return fmi3Error;
-    values[n] = fabs(value) < 2147483647.0 ? (fmi3Int32)value : 0; /* NaN too is 0 */
-  }
-  return fmi3OK;
-}
-FMI3_FUNCTION(GetString, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3String values[], size_t room)) {
-  size_t n;
-  if (!has_arrays(c, "fmi3GetString", READABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n) {
-    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "there is no string with this reference");
-    values[n] = ((instance*)c)->unit.state.digest;
-  }
+  size_t n, at = 0;
+  if (!has_arrays(c, "fmi3GetFloat64", READABLE, r, count, values) || !fits(c, "fmi3GetFloat64", r, count, room)) return fmi3Error;
+  for (n = 0; n < count; at += (size_t)drive_size(c, r[n++]))
+    if (drive_get(c, "fmi3GetFloat64", r[n], DRIVE_REAL, values + at) != DRIVE_OK) return fmi3Error;
   return fmi3OK;
 }
 FMI3_FUNCTION(SetFloat64,
               (fmi3Instance c, const fmi3ValueReference r[], size_t count, const fmi3Float64 values[], size_t room)) {
+  size_t n, at = 0;
+  if (!has_arrays(c, "fmi3SetFloat64", SETTABLE, r, count, values) || !fits(c, "fmi3SetFloat64", r, count, room)) return fmi3Error;
+  for (n = 0; n < count; at += (size_t)drive_size(c, r[n++]))
+    if (drive_set(c, "fmi3SetFloat64", r[n], DRIVE_REAL, values + at) != DRIVE_OK) return fmi3Error;
+  return fmi3OK;
+}
+
+/* Integers and Booleans pass as doubles, which hold each of their values. A NaN is 0. */
+#define WHOLE_TYPE(type, kind)                                                                                           \
+  FMI3_FUNCTION(Get##type, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3##type values[], size_t room)) { \
+    double v[DRIVE_ARRAY];                                                                                               \
+    size_t n, at = 0;                                                                                                    \
+    int k;                                                                                                               \
+    if (!has_arrays(c, "fmi3Get" #type, READABLE, r, count, values) || !fits(c, "fmi3Get" #type, r, count, room))        \
+      return fmi3Error;                                                                                                  \
+    for (n = 0; n < count; ++n) {                                                                                        \
+      if (drive_get(c, "fmi3Get" #type, r[n], kind, v) != DRIVE_OK) return fmi3Error;                                    \
+      for (k = 0; k < drive_size(c, r[n]); ++k) values[at++] = (fmi3##type)(fabs(v[k]) < 2147483647.0 ? v[k] : 0.0);     \
+    }                                                                                                                    \
+    return fmi3OK;                                                                                                       \
+  }                                                                                                                      \
+  FMI3_FUNCTION(Set##type,                                                                                               \
+                (fmi3Instance c, const fmi3ValueReference r[], size_t count, const fmi3##type values[], size_t room)) {  \
+    double v[DRIVE_ARRAY];                                                                                               \
+    size_t n, at = 0;                                                                                                    \
+    int k;                                                                                                               \
+    if (!has_arrays(c, "fmi3Set" #type, SETTABLE, r, count, values) || !fits(c, "fmi3Set" #type, r, count, room))        \
+      return fmi3Error;                                                                                                  \
+    for (n = 0; n < count; ++n) {                                                                                        \
+      for (k = 0; k < drive_size(c, r[n]); ++k) v[k] = (double)values[at++];                                             \
+      if (drive_set(c, "fmi3Set" #type, r[n], kind, v) != DRIVE_OK) return fmi3Error;                                    \
+    }                                                                                                                    \
+    return fmi3OK;                                                                                                       \
+  }
+WHOLE_TYPE(Int32, DRIVE_INTEGER)
+WHOLE_TYPE(Boolean, DRIVE_BOOLEAN)
+
+FMI3_FUNCTION(GetString, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3String values[], size_t room)) {
   size_t n;
-  if (!has_arrays(c, "fmi3SetFloat64", SETTABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n)
-    if (drive_set(c, "fmi3SetFloat64", r[n], values[n]) != DRIVE_OK) return fmi3Error;
+  if (!has_arrays(c, "fmi3GetString", READABLE, r, count, values)) return fmi3Error;
+  if (room != count) return fmi3_fail(c, "fmi3GetString", "needs as many values as references");
+  for (n = 0; n < count; ++n) {
+    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "there is no string with this reference");
+    values[n] = ((instance*)c)->unit.state.digest;
+  }
   return fmi3OK;
 }
 

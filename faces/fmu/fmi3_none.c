@@ -29,8 +29,6 @@ NEITHER(UInt16)
 NEITHER(UInt32)
 NEITHER(Int64)
 NEITHER(UInt64)
-NEITHER(Boolean)
-NO_SETTER(Int32)
 NO_SETTER(String)
 
 FMI3_FUNCTION(GetBinary, (fmi3Instance c, const fmi3ValueReference r[], size_t n, size_t sizes[], fmi3Binary v[], size_t room)) {

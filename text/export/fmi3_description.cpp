@@ -21,24 +21,46 @@ std::string fmi3_head(const UnitModel& m) {
       markup_text(m.name), m.token, markup_text(m.scenario.title), m.identifier);
 }
 
+const char* fmi3_type(FmiKind kind) {
+  switch (kind) {
+    case FmiKind::integer:
+      return "Int32";
+    case FmiKind::boolean:
+      return "Boolean";
+    case FmiKind::text:
+      return "String";
+    case FmiKind::clock:
+      return "Clock";
+    default:
+      return "Float64";
+  }
+}
+
+/// As many values as the array has.
+std::string fmi3_start(const FmiVariable& v) {
+  const std::string one = v.kind == FmiKind::boolean ? "false" : base::written(v.start);
+  std::string all = one;
+  for (int n = 1; n < v.count; ++n) all += " " + one;
+  return all;
+}
+
 std::string fmi3_variable(const FmiVariable& v) {
-  const char* const type = v.kind == FmiKind::integer ? "Int32"
-                           : v.kind == FmiKind::text  ? "String"
-                                                      : "Float64";
   const char* const causality = v.role == FmiRole::time    ? "independent"
                                 : v.role == FmiRole::input ? "input"
                                                            : "output";
   std::string out = fmt::format(
       "    <{} name=\"{}\" valueReference=\"{}\" causality=\"{}\" variability=\"{}\"{}\n        description=\"{}\"",
-      type, markup_text(v.name), v.reference, causality, v.continuous ? "continuous" : "discrete",
-      v.role == FmiRole::output ? " initial=\"calculated\"" : "", markup_text(v.description));
+      fmi3_type(v.kind), markup_text(v.name), v.reference, causality,
+      v.continuous ? "continuous" : "discrete", v.role == FmiRole::output ? " initial=\"calculated\"" : "",
+      markup_text(v.description));
   if (v.kind == FmiKind::real && !v.unit.empty()) {
     out += fmt::format(" unit=\"{}\"", markup_text(v.unit));
     if (const FmiUnit* const unit = fmi_unit(v.unit); unit != nullptr && !unit->display.empty())
       out += fmt::format(" displayUnit=\"{}\"", unit->display);
   }
-  if (v.role == FmiRole::input) out += fmt::format(" start=\"{}\"", base::written(v.start));
-  return out + "/>\n";
+  if (v.role == FmiRole::input) out += fmt::format(" start=\"{}\"", fmi3_start(v));
+  if (v.count == 1) return out + "/>\n";
+  return out + fmt::format(">\n      <Dimension start=\"{}\"/>\n    </{}>\n", v.count, fmi3_type(v.kind));
 }
 
 /// No output follows an input at once: a change waits for a control tick.

@@ -12,8 +12,6 @@
 
 namespace text {
 
-enum class FmiVersion { fmi2, fmi3 };
-
 struct UnitTexts {
   std::string identifier;   ///< of the binary and in C: "drive"
   std::string description;  ///< modelDescription.xml
@@ -26,7 +24,7 @@ struct UnitTexts {
 /// `name`: of the model, such as the scenario's file without its suffix. `sources`: files of sources/ to compile.
 /// Requirements and comparisons are left out, as a unit has no verdict. Problems: the scenario cannot be run.
 base::Result<UnitTexts> unit_texts(const study::Scenario& scenario, std::string_view name, FmiVersion version,
-                                   const std::vector<std::string>& sources);
+                                   FmiChip chip, const std::vector<std::string>& sources);
 
 /// A name of C that begins with a letter.
 std::string c_identifier(std::string_view name);

@@ -53,11 +53,28 @@ std::string described_with_frame(const study::Column& column) {
   return column.frame.empty() ? column.meaning : fmt::format("{} ({})", column.meaning, column.frame);
 }
 
-void add_outputs(const study::Scenario& s, std::vector<FmiVariable>& all) {
+/// Currents and terminal voltages of the three phases as one variable.
+FmiVariable fmi_phases(ColumnId first, const std::vector<study::Column>& signals) {
+  const auto c = static_cast<unsigned>(first);
+  const bool currents = first == ColumnId::i_a;
+  return {.name = currents ? "phase_currents_A" : "terminal_voltages_V",
+          .reference = c,
+          .unit = signals[c].unit,
+          .description = currents ? "currents of phases a, b, c into the motor"
+                                  : "voltages of terminals a, b, c (pole, against the negative rail)",
+          .factor = signals[c].per_turning,
+          .count = 3};
+}
+
+void add_outputs(const study::Scenario& s, FmiChip chip, FmiVersion version, std::vector<FmiVariable>& all) {
   const std::vector<study::Column>& signals = study::all_columns(s.sheet.kind);
   for (std::size_t c = 1; c < signals.size(); ++c) {
     const auto id = static_cast<ColumnId>(c);
-    if (!study::applies(id, s)) continue;
+    if (!study::applies(id, s) || !is_of_plant(id, chip)) continue;
+    if (chip != FmiChip::of_scenario && version == FmiVersion::fmi3 && id <= ColumnId::u_c) {
+      if (id == ColumnId::i_a || id == ColumnId::u_a) all.push_back(fmi_phases(id, signals));
+      continue;
+    }
     all.push_back({.name = signals[c].name,
                    .reference = static_cast<unsigned>(c),
                    .kind = is_code(id) ? FmiKind::integer : FmiKind::real,
@@ -93,13 +110,14 @@ FmiVariable fmi_input(const char* name, const char* key, std::string unit, doubl
           .key = key};
 }
 
-void add_inputs(const study::Scenario& s, const study::Session& open, std::vector<FmiVariable>& all) {
+void add_inputs(const study::Scenario& s, FmiChip chip, const study::Session& open,
+                std::vector<FmiVariable>& all) {
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   std::vector<FmiVariable> inputs;
   const double reference = study::reference_waveform(s).front().value, load = load_at_start(s.load);
   const std::string_view of_mode = study::reference_unit(s.control.mode);
   const base::LinearUnit unit = linear ? base::in_linear(of_mode) : base::LinearUnit{of_mode, of_mode};
-  if (s.control.mode != sixstep::control::Mode::off &&
+  if (chip != FmiChip::gates && s.control.mode != sixstep::control::Mode::off &&
       takes(open, [&](study::At& at) { at.reference = study::Reference{.value = reference}; }))
     inputs.push_back(
         fmi_input("reference", "reference.value", std::string(unit.linear), reference * unit.factor,
@@ -125,7 +143,9 @@ const FmiUnit* fmi_unit(std::string_view name) {
   return found == std::end(fmi_units) ? nullptr : found;
 }
 
-base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scenario) {
+base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& given, FmiChip chip,
+                                                     FmiVersion version) {
+  const study::Scenario scenario = with_stand_in(given, chip);
   const base::Result<study::Session> open = study::Session::open(scenario);
   if (!open) return open.problems();
   std::vector<FmiVariable> all = {
@@ -133,8 +153,9 @@ base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scen
        .role = FmiRole::time,
        .unit = "s",
        .description = "time of the importer, at which the run began at its start time"}};
-  add_outputs(scenario, all);
-  add_inputs(scenario, *open, all);
+  add_outputs(scenario, chip, version, all);
+  add_inputs(scenario, chip, *open, all);
+  add_plant(scenario, chip, version, all);
   all.push_back({.name = "digest",
                  .reference = digest_reference,
                  .kind = FmiKind::text,

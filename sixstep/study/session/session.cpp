@@ -169,6 +169,9 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
 bool Session::advance(double to_s) { return go(sim::to_instant(to_s), true); }
 bool Session::skip(double to_s) { return go(sim::to_instant(to_s), false); }
 bool Session::advance_to_tick() { return go(state_->tick_after(sim::to_instant(state_->present.t_s)), true); }
+double Session::tick_after_s(double at_s) const {
+  return state_->tick_after(sim::to_instant(at_s)).seconds();
+}
 bool Session::at_tick() const {
   const Instant now = state_->now(), next = state_->run->next_tick();
   return !state_->over && !(now < next) && !(next < now) && state_->is_tick(now) &&

@@ -43,6 +43,8 @@ class Session {
   bool advance_to_tick();
   /// Whether the present instant is a control tick on which the controller has not yet acted.
   bool at_tick() const;
+  /// Instant of the first control tick after an instant.
+  double tick_after_s(double at_s) const;
   /// Calls the controller with the measurement of the present instant, in a copy of its state: the session is
   /// unchanged. The session must be at_tick().
   void call_controller() const;
