@@ -197,6 +197,13 @@ sixstep_status Session::advance_to_edge(const char* function, double to_s, const
 }
 
 sixstep_status Session::advance_to_hall_edge(double to_s) {
+  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK)
+    return status;
+  if (std::isnan(to_s)) return advance(to_s);
+  if (!ahead_) {  // every event of the run is located, also a change of the pins
+    const Exchanging here(exchange_);
+    return reached(run_->advance_to_hall_edge(std::clamp(to_s, 0.0, 2 * run_->scenario().duration_s)));
+  }
   return advance_to_edge("sixstep_advance_to_hall_edge", to_s, [](const study::FullRow& row) {
     return row[static_cast<std::size_t>(study::ColumnId::hall)];
   });

@@ -190,8 +190,8 @@ SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixst
  * returns SIXSTEP_OVER. Gates that are set twice at one instant: the last ones count. Instants of changes are
  * rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
-/* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows
- * which. */
+/* Advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows which. With
+ * SIXSTEP_CHIP_GATES the instant is rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
 /* SIXSTEP_CHIP_GATES: advances to the next instant at which the terminal of leg 0, 1 or 2, less the mean of the three
  * terminals, changes from above level_V to at most level_V or back, or to to_s if none comes before: the edge of a

@@ -8,7 +8,9 @@
 //   copy     a session is a value: a copy is a saved state, and continues independently
 //   replay   run(session.scenario()) has the digest of the session that was run to its end, or closed
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "sixstep/study/measure/present.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -41,6 +43,9 @@ class Session {
   /// Advances to the next control tick after the present instant and reads it. The controller has not yet acted on it.
   /// False as by advance().
   bool advance_to_tick();
+  /// Advances to the event that gives the Hall pins another code than at the present instant, or to to_s if none comes before.
+  /// False as by advance().
+  bool advance_to_hall_edge(double to_s);
   /// Whether the present instant is a control tick on which the controller has not yet acted.
   bool at_tick() const;
   /// Instant of the first control tick after an instant.
@@ -73,7 +78,7 @@ class Session {
   struct State;
   explicit Session(std::unique_ptr<State> state);
   double period_s() const;
-  bool go(const sim::Instant& asked, bool read);
+  bool go(const sim::Instant& asked, bool read, std::optional<std::uint8_t> pins = {});
 
   std::unique_ptr<State> state_;
 };
