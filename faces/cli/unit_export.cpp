@@ -54,6 +54,7 @@ std::vector<UnitSource> unit_sources_of(int fmi) {
   } else {
     add("fmi3.c", embedded::fmi3_c());
     add("fmi3_none.c", embedded::fmi3_none_c());
+    add("fmi3_step.c", embedded::fmi3_step_c());
     add("fmi3_instance.h", embedded::fmi3_instance_h());
     add("fmi3_types.h", embedded::fmi3_types_h());
   }

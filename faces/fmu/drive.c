@@ -20,6 +20,8 @@ static const char* name_of(drive_phase phase) {
     case DRIVE_INITIALIZATION: return "initialization mode";
     case DRIVE_STEP_COMPLETE: return "step complete";
     case DRIVE_STEP_FAILED: return "step failed: the run is over";
+    case DRIVE_EVENT: return "event mode";
+    case DRIVE_INTERMEDIATE: return "intermediate update";
     default: return "terminated";
   }
 }
@@ -67,6 +69,7 @@ void drive_reset(drive* self) {
   memset(&self->state, 0, sizeof self->state);
   self->state.phase = DRIVE_INSTANTIATED;
   self->state.stop_s = NAN;
+  self->state.uses[0] = self->state.uses[1] = 1;
   memcpy(self->state.wanted, self->variables.starts, sizeof self->state.wanted);
   memcpy(self->state.applied, self->variables.starts, sizeof self->state.applied);
 }
@@ -149,6 +152,7 @@ static double value_of(const drive* self, unsigned reference) {
   const drive_state* s = &self->state;
   if (reference == 0) return s->now_s;
   if (reference < DRIVE_SIGNALS) return self->variables.factors[reference] * sixstep_value(s->session, (int)reference);
+  if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL) return s->uses[reference - DRIVE_USES_TICKS];
   if (reference < DRIVE_FIRST_SET) return s->wanted[reference - DRIVE_FIRST_INPUT];
   if (reference < DRIVE_FIRST_MEASURED) return s->set[reference - DRIVE_FIRST_SET];
   if (reference < DRIVE_FIRST_COUNT) return s->measured[reference - DRIVE_FIRST_MEASURED];
@@ -180,8 +184,12 @@ drive_result drive_set(drive* self, const char* function, unsigned reference, dr
   }
   for (n = 0; n < drive_size(self, reference) && !limit; ++n)
     limit = isfinite(values[n]) ? plant_limit(reference + (unsigned)n, values[n]) : "an input must be a finite number";
+  if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL && !(self->state.phase & (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION)))
+    limit = "a parameter is set before the initialization ends";
   if (limit) return drive_fail(self, function, limit);
-  if (reference < DRIVE_FIRST_SET)
+  if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL)
+    self->state.uses[reference - DRIVE_USES_TICKS] = values[0];
+  else if (reference < DRIVE_FIRST_SET)
     self->state.wanted[reference - DRIVE_FIRST_INPUT] = values[0];
   else
     memcpy(self->state.set + (reference - DRIVE_FIRST_SET), values, sizeof *values * (size_t)drive_size(self, reference));

@@ -21,7 +21,9 @@ typedef enum {
   DRIVE_INITIALIZATION = 2,
   DRIVE_STEP_COMPLETE = 4,
   DRIVE_STEP_FAILED = 8,
-  DRIVE_TERMINATED = 16
+  DRIVE_TERMINATED = 16,
+  DRIVE_EVENT = 32,       /* FMI 3.0 */
+  DRIVE_INTERMEDIATE = 64 /* FMI 3.0: within a step, while the importer's callback runs */
 } drive_phase;
 
 /* References of variables: a signal has its index in sixstep.h. Those from 1100 on only a unit without controller has:
@@ -39,6 +41,11 @@ enum {
   DRIVE_REFERENCES = 1400,
   DRIVE_DIGEST = 2000
 };
+
+/* Events at which a step can stop, as bits. FMI 3.0: clocks by these references, with a parameter that says whether one is
+ * used. */
+enum { DRIVE_TICK = 1, DRIVE_HALL = 2 };
+enum { DRIVE_USES_TICKS = 1020, DRIVE_USES_HALL, DRIVE_TICK_CLOCK = 1030, DRIVE_HALL_CLOCK };
 
 enum { DRIVE_MESSAGE = 1024, DRIVE_ARRAY = 6 }; /* room for a message, for the values of an array */
 
@@ -65,6 +72,8 @@ typedef struct drive_state {
   double set[DRIVE_SETS], set_applied[DRIVE_SETS]; /* inputs for the bridge */
   double measured[DRIVE_MEASURED];                 /* at the last control tick */
   double counts[DRIVE_COUNTS];                     /* at the communication point */
+  double uses[2];            /* of ticks, of Hall edges */
+  unsigned active;           /* clocks that tick at the present instant */
   char digest[17];           /* empty until the run is terminated */
   sixstep_session* session;  /* null until the initialization */
   struct drive_state* next;  /* saved ones of an instance */
@@ -98,6 +107,10 @@ drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop
 drive_result drive_initialize(drive* self);
 /* Advances to point + size. DRIVE_DISCARD: the run was over before that; state.now_s says when. */
 drive_result drive_step(drive* self, const char* function, double point, double size);
+/* The same in parts: inputs act, then the run advances to `to`, or to the first of these events before or at it. *events:
+ * those at the instant reached. plant_look() then reads what is there. */
+drive_result drive_begin_step(drive* self, const char* function, double point, double size);
+drive_result drive_go_on(drive* self, const char* function, double to, unsigned stops, unsigned* events);
 drive_result drive_terminate(drive* self);
 
 /* Number of values of a reference. */

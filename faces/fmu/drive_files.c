@@ -47,6 +47,7 @@ static int is_reference(unsigned first, int count) {
   const unsigned end = first + (unsigned)count;
   if (count < 1 || count > DRIVE_ARRAY || first == 0) return 0;
   return (end <= DRIVE_SIGNALS && end <= (unsigned)sixstep_signal_count()) ||
+         (first >= DRIVE_USES_TICKS && end <= DRIVE_USES_HALL + 1) ||
          (first >= DRIVE_FIRST_SET && end <= DRIVE_FIRST_SET + DRIVE_SETS) ||
          (first >= DRIVE_FIRST_MEASURED && end <= DRIVE_FIRST_MEASURED + DRIVE_MEASURED) ||
          (first >= DRIVE_FIRST_COUNT && end <= DRIVE_FIRST_COUNT + DRIVE_COUNTS);
@@ -206,7 +207,7 @@ size_t drive_bytes(drive* self, const void* of, unsigned char* bytes, size_t roo
 
 static int is_phase(unsigned phase) {
   return phase == DRIVE_INSTANTIATED || phase == DRIVE_INITIALIZATION || phase == DRIVE_STEP_COMPLETE ||
-         phase == DRIVE_STEP_FAILED || phase == DRIVE_TERMINATED;
+         phase == DRIVE_STEP_FAILED || phase == DRIVE_TERMINATED || phase == DRIVE_EVENT;
 }
 
 static int is_head(const drive* self, const head* h, size_t count) {

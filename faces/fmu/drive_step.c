@@ -65,24 +65,34 @@ static drive_result apply_inputs(drive* self, const char* function) {
   }
 }
 
-drive_result drive_step(drive* self, const char* function, double point, double size) {
-  drive_state* s = &self->state;
-  double next;
+drive_result drive_begin_step(drive* self, const char* function, double point, double size) {
+  const double now_s = self->state.now_s;
   if (!(size > 0) || !isfinite(size)) return drive_fail(self, function, "the step size must be above 0");
   /* A picosecond is the library's resolution; importers that add steps up are further away in the end. */
-  if (!(fabs(point - s->now_s) <= 1e-9 * (1 + fabs(s->now_s))))
+  if (!(fabs(point - now_s) <= 1e-9 * (1 + fabs(now_s))))
     return drive_fail(self, function, "the communication point must be the end of the step before");
-  if (apply_inputs(self, function) != DRIVE_OK) return DRIVE_ERROR;
-  next = point + size;
-  switch (plant_advance(&self->variables, s, next - s->start_s)) {
-    case SIXSTEP_OK: break;
+  return apply_inputs(self, function);
+}
+
+drive_result drive_go_on(drive* self, const char* function, double to, unsigned stops, unsigned* events) {
+  drive_state* s = &self->state;
+  const double close_s = 1e-12 * (1 + fabs(to));
+  switch (plant_advance_to_event(&self->variables, s, to - s->start_s, stops, events)) {
+    case SIXSTEP_OK: s->now_s = *events ? s->start_s + sixstep_time(s->session) : to; break;
     case SIXSTEP_OVER:
       s->now_s = s->start_s + sixstep_time(s->session);
-      if (s->now_s < next - 1e-12 * (1 + fabs(next))) return stop_early(self, function, next);
+      if (s->now_s < to - close_s) return stop_early(self, function, to);
       break;
     default: return drive_refused(self, function, s->session);
   }
-  plant_look(&self->variables, s);
-  s->now_s = next;
+  if (s->now_s > to - plant_near(s->session)) s->now_s = to;
   return DRIVE_OK;
+}
+
+drive_result drive_step(drive* self, const char* function, double point, double size) {
+  unsigned events;
+  drive_result result = drive_begin_step(self, function, point, size);
+  if (result == DRIVE_OK) result = drive_go_on(self, function, point + size, 0, &events);
+  if (result == DRIVE_OK) plant_look(&self->variables, &self->state);
+  return result;
 }

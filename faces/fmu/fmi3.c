@@ -1,25 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* FMI 3.0 for co-simulation, without event mode. A refused call changes nothing: it logs a message and returns fmi3Error,
- * and the instance goes on. fmi3_none.c has the functions that such a unit exports and cannot offer. */
+/* FMI 3.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi3Error, and the instance goes
+ * on. fmi3_step.c has steps and event mode, fmi3_none.c the functions that such a unit exports and cannot offer. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "faces/fmu/fmi3_instance.h"
 
-typedef struct {
-  drive unit; /* first: a drive's log finds its instance */
-  fmi3LogMessageCallback log;
-  fmi3InstanceEnvironment environment;
-  int events; /* changes of inputs are logged */
-} instance;
+typedef fmi3_instance instance;
 
 static const char* const categories[] = {"logStatusError", "logStatusDiscard", "logEvents"};
 
 static void log_of(drive* unit, drive_result status, const char* category, const char* message) {
   const instance* i = (const instance*)(const void*)unit;
   if (!i->log || (status == DRIVE_OK && !i->events)) return;
-  i->log(i->environment, fmi3_status(status), category, message);
+  /* A run that is over ends a step with fmi3OK and terminateSimulation. */
+  i->log(i->environment, status == DRIVE_DISCARD ? fmi3Warning : fmi3_status(status), category, message);
 }
 
 FMI3_EXPORT const char* FMI3(GetVersion)(void);
@@ -46,6 +42,17 @@ FMI3_FUNCTION(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t count, co
   return fmi3OK;
 }
 
+/* Whether these are signals, which can be read within a step. */
+static int are_intermediate(drive* unit, const fmi3ValueReference r[], size_t count) {
+  size_t n;
+  for (n = 0; n < count; ++n)
+    if (r[n] == 0 || r[n] >= DRIVE_SIGNALS || unit->variables.kinds[r[n]] != DRIVE_REAL) {
+      drive_fail(unit, "fmi3InstantiateCoSimulation", "an intermediate variable is not one that modelDescription.xml marks so");
+      return 0;
+    }
+  return 1;
+}
+
 FMI3_EXPORT fmi3Instance FMI3(InstantiateCoSimulation)(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
                                                        fmi3Boolean, fmi3Boolean, const fmi3ValueReference[], size_t,
                                                        fmi3InstanceEnvironment, fmi3LogMessageCallback,
@@ -57,17 +64,19 @@ fmi3Instance FMI3(InstantiateCoSimulation)(fmi3String name, fmi3String token, fm
                                            fmi3IntermediateUpdateCallback update) {
   instance* i = calloc(1, sizeof *i);
   const char* refused = NULL;
-  (void)visible, (void)earlyReturnAllowed, (void)intermediate, (void)update;
+  (void)visible;
   if (!i) return NULL;
   i->unit.log = log_of;
   i->log = log;
   i->environment = environment;
   i->events = loggingOn;
+  i->update = update;
+  i->event_mode = eventModeUsed;
+  i->early_return = earlyReturnAllowed;
   if (!name || !*name) refused = "the instance needs a name";
-  if (eventModeUsed) refused = "the unit has no event mode";
-  if (intermediates) refused = "the unit has no intermediate variables";
+  if (intermediates && !intermediate) refused = "the intermediate variables are null";
   if (refused) drive_fail(&i->unit, "fmi3InstantiateCoSimulation", refused);
-  if (refused || drive_read(&i->unit, resources, token) != DRIVE_OK) {
+  if (refused || drive_read(&i->unit, resources, token) != DRIVE_OK || !are_intermediate(&i->unit, intermediate, intermediates)) {
     free(i);
     return NULL;
   }
@@ -87,13 +96,8 @@ FMI3_FUNCTION(EnterInitializationMode, (fmi3Instance c, fmi3Boolean hasTolerance
   if (drive_set_up(c, start, hasStop, stop) != DRIVE_OK) return fmi3Error;
   return fmi3_status(drive_initialize(c));
 }
-FMI3_FUNCTION(ExitInitializationMode, (fmi3Instance c)) {
-  if (!fmi3_may(c, "fmi3ExitInitializationMode", DRIVE_INITIALIZATION)) return fmi3Error;
-  ((instance*)c)->unit.state.phase = DRIVE_STEP_COMPLETE;
-  return fmi3OK;
-}
 FMI3_FUNCTION(Terminate, (fmi3Instance c)) {
-  if (!fmi3_may(c, "fmi3Terminate", DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED)) return fmi3Error;
+  if (!fmi3_may(c, "fmi3Terminate", DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_EVENT)) return fmi3Error;
   return fmi3_status(drive_terminate(c));
 }
 FMI3_FUNCTION(Reset, (fmi3Instance c)) {
@@ -211,21 +215,4 @@ FMI3_FUNCTION(SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte b
 FMI3_FUNCTION(DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState* state)) {
   if (!fmi3_may(c, "fmi3DeserializeFMUState", ANY_PHASE)) return fmi3Error;
   return fmi3_status(drive_from_bytes(c, "fmi3DeserializeFMUState", bytes, size, state));
-}
-
-/* ---- Steps ----------------------------------------------------------------------------------------------------------- */
-
-FMI3_FUNCTION(DoStep, (fmi3Instance c, fmi3Float64 point, fmi3Float64 size, fmi3Boolean noStateBefore,
-                       fmi3Boolean* eventHandlingNeeded, fmi3Boolean* terminateSimulation, fmi3Boolean* earlyReturn,
-                       fmi3Float64* lastSuccessfulTime)) {
-  drive_result result;
-  (void)noStateBefore;
-  if (!fmi3_may(c, "fmi3DoStep", DRIVE_STEP_COMPLETE)) return fmi3Error;
-  if (!eventHandlingNeeded || !terminateSimulation || !earlyReturn || !lastSuccessfulTime)
-    return fmi3_fail(c, "fmi3DoStep", "a place for a result is null");
-  result = drive_step(c, "fmi3DoStep", point, size);
-  *eventHandlingNeeded = *earlyReturn = false;
-  *terminateSimulation = result == DRIVE_DISCARD;
-  *lastSuccessfulTime = ((instance*)c)->unit.state.now_s;
-  return fmi3_status(result);
 }

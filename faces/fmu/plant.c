@@ -75,16 +75,40 @@ sixstep_status plant_apply(const drive_variables* variables, drive_state* state)
   return status;
 }
 
-/* The run's control ticks are counted in picoseconds; sums of step sizes miss them by rounding. */
-sixstep_status plant_advance(const drive_variables* variables, drive_state* state, double to_s) {
-  sixstep_session* const run = state->session;
-  const double period_s = sixstep_period(run), near_s = period_s < 1e-6 ? period_s / 1000 : 1e-9;
-  const double tick_s = sixstep_tick_after(run, to_s - near_s);
+double plant_near(const sixstep_session* session) {
+  const double period_s = sixstep_period(session);
+  return period_s < 1e-6 ? period_s / 1000 : 1e-9;
+}
+
+/* At a control tick the library measures only if the run was advanced to the tick itself. */
+static sixstep_status advance(const drive_variables* variables, sixstep_session* run, double to_s) {
+  const double near_s = plant_near(run), tick_s = sixstep_tick_after(run, to_s - near_s);
   sixstep_status status = SIXSTEP_OK;
   if (variables->chip != SIXSTEP_CHIP_PAIR && variables->chip != SIXSTEP_CHIP_LEGS) return sixstep_advance(run, to_s);
   if (!(tick_s <= to_s + near_s)) return sixstep_advance(run, to_s);
-  if (sixstep_tick_after(run, sixstep_time(run)) < tick_s) status = sixstep_advance(run, tick_s - period_s / 2);
+  if (sixstep_tick_after(run, sixstep_time(run)) < tick_s) status = sixstep_advance(run, tick_s - sixstep_period(run) / 2);
   return status == SIXSTEP_OK ? sixstep_advance_to_tick(run) : status;
+}
+
+/* Hall edges are searched up to a picosecond before the end, which may be a tick. */
+sixstep_status plant_advance_to_event(const drive_variables* variables, drive_state* state, double to_s, unsigned stops,
+                                      unsigned* events) {
+  sixstep_session* const run = state->session;
+  const int hall = sixstep_signal_index("hall");
+  const double code = sixstep_value(run, hall), tick_s = sixstep_tick_after(run, sixstep_time(run));
+  const int to_tick = (stops & DRIVE_TICK) && tick_s <= to_s + plant_near(run);
+  const double end_s = to_tick ? tick_s : to_s, before_s = end_s - 1e-12;
+  sixstep_status status = SIXSTEP_OK;
+  *events = 0;
+  if ((stops & DRIVE_HALL) && before_s > sixstep_time(run)) {
+    status = sixstep_advance_to_hall_edge(run, before_s);
+    if (status == SIXSTEP_OK && sixstep_value(run, hall) != code) *events = DRIVE_HALL;
+    if (status != SIXSTEP_OK || *events) return status;
+  }
+  status = advance(variables, run, end_s);
+  if ((stops & DRIVE_HALL) && sixstep_value(run, hall) != code) *events |= DRIVE_HALL;
+  if (to_tick) *events |= DRIVE_TICK;
+  return status;
 }
 
 static void look_at_measured(drive_state* state) {

@@ -26,8 +26,12 @@ enum {
 const char* plant_limit(unsigned reference, double value);
 /* Gives inputs that have changed to the session. SIXSTEP_OVER: the run is over. */
 sixstep_status plant_apply(const drive_variables* variables, drive_state* state);
-/* Advances to an instant of the run; to a control tick within 1 ns of it, where a controller measures. */
-sixstep_status plant_advance(const drive_variables* variables, drive_state* state, double to_s);
+/* Advances to an instant of the run, or to the first event of `stops` before or at it; to a control tick within
+ * plant_near() of it, where a controller measures. *events: those at the instant reached. */
+sixstep_status plant_advance_to_event(const drive_variables* variables, drive_state* state, double to_s, unsigned stops,
+                                      unsigned* events);
+/* Instants this near are one, s: sums of step sizes miss control ticks by rounding. */
+double plant_near(const sixstep_session* session);
 /* Reads measurements, if the run stands at a control tick, and counts. */
 void plant_look(const drive_variables* variables, drive_state* state);
 

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ET
 
-from fmi3_importer import DISCARD, ERROR, NAMES, OK, Instance, Unit
+from fmi3_importer import ERROR, NAMES, OK, WARNING, Instance, Unit
 
 PROGRAM, SOURCE, LIBRARY = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
 FILES = sorted((SOURCE / "data/scenarios/gallery").glob("*.toml"))
@@ -66,14 +66,15 @@ class Fmi3(unittest.TestCase):
         self.assertEqual(other.call("DeserializeFMUState", data, size, C.byref(again)), OK, other.messages)
         for one, saved in ((instance, state), (other, again)):
             self.assertEqual(one.call("SetFMUState", saved), OK)
-            self.assertEqual(one.step(1e-3, 2 * unit.stop()), DISCARD)
-            self.assertTrue(one.ends.value)
+            self.assertEqual(one.step(1e-3, 2 * unit.stop()), OK)
+            self.assertEqual((one.ends.value, one.early.value), (True, False), "no early return was allowed")
+            self.assertEqual(one.messages[-1][:2], (WARNING, "logStatusDiscard"))
             self.assertAlmostEqual(one.last.value, unit.stop(), delta=1e-12)
             self.assertEqual(one.digest(), ran(CURRENT)["digest"])
 
     def test_refused_calls_say_why(self):
         unit = exported(CURRENT)
-        for wrong in ({"token": b"{0}"}, {"events": True}):
+        for wrong in ({"token": b"{0}"}, {"intermediate": ("hall",)}):
             instance = Instance(unit, **wrong)
             self.assertIsNone(instance.c)
             self.assertEqual(instance.messages[0][:2], (ERROR, "logStatusError"))
@@ -120,12 +121,13 @@ class Fmi3(unittest.TestCase):
             self.assertEqual([v.get("name") for v in variables if v.get("causality") == "independent"], ["time"])
             units = {u.get("name") for u in root.find("UnitDefinitions")}
             for v in variables:
-                self.assertEqual(v.get("start") is not None, v.get("causality") == "input", v.get("name"))
+                self.assertEqual(v.get("start") is not None, v.get("causality") in ("input", "parameter"), v.get("name"))
                 self.assertTrue(v.tag != "Float64" or v.get("unit") in units)
-                self.assertTrue(v.tag == "Float64" or v.get("variability") == "discrete")
+                self.assertTrue(v.tag == "Float64" or v.get("variability") == ("fixed" if v.get("causality") == "parameter" else "discrete"))
             outputs = [v.get("valueReference") for v in variables if v.get("causality") == "output"]
-            for part in ("Output", "InitialUnknown"):
-                self.assertEqual([u.get("valueReference") for u in root.find("ModelStructure").findall(part)], outputs)
+            clocks = {v.get("valueReference") for v in variables if v.tag == "Clock"}
+            for part, expected in (("Output", outputs), ("InitialUnknown", [r for r in outputs if r not in clocks])):
+                self.assertEqual([u.get("valueReference") for u in root.find("ModelStructure").findall(part)], expected)
 
 
 if __name__ == "__main__":

@@ -16,8 +16,8 @@ std::string fmi3_head(const UnitModel& m) {
       "    instantiationToken=\"{}\" description=\"{}\" variableNamingConvention=\"flat\">\n"
       "  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
       "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"\n"
-      "      canReturnEarlyAfterIntermediateUpdate=\"false\" hasEventMode=\"false\" "
-      "providesIntermediateUpdate=\"false\"/>\n",
+      "      mightReturnEarlyFromDoStep=\"true\" canReturnEarlyAfterIntermediateUpdate=\"true\" "
+      "hasEventMode=\"true\" providesIntermediateUpdate=\"true\"/>\n",
       markup_text(m.name), m.token, markup_text(m.scenario.title), m.identifier);
 }
 
@@ -44,15 +44,36 @@ std::string fmi3_start(const FmiVariable& v) {
   return all;
 }
 
+const char* fmi3_causality(FmiRole role) {
+  switch (role) {
+    case FmiRole::time:
+      return "independent";
+    case FmiRole::input:
+      return "input";
+    case FmiRole::parameter:
+      return "parameter";
+    default:
+      return "output";
+  }
+}
+
+/// What belongs to a variable by its role and kind.
+std::string fmi3_attributes(const FmiVariable& v) {
+  if (v.kind == FmiKind::clock) return " intervalVariability=\"triggered\"";
+  if (v.role == FmiRole::parameter) return " initial=\"exact\" start=\"true\"";
+  if (v.role != FmiRole::output) return "";
+  return std::string(" initial=\"calculated\"") +
+         (v.continuous && v.kind == FmiKind::real ? " intermediateUpdate=\"true\"" : "");
+}
+
 std::string fmi3_variable(const FmiVariable& v) {
-  const char* const causality = v.role == FmiRole::time    ? "independent"
-                                : v.role == FmiRole::input ? "input"
-                                                           : "output";
   std::string out = fmt::format(
       "    <{} name=\"{}\" valueReference=\"{}\" causality=\"{}\" variability=\"{}\"{}\n        description=\"{}\"",
-      fmi3_type(v.kind), markup_text(v.name), v.reference, causality,
-      v.continuous ? "continuous" : "discrete", v.role == FmiRole::output ? " initial=\"calculated\"" : "",
-      markup_text(v.description));
+      fmi3_type(v.kind), markup_text(v.name), v.reference, fmi3_causality(v.role),
+      v.role == FmiRole::parameter ? "fixed"
+      : v.continuous               ? "continuous"
+                                   : "discrete",
+      fmi3_attributes(v), markup_text(v.description));
   if (v.kind == FmiKind::real && !v.unit.empty()) {
     out += fmt::format(" unit=\"{}\"", markup_text(v.unit));
     if (const FmiUnit* const unit = fmi_unit(v.unit); unit != nullptr && !unit->display.empty())
@@ -69,6 +90,7 @@ std::string fmi3_structure(const UnitModel& m) {
   for (const FmiVariable& v : m.variables) {
     if (v.role != FmiRole::output) continue;
     outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", v.reference);
+    if (v.kind == FmiKind::clock) continue;
     unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"\"/>\n", v.reference);
   }
   return "  <ModelStructure>\n" + outputs + unknowns + "  </ModelStructure>\n";
@@ -81,7 +103,7 @@ std::string fmi3_description(const UnitModel& m) {
   out +=
       "  <LogCategories>\n"
       "    <Category name=\"logStatusError\" description=\"refused calls\"/>\n"
-      "    <Category name=\"logStatusDiscard\" description=\"steps that the run did not reach\"/>\n"
+      "    <Category name=\"logStatusDiscard\" description=\"runs that were over before the end of a step\"/>\n"
       "    <Category name=\"logEvents\" description=\"changes of inputs, with their instants\"/>\n"
       "  </LogCategories>\n";
   out += fmt::format(

@@ -17,7 +17,7 @@ namespace {
 
 using study::ColumnId;
 
-constexpr unsigned first_input = 1000, digest_reference = 2000;
+constexpr unsigned first_input = 1000, first_use = 1020, first_clock = 1030, digest_reference = 2000;
 constexpr std::string_view acts =
     "A change acts at the first control tick at or after the communication point at which it was made";
 
@@ -136,6 +136,24 @@ void add_inputs(const study::Scenario& s, FmiChip chip, const study::Session& op
   }
 }
 
+/// Clocks of FMI 3, and whether each is used.
+void add_clocks(std::vector<FmiVariable>& all) {
+  const auto add = [&all](const char* name, unsigned reference, FmiKind kind, FmiRole role,
+                          const char* description) {
+    all.push_back({.name = name,
+                   .reference = reference,
+                   .kind = kind,
+                   .role = role,
+                   .continuous = false,
+                   .description = description});
+  };
+  add("use_tick_clock", first_use, FmiKind::boolean, FmiRole::parameter, "whether tick_clock ticks");
+  add("use_hall_clock", first_use + 1, FmiKind::boolean, FmiRole::parameter, "whether hall_clock ticks");
+  add("tick_clock", first_clock, FmiKind::clock, FmiRole::output, "ticks at each control tick");
+  add("hall_clock", first_clock + 1, FmiKind::clock, FmiRole::output,
+      "ticks at each change of the Hall code");
+}
+
 }  // namespace
 
 const FmiUnit* fmi_unit(std::string_view name) {
@@ -156,6 +174,7 @@ base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& give
   add_outputs(scenario, chip, version, all);
   add_inputs(scenario, chip, *open, all);
   add_plant(scenario, chip, version, all);
+  if (version == FmiVersion::fmi3) add_clocks(all);
   all.push_back({.name = "digest",
                  .reference = digest_reference,
                  .kind = FmiKind::text,
