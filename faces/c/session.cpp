@@ -262,12 +262,12 @@ sixstep_status Session::finish() {
   return SIXSTEP_OK;
 }
 
-sixstep_status Session::replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s) {
+sixstep_status Session::replay(const Commands& commands, std::uint64_t conversions, double to_s) {
   conversions_ = conversions;
-  for (const Command& c : commands) {
+  for (const Command& c : commands.in_order) {
     const sixstep_status reached = advance(static_cast<double>(c.at_ps) / sim::ticks_per_second);
     if (reached != SIXSTEP_OK) return reached;
-    const sixstep_status set = ahead_ ? set_gates(c.gates) : command(c.answer);
+    const sixstep_status set = c.answer == 0 ? set_gates(c.gates) : command(commands.answers[c.answer - 1]);
     if (set != SIXSTEP_OK) return set;
   }
   return advance(to_s);

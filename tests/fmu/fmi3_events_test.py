@@ -5,6 +5,7 @@ import ctypes as C
 import functools
 import math
 import random
+import sys
 import unittest
 
 import fmi3_importer as fmi
@@ -248,6 +249,44 @@ class Misuse(unittest.TestCase):
         self.assertEqual(instance.call("Reset"), OK)
         instance.begin().walk(1e-3, unit.stop())
         self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+
+    def test_calls_in_any_order_crash_nothing(self):
+        """Of drives and plants, in any mode: each answers by a status, and a refusal by a message."""
+        seed = random.randrange(10**9)
+        print(f"seed {seed}", file=sys.stderr)
+        draw, statuses = random.Random(seed), {}
+        short = ("--set", "duration_s=1e-3")
+        units = [unit_of(PLAIN, *short)] + [unit_of(PLAIN, *short, "--kind", "plant", "--inputs", k) for k in ("gates", "pair", "legs")]
+        types = {"Float64": _R, "Int32": C.c_int32, "Boolean": _B, "UInt8": C.c_uint8, "String": C.c_char_p}
+        plain = "ExitInitializationMode EnterEventMode EnterStepMode Terminate Reset EnterConfigurationMode EvaluateDiscreteStates".split()
+        for n in range(60):
+            unit = units[n % 4]
+            instance = fmi.Instance(unit, events=draw.random() < 0.6, early=draw.random() < 0.6, update=(lambda *_: None) if draw.random() < 0.5 else None)
+            states, now = [_V() for _ in range(3)], 0.0
+            references = [*(unit.reference(v) for v in unit.variables), 7777, 0xFFFFFFFF]
+            for _ in range(60):
+                kind, count, state = draw.choice(list(types)), draw.randrange(3), draw.choice(states)
+                chosen = (C.c_uint32 * 2)(*(draw.choice(references) for _ in range(2)))
+                numbers = [draw.choice([0, 1, 0.3, math.nan, math.inf, -2] if kind == "Float64" else [b"x"] if kind == "String" else [0, 1, 2, 7]) for _ in range(8)]
+                values, room = (types[kind] * 8)(*numbers), draw.choice([count, count, 3, 6, 8])
+                flags, time = [_B() for _ in range(5)], _R()
+                name, given = draw.choice([
+                    *((p, ()) for p in plain), *[("DoStep", (_R(now), _R(draw.choice([1e-4, 5e-5, 3e-3, 0.0, math.nan])), _B(True), *map(C.byref, (*flags[:3], time))))] * 4,
+                    ("EnterInitializationMode", (_B(False), _R(0), _R(draw.choice([0.0, math.nan])), _B(draw.random() < 0.5), _R(draw.choice([2e-3, -1.0])))),
+                    ("Get" + kind, (chosen, _Z(count), values, _Z(room))), ("Set" + kind, (chosen, _Z(count), values, _Z(room))),
+                    ("GetClock", (chosen, _Z(count), (_B * 2)())), ("UpdateDiscreteStates", (*map(C.byref, flags), C.byref(time))),
+                    ("GetFMUState", (C.byref(state),)), ("SetFMUState", (state,)), ("FreeFMUState", (C.byref(state),)),
+                    ("DeserializeFMUState", (b"nothing", _Z(7), C.byref(state)))])
+                before = len(instance.messages)
+                status = instance.call(name, *given)
+                statuses[status] = statuses.get(status, 0) + 1
+                self.assertIn(status, (OK, fmi.WARNING, fmi.DISCARD, ERROR))
+                self.assertTrue(status == OK or len(instance.messages) > before, f"{name} of seed {seed} says nothing")
+                if name == "DoStep" and status == OK:
+                    now = time.value
+                now = 0.0 if name == "Reset" and status == OK else now
+                self.assertEqual(getattr(unit.library, "fmi3" + name)(None, *given), ERROR)
+        self.assertGreater(min(statuses[OK], statuses[ERROR]), 300)
 
     def test_the_description_says_what_the_unit_can(self):
         unit = unit_of(CURRENT)

@@ -84,6 +84,18 @@ class ManySteps(unittest.TestCase):
         set_up(alone)
         self.assertEqual({one, again}, {alone.run(1e-3, unit.stop()).digest()})
 
+    def test_gates_that_change_at_each_step_take_few_bytes(self):
+        """They are kept for a saved state: 16 bytes, and what a growing table has in reserve."""
+        unit = exported(2, "--kind", "plant", name="gates")
+        instance, size = fmi2.Instance(unit).begin(), unit.stop() / STEPS
+        reference, value, before = (C.c_uint * 1)(unit.reference("gate_b_lower")), (C.c_int * 1)(), None
+        for n in range(STEPS):
+            value[0] = n % 2
+            self.assertEqual(instance.call("SetBoolean", reference, 1, value), OK)
+            self.assertEqual(instance.step(n * size, size), OK)
+            before = before or (n == STEPS // 10 and resident_kB()) or None
+        self.assertLess(1024 * (resident_kB() - before), 64 * STEPS + 2**20)
+
 
 if __name__ == "__main__":
     unittest.main(warnings="ignore")
