@@ -29,7 +29,7 @@ std::vector<std::uint8_t> bytes_of(const sixstep_answer& answer) {
 /// The parts of saved bytes. Empty if the bytes are no saved session of this version.
 struct Parts {
   Source source;
-  std::vector<Command> commands;
+  Commands commands;
   std::uint64_t conversions = 0;
   double time_s = 0.0;
 };
@@ -41,13 +41,20 @@ const Cbor* member(const Cbor& in, const char* name, Cbor::value_t type) {
   return found->type() == type || number ? &*found : nullptr;
 }
 
-bool read_command(const Cbor& in, Command& out) {
+/// Gates have no answer.
+bool read_command(const Cbor& in, Commands& out) {
   if (!in.is_array() || in.size() != 3 || !in[0].is_number_integer() || !in[1].is_number_integer() ||
-      !in[2].is_binary() || in[2].get_binary().size() != sizeof out.answer)
+      !in[2].is_binary())
     return false;
-  out.at_ps = in[0].get<std::int64_t>();
-  out.gates = in[1].get<std::uint32_t>();
-  std::memcpy(&out.answer, in[2].get_binary().data(), sizeof out.answer);
+  const auto at_ps = in[0].get<std::int64_t>();
+  const auto& bytes = in[2].get_binary();
+  sixstep_answer answer{};
+  if (bytes.empty())
+    out.add(at_ps, in[1].get<std::uint32_t>());
+  else if (bytes.size() != sizeof answer)
+    return false;
+  else
+    out.add(at_ps, (std::memcpy(&answer, bytes.data(), sizeof answer), answer));
   return true;
 }
 
@@ -74,7 +81,7 @@ std::optional<Parts> parts_of(const Cbor& in) {
             .conversions = conversions->get<std::uint64_t>(),
             .time_s = time->get<double>()};
   for (const Cbor& command : *commands)
-    if (!read_command(command, out.commands.emplace_back())) return std::nullopt;
+    if (!read_command(command, out.commands)) return std::nullopt;
   return out;
 }
 
@@ -101,8 +108,11 @@ std::span<const std::uint8_t> intact(std::span<const std::uint8_t> bytes) {
 
 std::vector<std::uint8_t> saved(const Session& session) {
   Cbor commands = Cbor::array();
-  for (const Command& c : session.commands())
-    commands.push_back({c.at_ps, c.gates, Cbor::binary(bytes_of(c.answer))});
+  const Commands& given = session.commands();
+  for (const Command& c : given.in_order)
+    commands.push_back(
+        {c.at_ps, c.gates,
+         Cbor::binary(c.answer == 0 ? std::vector<std::uint8_t>() : bytes_of(given.answers[c.answer - 1]))});
   const Cbor out = {{"what", magic},
                     {"version", SIXSTEP_VERSION},
                     {"chip", static_cast<unsigned>(session.source().chip)},

@@ -133,6 +133,11 @@ std::int64_t Session::now_ps() const { return sim::to_instant(time_s()).ticks; }
 double Session::time_s() const {
   return run_ ? seen().present().t_s : std::numeric_limits<double>::quiet_NaN();
 }
+double Session::tick_after_s(double at_s) const {
+  constexpr double far_s = 1e6;  // a count of picoseconds has room for it
+  if (!run_ || !(std::abs(at_s) < far_s)) return std::numeric_limits<double>::quiet_NaN();
+  return run_->tick_after_s(at_s);
+}
 double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
 /// A fault that ended the run is reported at once. A finished copy of the run gives the fault's problem.
@@ -195,6 +200,13 @@ sixstep_status Session::advance_to_edge(const char* function, double to_s, const
 }
 
 sixstep_status Session::advance_to_hall_edge(double to_s) {
+  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK)
+    return status;
+  if (std::isnan(to_s)) return advance(to_s);
+  if (!ahead_) {  // every event of the run is located, also a change of the pins
+    const Exchanging here(exchange_);
+    return reached(run_->advance_to_hall_edge(std::clamp(to_s, 0.0, 2 * run_->scenario().duration_s)));
+  }
   return advance_to_edge("sixstep_advance_to_hall_edge", to_s, [](const study::FullRow& row) {
     return row[static_cast<std::size_t>(study::ColumnId::hall)];
   });
@@ -253,12 +265,12 @@ sixstep_status Session::finish() {
   return SIXSTEP_OK;
 }
 
-sixstep_status Session::replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s) {
+sixstep_status Session::replay(const Commands& commands, std::uint64_t conversions, double to_s) {
   conversions_ = conversions;
-  for (const Command& c : commands) {
+  for (const Command& c : commands.in_order) {
     const sixstep_status reached = advance(static_cast<double>(c.at_ps) / sim::ticks_per_second);
     if (reached != SIXSTEP_OK) return reached;
-    const sixstep_status set = ahead_ ? set_gates(c.gates) : command(c.answer);
+    const sixstep_status set = c.answer == 0 ? set_gates(c.gates) : command(commands.answers[c.answer - 1]);
     if (set != SIXSTEP_OK) return set;
   }
   return advance(to_s);

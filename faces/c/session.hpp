@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,11 +28,24 @@ struct Source {
   sixstep_chip chip = SIXSTEP_CHIP_OF_SCENARIO;
 };
 
-/// A setting by the caller at an instant, stored for sixstep_save().
+/// What the caller set at an instant, for sixstep_save(). Gates may change at every communication point of a long run,
+/// so that a change takes few bytes.
 struct Command {
   std::int64_t at_ps = 0;
-  sixstep_answer answer{};
   std::uint32_t gates = 0;
+  std::uint32_t answer = 0;  ///< 0: gates; else the number of an answer, from 1 on
+};
+
+struct Commands {
+  std::vector<Command> in_order{};
+  std::vector<sixstep_answer> answers{};  ///< each only if it differs from the one before
+
+  void add(std::int64_t at_ps, std::uint32_t gates) { in_order.push_back({.at_ps = at_ps, .gates = gates}); }
+  void add(std::int64_t at_ps, const sixstep_answer& answer) {
+    if (answers.empty() || std::memcmp(&answers.back(), &answer, sizeof answer) != 0)
+      answers.push_back(answer);
+    in_order.push_back({.at_ps = at_ps, .answer = static_cast<std::uint32_t>(answers.size())});
+  }
 };
 
 class Session {
@@ -49,8 +63,8 @@ class Session {
   sixstep_status set_gates(std::uint32_t gates);
   sixstep_status convert(sixstep_counts& counts);
   sixstep_status finish();
-  /// Repeats the commands of a saved session up to the instant that it had reached.
-  sixstep_status replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s);
+  /// Continues at what a saved session had set and reached.
+  sixstep_status replay(const Commands& commands, std::uint64_t conversions, double to_s);
 
   /// An independent session in the same state, without its problems and texts.
   Session(const Session& other);
@@ -61,9 +75,10 @@ class Session {
   bool is_open() const { return run_.has_value(); }
   const study::Scenario* scenario() const { return run_ ? &run_->scenario() : nullptr; }
   const Source& source() const { return source_; }
-  const std::vector<Command>& commands() const { return commands_; }
+  const Commands& commands() const { return commands_; }
   std::uint64_t conversions() const { return conversions_; }
   double time_s() const;
+  double tick_after_s(double at_s) const;
   bool applies(int index) const { return applies_[static_cast<std::size_t>(index)]; }
   double value(int index) const;
   const std::optional<std::string>& outcome() const { return outcome_; }
@@ -93,7 +108,7 @@ class Session {
   Exchange exchange_;
   rig::Registers registers_;
   std::uint64_t conversions_ = 0;
-  std::vector<Command> commands_;
+  Commands commands_;
   std::array<bool, study::column_count> applies_{};
   std::optional<std::string> outcome_;
   std::uint64_t digest_ = 0;

@@ -46,7 +46,7 @@ sixstep_status Session::command(const sixstep_answer& answer) {
     return misuse("sixstep_command", "needs a session whose controller is the caller",
                   "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
   exchange_.answer = answer;
-  commands_.push_back({.at_ps = now_ps(), .answer = answer, .gates = 0});
+  commands_.add(now_ps(), answer);
   return SIXSTEP_OK;
 }
 
@@ -65,8 +65,8 @@ sixstep_status Session::set_gates(std::uint32_t gates) {
   if (at_s > 0 && !run_->skip(static_cast<double>(exchange_.stop_ps) / sim::ticks_per_second))
     return SIXSTEP_OVER;
   exchange_.gates = gates;
-  commands_.push_back({.at_ps = exchange_.stop_ps, .answer = {}, .gates = gates});
-  return reached(look_ahead(commands_.back().at_ps));
+  commands_.add(exchange_.stop_ps, gates);
+  return reached(look_ahead(commands_.in_order.back().at_ps));
 }
 
 sixstep_status Session::convert(sixstep_counts& counts) {

@@ -165,6 +165,9 @@ sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, do
   return with(session, [&](Session& s) { return s.advance_to_crossing(leg, level_V, to_s); });
 }
 
+double sixstep_tick_after(const sixstep_session* session, double at_s) {
+  return session == nullptr ? std::numeric_limits<double>::quiet_NaN() : session->is.tick_after_s(at_s);
+}
 double sixstep_time(const sixstep_session* session) {
   return session == nullptr ? std::numeric_limits<double>::quiet_NaN() : session->is.time_s();
 }

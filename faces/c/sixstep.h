@@ -107,6 +107,8 @@ SIXSTEP_API void sixstep_free(sixstep_session* session);
 SIXSTEP_API sixstep_status sixstep_advance(sixstep_session* session, double to_s);
 /* Advances to the next control tick after the present instant, before the controller acts on it. */
 SIXSTEP_API sixstep_status sixstep_advance_to_tick(sixstep_session* session);
+/* Instant of the first control tick after an instant, s; both from the start of the run. NaN: none. */
+SIXSTEP_API double sixstep_tick_after(const sixstep_session* session, double at_s);
 /* The present instant, s. */
 SIXSTEP_API double sixstep_time(const sixstep_session* session);
 /* Length of a control period, and the run's duration, s. */
@@ -189,8 +191,8 @@ SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixst
  * run, and the next advance returns SIXSTEP_OVER. If gates are set twice at one instant, the last ones apply.
  * Instants of changes are rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
-/* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before. The signal
- * "hall" then has the new code. */
+/* Advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows which. With
+ * SIXSTEP_CHIP_GATES the instant is rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
 /* SIXSTEP_CHIP_GATES: advances to the next edge of a comparator for the back-EMF, or to to_s if none comes before.
  * At an edge, the terminal of leg 0, 1 or 2, less the mean of the three terminals, changes from above level_V to

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct UnitArguments {
-  std::string file;  ///< path of the scenario
-  std::string out, fmi = "2", data_dir, command;
+  std::string file;  ///< the scenario
+  std::string out, fmi = "2", kind = "drive", inputs, data_dir, command;
   std::vector<std::string> sets;
   bool force = false;
 };
@@ -39,6 +39,9 @@ std::vector<UnitSource> unit_sources_of(int fmi) {
   std::vector<UnitSource> own = {
       {"faces/fmu/drive.c", std::string(embedded::drive_c())},
       {"faces/fmu/drive_files.c", std::string(embedded::drive_files_c())},
+      {"faces/fmu/drive_step.c", std::string(embedded::drive_step_c())},
+      {"faces/fmu/plant.c", std::string(embedded::plant_c())},
+      {"faces/fmu/plant.h", std::string(embedded::plant_h())},
       {"faces/fmu/drive.h", std::string(embedded::drive_h())},
       {"faces/c/sixstep.h", std::string(embedded::sixstep_h())},
       {"sixstep/control/own/own_controller.h", std::string(embedded::own_controller_h())}};
@@ -51,6 +54,7 @@ std::vector<UnitSource> unit_sources_of(int fmi) {
   } else {
     add("fmi3.c", embedded::fmi3_c());
     add("fmi3_none.c", embedded::fmi3_none_c());
+    add("fmi3_step.c", embedded::fmi3_step_c());
     add("fmi3_instance.h", embedded::fmi3_instance_h());
     add("fmi3_types.h", embedded::fmi3_types_h());
   }
@@ -113,7 +117,25 @@ std::string archive_of(const UnitParts& parts, int fmi) {
   return files::zipped(entries);
 }
 
+/// What sets the gates of the unit.
+base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
+  if (a.kind != "drive" && a.kind != "plant")
+    return base::Problem{"--kind", a.kind, "is no kind of unit", "take drive or plant"};
+  if (a.kind == "drive") {
+    if (a.inputs.empty()) return text::FmiChip::of_scenario;
+    return base::Problem{"--inputs", a.inputs, "has no effect on a unit with its controller",
+                         "add --kind plant, or leave it out"};
+  }
+  if (a.inputs.empty() || a.inputs == "gates") return text::FmiChip::gates;
+  if (a.inputs == "pair") return text::FmiChip::pair;
+  if (a.inputs == "legs") return text::FmiChip::legs;
+  return base::Problem{"--inputs", a.inputs, "is nothing that a plant's bridge takes",
+                       "take gates, pair or legs"};
+}
+
 base::Result<UnitParts> unit_parts_of(const UnitArguments& a, int fmi) {
+  const base::Result<text::FmiChip> chip = unit_chip_of(a);
+  if (!chip) return chip.problems();
   base::Problems problems;
   const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (!problems.empty()) return problems;
@@ -126,7 +148,7 @@ base::Result<UnitParts> unit_parts_of(const UnitArguments& a, int fmi) {
     if (source.path.ends_with(".c")) compiled.push_back(source.path);
   base::Result<text::UnitTexts> texts =
       text::unit_texts(*scenario, fs::path(a.file).stem().string(),
-                       fmi == 2 ? text::FmiVersion::fmi2 : text::FmiVersion::fmi3, compiled);
+                       fmi == 2 ? text::FmiVersion::fmi2 : text::FmiVersion::fmi3, *chip, compiled);
   if (!texts) return texts.problems();
   base::Result<std::string> binary = unit_binary_of(fmi);
   if (!binary) return binary.problems();
@@ -151,12 +173,16 @@ Exit export_unit(const UnitArguments& a) {
 
 Verb declare_unit_export(CLI::App& exports) {
   CLI::App& unit = *exports.add_subcommand(
-      "fmu", "the drive as a functional mock-up unit for co-simulation, for every program that imports FMI");
+      "fmu",
+      "the drive, or its plant, as a functional mock-up unit for co-simulation, for every program that imports FMI");
   const auto a = std::make_shared<UnitArguments>();
   unit.add_option("SCENARIO", a->file, "scenario file")->required();
   unit.add_option("--out", a->out, "the file to write, such as drive.fmu")->required();
   take_force(unit, a->force);
   unit.add_option("--fmi", a->fmi, "version of FMI: 2 or 3")->capture_default_str();
+  unit.add_option("--kind", a->kind, "drive: with its controller; plant: motor, bridge and sensors alone")
+      ->capture_default_str();
+  unit.add_option("--inputs", a->inputs, "what a plant's bridge takes: gates, pair or legs (default: gates)");
   take_sets(unit, a->sets);
   take_data(unit, a->data_dir);
   return {&unit, calling(export_unit, a)};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "faces/fmu/drive.h"
+#include "faces/fmu/plant.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,6 +20,8 @@ static const char* name_of(drive_phase phase) {
     case DRIVE_INITIALIZATION: return "initialization mode";
     case DRIVE_STEP_COMPLETE: return "step complete";
     case DRIVE_STEP_FAILED: return "step failed: the run is over";
+    case DRIVE_EVENT: return "event mode";
+    case DRIVE_INTERMEDIATE: return "intermediate update";
     default: return "terminated";
   }
 }
@@ -31,8 +34,7 @@ int drive_allowed(drive* self, const char* function, unsigned phases) {
   return 0;
 }
 
-/* Logs the problems of the session's last call. */
-static drive_result refused(drive* self, const char* function, const sixstep_session* session) {
+drive_result drive_refused(drive* self, const char* function, const sixstep_session* session) {
   char text[DRIVE_MESSAGE];
   sixstep_problem p;
   size_t n = 0;
@@ -67,6 +69,7 @@ void drive_reset(drive* self) {
   memset(&self->state, 0, sizeof self->state);
   self->state.phase = DRIVE_INSTANTIATED;
   self->state.stop_s = NAN;
+  self->state.uses[0] = self->state.uses[1] = 1;
   memcpy(self->state.wanted, self->variables.starts, sizeof self->state.wanted);
   memcpy(self->state.applied, self->variables.starts, sizeof self->state.applied);
 }
@@ -97,8 +100,9 @@ static drive_result lengthen(drive* self) {
   if (!(wanted_s > sixstep_duration(self->state.session))) return DRIVE_OK;
   drive_number(setting + strlen(setting), sizeof setting - strlen(setting), wanted_s);
   options.settings = settings;
+  options.chip = self->variables.chip;
   if (sixstep_open_file(self->scenario, &options, &longer) != SIXSTEP_OK) {
-    refused(self, "stop time", longer);
+    drive_refused(self, "stop time", longer);
     sixstep_free(longer);
     return DRIVE_ERROR;
   }
@@ -108,9 +112,11 @@ static drive_result lengthen(drive* self) {
 }
 
 drive_result drive_initialize(drive* self) {
+  sixstep_options options = SIXSTEP_OPTIONS;
   sixstep_session* session = NULL;
-  if (sixstep_open_file(self->scenario, NULL, &session) != SIXSTEP_OK) {
-    refused(self, "initialization", session);
+  options.chip = self->variables.chip;
+  if (sixstep_open_file(self->scenario, &options, &session) != SIXSTEP_OK) {
+    drive_refused(self, "initialization", session);
     sixstep_free(session);
     return DRIVE_ERROR;
   }
@@ -119,76 +125,8 @@ drive_result drive_initialize(drive* self) {
     close_session(&self->state);
     return DRIVE_ERROR;
   }
+  plant_look(&self->variables, &self->state);
   self->state.phase = DRIVE_INITIALIZATION;
-  return DRIVE_OK;
-}
-
-/* No control tick is left in the run for the change: it has no effect. */
-static int is_too_late(const sixstep_session* session) {
-  sixstep_problem p;
-  return sixstep_problem_at(session, 0, &p) == SIXSTEP_OK && strcmp(p.place, "time_s") == 0;
-}
-
-static drive_result change_inputs(drive* self, const char* function) {
-  char toml[DRIVE_INPUTS * 128] = "", number[64], event[DRIVE_MESSAGE];
-  double at_s = 0.0;
-  size_t used = 0;
-  int n;
-  for (n = 0; n < self->variables.inputs; ++n) {
-    if (self->state.wanted[n] == self->state.applied[n]) continue;
-    drive_number(number, sizeof number, self->state.wanted[n]);
-    used += (size_t)snprintf(toml + used, sizeof toml - used, "%s = %s\n", self->variables.keys[n], number);
-  }
-  if (!used) return DRIVE_OK;
-  switch (sixstep_change(self->state.session, toml, &at_s)) {
-    case SIXSTEP_OK: break;
-    case SIXSTEP_REFUSED:
-      if (is_too_late(self->state.session)) return DRIVE_OK;
-    /* fall through */
-    default: return refused(self, function, self->state.session);
-  }
-  memcpy(self->state.applied, self->state.wanted, sizeof self->state.applied);
-  drive_number(number, sizeof number, at_s);
-  snprintf(event, sizeof event, "inputs change at %.60s s of the run: %.800s", number, toml);
-  self->log(self, DRIVE_OK, "logEvents", event);
-  return DRIVE_OK;
-}
-
-static drive_result stop_early(drive* self, const char* function, double asked_s) {
-  char text[DRIVE_MESSAGE], at[64], asked[64];
-  sixstep_problem fault;
-  drive_number(at, sizeof at, self->state.now_s);
-  drive_number(asked, sizeof asked, asked_s);
-  if (sixstep_problem_at(self->state.session, 0, &fault) == SIXSTEP_OK)
-    snprintf(text, sizeof text, "%s: a fault stopped the run before %s s: %.200s %.200s %.200s; %.200s", function, asked,
-             fault.place, fault.value, fault.limit, fault.cure);
-  else
-    snprintf(text, sizeof text,
-             "%s: the run is over at %s s, before %s s: its duration has passed; name a later stop time at the set-up",
-             function, at, asked);
-  self->state.phase = DRIVE_STEP_FAILED;
-  self->log(self, DRIVE_DISCARD, "logStatusDiscard", text);
-  return DRIVE_DISCARD;
-}
-
-drive_result drive_step(drive* self, const char* function, double point, double size) {
-  drive_state* s = &self->state;
-  double next;
-  if (!(size > 0) || !isfinite(size)) return drive_fail(self, function, "the step size must be above 0");
-  /* A picosecond is the library's resolution. Importers that add up steps deviate by more than that. */
-  if (!(fabs(point - s->now_s) <= 1e-9 * (1 + fabs(s->now_s))))
-    return drive_fail(self, function, "the communication point must be the end of the step before");
-  if (change_inputs(self, function) != DRIVE_OK) return DRIVE_ERROR;
-  next = point + size;
-  switch (sixstep_advance(s->session, next - s->start_s)) {
-    case SIXSTEP_OK: break;
-    case SIXSTEP_OVER:
-      s->now_s = s->start_s + sixstep_time(s->session);
-      if (s->now_s < next - 1e-12 * (1 + fabs(next))) return stop_early(self, function, next);
-      break;
-    default: return refused(self, function, s->session);
-  }
-  s->now_s = next;
   return DRIVE_OK;
 }
 
@@ -200,37 +138,60 @@ drive_result drive_terminate(drive* self) {
   if (sixstep_finish(end) == SIXSTEP_OK)
     snprintf(self->state.digest, sizeof self->state.digest, "%016llx", (unsigned long long)sixstep_digest(end));
   else
-    result = refused(self, "terminate", end);
+    result = drive_refused(self, "terminate", end);
   sixstep_free(end);
   self->state.phase = DRIVE_TERMINATED;
   return result;
 }
 
-drive_result drive_get(drive* self, const char* function, unsigned reference, drive_kind kind, double* value) {
+int drive_size(const drive* self, unsigned reference) {
+  return reference < DRIVE_REFERENCES && self->variables.counts[reference] > 0 ? self->variables.counts[reference] : 1;
+}
+
+static double value_of(const drive* self, unsigned reference) {
+  const drive_state* s = &self->state;
+  if (reference == 0) return s->now_s;
+  if (reference < DRIVE_SIGNALS) return self->variables.factors[reference] * sixstep_value(s->session, (int)reference);
+  if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL) return s->uses[reference - DRIVE_USES_TICKS];
+  if (reference < DRIVE_FIRST_SET) return s->wanted[reference - DRIVE_FIRST_INPUT];
+  if (reference < DRIVE_FIRST_MEASURED) return s->set[reference - DRIVE_FIRST_SET];
+  if (reference < DRIVE_FIRST_COUNT) return s->measured[reference - DRIVE_FIRST_MEASURED];
+  return s->counts[reference - DRIVE_FIRST_COUNT];
+}
+
+static int has_kind(const drive* self, unsigned reference, drive_kind kind) {
+  return reference < DRIVE_REFERENCES && kind != DRIVE_NONE && self->variables.kinds[reference] == kind;
+}
+
+drive_result drive_get(drive* self, const char* function, unsigned reference, drive_kind kind, double* values) {
   char text[96];
-  const drive_variables* v = &self->variables;
-  const unsigned input = reference - DRIVE_FIRST_INPUT;
-  if (reference == 0 && kind == DRIVE_REAL) {
-    *value = self->state.now_s;
-  } else if (reference < DRIVE_SIGNALS && v->kinds[reference] == kind && kind != DRIVE_NONE) {
-    *value = v->factors[reference] * sixstep_value(self->state.session, (int)reference);
-  } else if (kind == DRIVE_REAL && reference >= DRIVE_FIRST_INPUT && input < (unsigned)v->inputs) {
-    *value = self->state.wanted[input];
-  } else {
+  int n;
+  if (!has_kind(self, reference, kind)) {
     snprintf(text, sizeof text, "%u is no reference of a variable of this type", reference);
     return drive_fail(self, function, text);
   }
+  for (n = 0; n < drive_size(self, reference); ++n) values[n] = value_of(self, reference + (unsigned)n);
   return DRIVE_OK;
 }
 
-drive_result drive_set(drive* self, const char* function, unsigned reference, double value) {
+drive_result drive_set(drive* self, const char* function, unsigned reference, drive_kind kind, const double* values) {
   char text[96];
-  const unsigned input = reference - DRIVE_FIRST_INPUT;
-  if (reference < DRIVE_FIRST_INPUT || input >= (unsigned)self->variables.inputs) {
-    snprintf(text, sizeof text, "%u is no reference of an input", reference);
+  int n;
+  const char* limit = NULL;
+  if (!has_kind(self, reference, kind) || reference < DRIVE_FIRST_INPUT || reference >= DRIVE_FIRST_MEASURED) {
+    snprintf(text, sizeof text, "%u is no reference of an input of this type", reference);
     return drive_fail(self, function, text);
   }
-  if (!isfinite(value)) return drive_fail(self, function, "an input must be a finite number");
-  self->state.wanted[input] = value;
+  for (n = 0; n < drive_size(self, reference) && !limit; ++n)
+    limit = isfinite(values[n]) ? plant_limit(reference + (unsigned)n, values[n]) : "an input must be a finite number";
+  if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL && !(self->state.phase & (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION)))
+    limit = "a parameter is set before the initialization ends";
+  if (limit) return drive_fail(self, function, limit);
+  if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL)
+    self->state.uses[reference - DRIVE_USES_TICKS] = values[0];
+  else if (reference < DRIVE_FIRST_SET)
+    self->state.wanted[reference - DRIVE_FIRST_INPUT] = values[0];
+  else
+    memcpy(self->state.set + (reference - DRIVE_FIRST_SET), values, sizeof *values * (size_t)drive_size(self, reference));
   return DRIVE_OK;
 }

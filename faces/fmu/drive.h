@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A drive as a functional mock-up unit, over sixstep.h only: what FMI 2.0 and 3.0 have in common. fmi2.c and fmi3.c check
- * the order of calls and translate names. C99.
+ * the order of calls and translate names. plant.c has what a unit without controller adds. C99.
  *
  * Resources of the unit: scenario.toml with its motor, and variables.txt, which lists the variables by reference.
- * An input that has changed acts at the first control tick at or after the communication point. */
+ * An input that has changed acts at the first control tick at or after the communication point; gates act at the
+ * communication point itself. */
 #ifndef SIXSTEP_FMU_DRIVE_H
 #define SIXSTEP_FMU_DRIVE_H
 
@@ -20,20 +21,42 @@ typedef enum {
   DRIVE_INITIALIZATION = 2,
   DRIVE_STEP_COMPLETE = 4,
   DRIVE_STEP_FAILED = 8,
-  DRIVE_TERMINATED = 16
+  DRIVE_TERMINATED = 16,
+  DRIVE_EVENT = 32,       /* FMI 3.0 */
+  DRIVE_INTERMEDIATE = 64 /* FMI 3.0: within a step, while the importer's callback runs */
 } drive_phase;
 
-/* References of variables: a signal has its index in sixstep.h. */
-enum { DRIVE_SIGNALS = 512, DRIVE_FIRST_INPUT = 1000, DRIVE_INPUTS = 8, DRIVE_DIGEST = 2000 };
+/* References of variables: a signal has its index in sixstep.h. Those from 1100 on only a unit without controller has:
+ * inputs for the bridge (plant.h), what the controller measures, and counts of converters. */
+enum {
+  DRIVE_SIGNALS = 512,
+  DRIVE_FIRST_INPUT = 1000,
+  DRIVE_INPUTS = 8,
+  DRIVE_FIRST_SET = 1100,
+  DRIVE_SETS = 30,
+  DRIVE_FIRST_MEASURED = 1200,
+  DRIVE_MEASURED = 10,
+  DRIVE_FIRST_COUNT = 1300,
+  DRIVE_COUNTS = 8,
+  DRIVE_REFERENCES = 1400,
+  DRIVE_DIGEST = 2000
+};
 
-enum { DRIVE_MESSAGE = 1024 }; /* room for a message */
+/* Events at which a step can stop, as bits. FMI 3.0: clocks by these references, with a parameter that says whether one is
+ * used. */
+enum { DRIVE_TICK = 1, DRIVE_HALL = 2 };
+enum { DRIVE_USES_TICKS = 1020, DRIVE_USES_HALL, DRIVE_TICK_CLOCK = 1030, DRIVE_HALL_CLOCK };
 
-typedef enum { DRIVE_NONE, DRIVE_REAL, DRIVE_INTEGER } drive_kind;
+enum { DRIVE_MESSAGE = 1024, DRIVE_ARRAY = 6 }; /* room for a message, for the values of an array */
+
+typedef enum { DRIVE_NONE, DRIVE_REAL, DRIVE_INTEGER, DRIVE_BOOLEAN } drive_kind;
 
 typedef struct {
-  char token[64]; /* token of modelDescription.xml */
-  drive_kind kinds[DRIVE_SIGNALS];
-  double factors[DRIVE_SIGNALS]; /* factors from the unit of sixstep.h to that of the variable */
+  char token[64]; /* of modelDescription.xml */
+  sixstep_chip chip;
+  drive_kind kinds[DRIVE_REFERENCES];
+  double factors[DRIVE_REFERENCES]; /* unit of sixstep.h to that of the variable */
+  int counts[DRIVE_REFERENCES];     /* values that a reference has; those of an array have the following references */
   int inputs;
   char keys[DRIVE_INPUTS][64]; /* key of an [[at]] table: "load.torque_Nm" */
   double starts[DRIVE_INPUTS];
@@ -46,6 +69,11 @@ typedef struct drive_state {
   double now_s;   /* the present communication point */
   double stop_s;  /* NaN: no stop time is set */
   double wanted[DRIVE_INPUTS], applied[DRIVE_INPUTS];
+  double set[DRIVE_SETS], set_applied[DRIVE_SETS]; /* inputs for the bridge */
+  double measured[DRIVE_MEASURED];                 /* at the last control tick */
+  double counts[DRIVE_COUNTS];                     /* at the communication point */
+  double uses[2];            /* of ticks, of Hall edges */
+  unsigned active;           /* clocks that tick at the present instant */
   char digest[17];           /* empty until the run is terminated */
   sixstep_session* session;  /* null until the initialization */
   struct drive_state* next;  /* list of the instance's saved states */
@@ -62,6 +90,8 @@ typedef struct drive {
 
 /* Logs "where: ..." and returns DRIVE_ERROR. */
 drive_result drive_fail(drive* self, const char* where, const char* message);
+/* Logs the problems of the session's last call. */
+drive_result drive_refused(drive* self, const char* function, const sixstep_session* session);
 /* Whether the phase is one of `phases`; else logs an error. */
 int drive_allowed(drive* self, const char* function, unsigned phases);
 
@@ -77,11 +107,17 @@ drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop
 drive_result drive_initialize(drive* self);
 /* Advances to point + size. DRIVE_DISCARD: the run was over before that; state.now_s says when. */
 drive_result drive_step(drive* self, const char* function, double point, double size);
+/* The same in parts: inputs act, then the run advances to `to`, or to the first of these events before or at it. *events:
+ * those at the instant reached. plant_look() then reads what is there. */
+drive_result drive_begin_step(drive* self, const char* function, double point, double size);
+drive_result drive_go_on(drive* self, const char* function, double to, unsigned stops, unsigned* events);
 drive_result drive_terminate(drive* self);
 
-/* One value by its reference. */
-drive_result drive_get(drive* self, const char* function, unsigned reference, drive_kind kind, double* value);
-drive_result drive_set(drive* self, const char* function, unsigned reference, double value);
+/* Number of values of a reference. */
+int drive_size(const drive* self, unsigned reference);
+/* All values of a reference, drive_size() of them. */
+drive_result drive_get(drive* self, const char* function, unsigned reference, drive_kind kind, double* values);
+drive_result drive_set(drive* self, const char* function, unsigned reference, drive_kind kind, const double* values);
 
 /* Saved states belong to the instance; a null `*at` gets a new one. */
 drive_result drive_save(drive* self, const char* function, void** at);

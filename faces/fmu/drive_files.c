@@ -43,25 +43,50 @@ static double double_of(unsigned long long bits) {
   return value;
 }
 
-/* Reads a line of variables.txt: "token T", "real 15 BITS", "integer 24 BITS", "input 1000 BITS KEY". Numbers are
- * the bits of doubles, which no locale changes. Returns 0 if the line is none of these. */
+/* Whether `count` values from this reference on exist. */
+static int is_reference(unsigned first, int count) {
+  const unsigned end = first + (unsigned)count;
+  if (count < 1 || count > DRIVE_ARRAY || first == 0) return 0;
+  return (end <= DRIVE_SIGNALS && end <= (unsigned)sixstep_signal_count()) ||
+         (first >= DRIVE_USES_TICKS && end <= DRIVE_USES_HALL + 1) ||
+         (first >= DRIVE_FIRST_SET && end <= DRIVE_FIRST_SET + DRIVE_SETS) ||
+         (first >= DRIVE_FIRST_MEASURED && end <= DRIVE_FIRST_MEASURED + DRIVE_MEASURED) ||
+         (first >= DRIVE_FIRST_COUNT && end <= DRIVE_FIRST_COUNT + DRIVE_COUNTS);
+}
+
+static drive_kind kind_of(const char* word) {
+  return strcmp(word, "real") == 0      ? DRIVE_REAL
+         : strcmp(word, "integer") == 0 ? DRIVE_INTEGER
+         : strcmp(word, "boolean") == 0 ? DRIVE_BOOLEAN
+                                        : DRIVE_NONE;
+}
+
+static int read_input(unsigned reference, unsigned long long bits, const char* key, drive_variables* v) {
+  if (v->inputs >= DRIVE_INPUTS || reference != DRIVE_FIRST_INPUT + (unsigned)v->inputs) return 0;
+  strcpy(v->keys[v->inputs], key);
+  v->kinds[reference] = DRIVE_REAL;
+  v->starts[v->inputs++] = double_of(bits);
+  return 1;
+}
+
+/* A line of variables.txt: "token T", "chip 3", "real 15 BITS COUNT", "integer 24 BITS COUNT", "boolean 1100 BITS COUNT",
+ * "input 1000 BITS KEY". Numbers are the bits of doubles, which no locale changes. 0: it is none of these. */
 static int read_line(const char* line, drive_variables* v) {
-  char word[16], key[64];
-  unsigned reference;
+  char word[16], last[64];
+  unsigned reference, chip;
   unsigned long long bits;
+  int k, count = 0;
   if (sscanf(line, "token %63s", v->token) == 1) return 1;
-  if (sscanf(line, "%15s %u %llx %63s", word, &reference, &bits, key) == 4) {
-    if (strcmp(word, "input") != 0 || v->inputs >= DRIVE_INPUTS || reference != DRIVE_FIRST_INPUT + (unsigned)v->inputs)
-      return 0;
-    strcpy(v->keys[v->inputs], key);
-    v->starts[v->inputs++] = double_of(bits);
-    return 1;
+  if (sscanf(line, "chip %u", &chip) == 1) {
+    v->chip = (sixstep_chip)chip;
+    return chip <= SIXSTEP_CHIP_GATES;
   }
-  if (sscanf(line, "%15s %u %llx", word, &reference, &bits) != 3 || reference >= DRIVE_SIGNALS ||
-      reference >= (unsigned)sixstep_signal_count())
-    return 0;
-  v->kinds[reference] = strcmp(word, "real") == 0 ? DRIVE_REAL : strcmp(word, "integer") == 0 ? DRIVE_INTEGER : DRIVE_NONE;
-  v->factors[reference] = double_of(bits);
+  if (sscanf(line, "%15s %u %llx %63s", word, &reference, &bits, last) != 4) return 0;
+  if (strcmp(word, "input") == 0) return read_input(reference, bits, last, v);
+  if (sscanf(last, "%d", &count) != 1 || !is_reference(reference, count)) return 0;
+  v->kinds[reference] = kind_of(word);
+  v->counts[reference] = count;
+  for (k = 0; k < count; ++k) v->factors[reference + (unsigned)k] = double_of(bits);
   return v->kinds[reference] != DRIVE_NONE;
 }
 
@@ -71,6 +96,7 @@ static int read_variables(const char* path, drive_variables* v) {
   FILE* file = fopen(path, "r");
   if (!file) return 0;
   memset(v, 0, sizeof *v);
+  v->kinds[0] = DRIVE_REAL; /* the time */
   while (good && fgets(line, sizeof line, file)) good = read_line(line, v);
   fclose(file);
   return good && v->token[0];
@@ -182,7 +208,7 @@ size_t drive_bytes(drive* self, const void* of, unsigned char* bytes, size_t roo
 
 static int is_phase(unsigned phase) {
   return phase == DRIVE_INSTANTIATED || phase == DRIVE_INITIALIZATION || phase == DRIVE_STEP_COMPLETE ||
-         phase == DRIVE_STEP_FAILED || phase == DRIVE_TERMINATED;
+         phase == DRIVE_STEP_FAILED || phase == DRIVE_TERMINATED || phase == DRIVE_EVENT;
 }
 
 static int is_head(const drive* self, const head* h, size_t count) {

@@ -161,15 +161,22 @@ fmi2Status FMI2(GetReal)(fmi2Component c, const fmi2ValueReference r[], size_t c
   return fmi2OK;
 }
 
-fmi2Status FMI2(GetInteger)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Integer values[]) {
+static fmi2Status get_whole(fmi2Component c, const char* function, drive_kind kind, const fmi2ValueReference r[], size_t count,
+                            int values[]) {
   double value = 0.0;
   size_t n;
-  if (!has_arrays(c, "fmi2GetInteger", READABLE, r, count, values)) return fmi2Error;
+  if (!has_arrays(c, function, READABLE, r, count, values)) return fmi2Error;
   for (n = 0; n < count; ++n) {
-    if (drive_get(&((instance*)c)->unit, "fmi2GetInteger", r[n], DRIVE_INTEGER, &value) != DRIVE_OK) return fmi2Error;
-    values[n] = fabs(value) < 2147483647.0 ? (fmi2Integer)value : 0; /* NaN too is 0 */
+    if (drive_get(&((instance*)c)->unit, function, r[n], kind, &value) != DRIVE_OK) return fmi2Error;
+    values[n] = fabs(value) < 2147483647.0 ? (int)value : 0; /* NaN too is 0 */
   }
   return fmi2OK;
+}
+fmi2Status FMI2(GetInteger)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Integer values[]) {
+  return get_whole(c, "fmi2GetInteger", DRIVE_INTEGER, r, count, values);
+}
+fmi2Status FMI2(GetBoolean)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Boolean values[]) {
+  return get_whole(c, "fmi2GetBoolean", DRIVE_BOOLEAN, r, count, values);
 }
 
 fmi2Status FMI2(GetString)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2String values[]) {
@@ -186,31 +193,31 @@ fmi2Status FMI2(SetReal)(fmi2Component c, const fmi2ValueReference r[], size_t c
   size_t n;
   if (!has_arrays(c, "fmi2SetReal", SETTABLE, r, count, values)) return fmi2Error;
   for (n = 0; n < count; ++n)
-    if (drive_set(&((instance*)c)->unit, "fmi2SetReal", r[n], values[n]) != DRIVE_OK) return fmi2Error;
+    if (drive_set(&((instance*)c)->unit, "fmi2SetReal", r[n], DRIVE_REAL, &values[n]) != DRIVE_OK) return fmi2Error;
   return fmi2OK;
 }
-
-/* For types that no variable has, or that no variable can be set with. */
-static fmi2Status none(fmi2Component c, const char* function, unsigned phases, size_t count) {
-  if (!may(c, function, phases)) return fmi2Error;
-  return count == 0 ? fmi2OK : fail(c, function, "the unit has no such variable");
-}
-
-fmi2Status FMI2(GetBoolean)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Boolean values[]) {
-  (void)r, (void)values;
-  return none(c, "fmi2GetBoolean", READABLE, count);
+static fmi2Status set_whole(fmi2Component c, const char* function, drive_kind kind, const fmi2ValueReference r[], size_t count,
+                            const int values[]) {
+  double value;
+  size_t n;
+  if (!has_arrays(c, function, SETTABLE, r, count, values)) return fmi2Error;
+  for (n = 0; n < count; ++n) {
+    value = kind == DRIVE_BOOLEAN ? values[n] != 0 : values[n];
+    if (drive_set(&((instance*)c)->unit, function, r[n], kind, &value) != DRIVE_OK) return fmi2Error;
+  }
+  return fmi2OK;
 }
 fmi2Status FMI2(SetInteger)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2Integer values[]) {
-  (void)r, (void)values;
-  return none(c, "fmi2SetInteger", SETTABLE, count);
+  return set_whole(c, "fmi2SetInteger", DRIVE_INTEGER, r, count, values);
 }
 fmi2Status FMI2(SetBoolean)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2Boolean values[]) {
-  (void)r, (void)values;
-  return none(c, "fmi2SetBoolean", SETTABLE, count);
+  return set_whole(c, "fmi2SetBoolean", DRIVE_BOOLEAN, r, count, values);
 }
+/* The one text is an output. */
 fmi2Status FMI2(SetString)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2String values[]) {
   (void)r, (void)values;
-  return none(c, "fmi2SetString", SETTABLE, count);
+  if (!may(c, "fmi2SetString", SETTABLE)) return fmi2Error;
+  return count == 0 ? fmi2OK : fail(c, "fmi2SetString", "the unit has no such variable");
 }
 
 /* ---- State ----------------------------------------------------------------------------------------------------------- */

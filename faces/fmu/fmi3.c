@@ -1,25 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* FMI 3.0 for co-simulation, without event mode. A refused call changes nothing: it logs a message and returns
- * fmi3Error, and the instance continues. fmi3_none.c has the functions that such a unit exports and cannot offer. */
+/* FMI 3.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi3Error, and the instance goes
+ * on. fmi3_step.c has steps and event mode, fmi3_none.c the functions that such a unit exports and cannot offer. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "faces/fmu/fmi3_instance.h"
 
-typedef struct {
-  drive unit; /* first member: a drive's log gets its instance from the drive's address */
-  fmi3LogMessageCallback log;
-  fmi3InstanceEnvironment environment;
-  int events; /* whether changes of inputs are logged */
-} instance;
+typedef fmi3_instance instance;
 
 static const char* const categories[] = {"logStatusError", "logStatusDiscard", "logEvents"};
 
 static void log_of(drive* unit, drive_result status, const char* category, const char* message) {
   const instance* i = (const instance*)(const void*)unit;
   if (!i->log || (status == DRIVE_OK && !i->events)) return;
-  i->log(i->environment, fmi3_status(status), category, message);
+  /* A run that is over ends a step with fmi3OK and terminateSimulation. */
+  i->log(i->environment, status == DRIVE_DISCARD ? fmi3Warning : fmi3_status(status), category, message);
 }
 
 FMI3_EXPORT const char* FMI3(GetVersion)(void);
@@ -46,6 +42,17 @@ FMI3_FUNCTION(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t count, co
   return fmi3OK;
 }
 
+/* Whether these are signals, which can be read within a step. */
+static int are_intermediate(drive* unit, const fmi3ValueReference r[], size_t count) {
+  size_t n;
+  for (n = 0; n < count; ++n)
+    if (r[n] == 0 || r[n] >= DRIVE_SIGNALS || unit->variables.kinds[r[n]] != DRIVE_REAL) {
+      drive_fail(unit, "fmi3InstantiateCoSimulation", "an intermediate variable is not one that modelDescription.xml marks so");
+      return 0;
+    }
+  return 1;
+}
+
 FMI3_EXPORT fmi3Instance FMI3(InstantiateCoSimulation)(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
                                                        fmi3Boolean, fmi3Boolean, const fmi3ValueReference[], size_t,
                                                        fmi3InstanceEnvironment, fmi3LogMessageCallback,
@@ -57,17 +64,19 @@ fmi3Instance FMI3(InstantiateCoSimulation)(fmi3String name, fmi3String token, fm
                                            fmi3IntermediateUpdateCallback update) {
   instance* i = calloc(1, sizeof *i);
   const char* refused = NULL;
-  (void)visible, (void)earlyReturnAllowed, (void)intermediate, (void)update;
+  (void)visible;
   if (!i) return NULL;
   i->unit.log = log_of;
   i->log = log;
   i->environment = environment;
   i->events = loggingOn;
+  i->update = update;
+  i->event_mode = eventModeUsed;
+  i->early_return = earlyReturnAllowed;
   if (!name || !*name) refused = "the instance needs a name";
-  if (eventModeUsed) refused = "the unit has no event mode";
-  if (intermediates) refused = "the unit has no intermediate variables";
+  if (intermediates && !intermediate) refused = "the intermediate variables are null";
   if (refused) drive_fail(&i->unit, "fmi3InstantiateCoSimulation", refused);
-  if (refused || drive_read(&i->unit, resources, token) != DRIVE_OK) {
+  if (refused || drive_read(&i->unit, resources, token) != DRIVE_OK || !are_intermediate(&i->unit, intermediate, intermediates)) {
     free(i);
     return NULL;
   }
@@ -87,13 +96,8 @@ FMI3_FUNCTION(EnterInitializationMode, (fmi3Instance c, fmi3Boolean hasTolerance
   if (drive_set_up(c, start, hasStop, stop) != DRIVE_OK) return fmi3Error;
   return fmi3_status(drive_initialize(c));
 }
-FMI3_FUNCTION(ExitInitializationMode, (fmi3Instance c)) {
-  if (!fmi3_may(c, "fmi3ExitInitializationMode", DRIVE_INITIALIZATION)) return fmi3Error;
-  ((instance*)c)->unit.state.phase = DRIVE_STEP_COMPLETE;
-  return fmi3OK;
-}
 FMI3_FUNCTION(Terminate, (fmi3Instance c)) {
-  if (!fmi3_may(c, "fmi3Terminate", DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED)) return fmi3Error;
+  if (!fmi3_may(c, "fmi3Terminate", DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_EVENT)) return fmi3Error;
   return fmi3_status(drive_terminate(c));
 }
 FMI3_FUNCTION(Reset, (fmi3Instance c)) {
@@ -104,47 +108,77 @@ FMI3_FUNCTION(Reset, (fmi3Instance c)) {
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */
 
-/* Every variable is a scalar, so that there are as many values as references. */
 static int has_arrays(fmi3Instance c, const char* function, unsigned phases, const void* references, size_t count,
-                      const void* values, size_t room) {
+                      const void* values) {
   if (!fmi3_may(c, function, phases)) return 0;
-  if (count == room && (count == 0 || (references && values))) return 1;
-  fmi3_fail(c, function, count == room ? "the references or the values are null" : "needs as many values as references");
+  if (count == 0 || (references && values)) return 1;
+  fmi3_fail(c, function, "the references or the values are null");
+  return 0;
+}
+
+/* Whether the values of these references are `room`, as the standard wants. */
+static int fits(fmi3Instance c, const char* function, const fmi3ValueReference r[], size_t count, size_t room) {
+  size_t n, needed = 0;
+  for (n = 0; n < count; ++n) needed += (size_t)drive_size(c, r[n]);
+  if (needed == room) return 1;
+  fmi3_fail(c, function, "the number of values must be that of the variables, an array's with all its elements");
   return 0;
 }
 
 FMI3_FUNCTION(GetFloat64, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3Float64 values[], size_t room)) {
-  size_t n;
-  if (!has_arrays(c, "fmi3GetFloat64", READABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n)
-    if (drive_get(c, "fmi3GetFloat64", r[n], DRIVE_REAL, &values[n]) != DRIVE_OK) return fmi3Error;
-  return fmi3OK;
-}
-FMI3_FUNCTION(GetInt32, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3Int32 values[], size_t room)) {
-  double value = 0.0;
-  size_t n;
-  if (!has_arrays(c, "fmi3GetInt32", READABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n) {
-    if (drive_get(c, "fmi3GetInt32", r[n], DRIVE_INTEGER, &value) != DRIVE_OK) return fmi3Error;
-    values[n] = fabs(value) < 2147483647.0 ? (fmi3Int32)value : 0; /* NaN too is 0 */
-  }
-  return fmi3OK;
-}
-FMI3_FUNCTION(GetString, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3String values[], size_t room)) {
-  size_t n;
-  if (!has_arrays(c, "fmi3GetString", READABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n) {
-    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "there is no string with this reference");
-    values[n] = ((instance*)c)->unit.state.digest;
-  }
+  size_t n, at = 0;
+  if (!has_arrays(c, "fmi3GetFloat64", READABLE, r, count, values) || !fits(c, "fmi3GetFloat64", r, count, room)) return fmi3Error;
+  for (n = 0; n < count; at += (size_t)drive_size(c, r[n++]))
+    if (drive_get(c, "fmi3GetFloat64", r[n], DRIVE_REAL, values + at) != DRIVE_OK) return fmi3Error;
   return fmi3OK;
 }
 FMI3_FUNCTION(SetFloat64,
               (fmi3Instance c, const fmi3ValueReference r[], size_t count, const fmi3Float64 values[], size_t room)) {
+  size_t n, at = 0;
+  if (!has_arrays(c, "fmi3SetFloat64", SETTABLE, r, count, values) || !fits(c, "fmi3SetFloat64", r, count, room)) return fmi3Error;
+  for (n = 0; n < count; at += (size_t)drive_size(c, r[n++]))
+    if (drive_set(c, "fmi3SetFloat64", r[n], DRIVE_REAL, values + at) != DRIVE_OK) return fmi3Error;
+  return fmi3OK;
+}
+
+/* Integers and Booleans pass as doubles, which hold each of their values. A NaN is 0. */
+#define WHOLE_TYPE(type, kind)                                                                                           \
+  FMI3_FUNCTION(Get##type, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3##type values[], size_t room)) { \
+    double v[DRIVE_ARRAY];                                                                                               \
+    size_t n, at = 0;                                                                                                    \
+    int k;                                                                                                               \
+    if (!has_arrays(c, "fmi3Get" #type, READABLE, r, count, values) || !fits(c, "fmi3Get" #type, r, count, room))        \
+      return fmi3Error;                                                                                                  \
+    for (n = 0; n < count; ++n) {                                                                                        \
+      if (drive_get(c, "fmi3Get" #type, r[n], kind, v) != DRIVE_OK) return fmi3Error;                                    \
+      for (k = 0; k < drive_size(c, r[n]); ++k) values[at++] = (fmi3##type)(fabs(v[k]) < 2147483647.0 ? v[k] : 0.0);     \
+    }                                                                                                                    \
+    return fmi3OK;                                                                                                       \
+  }                                                                                                                      \
+  FMI3_FUNCTION(Set##type,                                                                                               \
+                (fmi3Instance c, const fmi3ValueReference r[], size_t count, const fmi3##type values[], size_t room)) {  \
+    double v[DRIVE_ARRAY];                                                                                               \
+    size_t n, at = 0;                                                                                                    \
+    int k;                                                                                                               \
+    if (!has_arrays(c, "fmi3Set" #type, SETTABLE, r, count, values) || !fits(c, "fmi3Set" #type, r, count, room))        \
+      return fmi3Error;                                                                                                  \
+    for (n = 0; n < count; ++n) {                                                                                        \
+      for (k = 0; k < drive_size(c, r[n]); ++k) v[k] = (double)values[at++];                                             \
+      if (drive_set(c, "fmi3Set" #type, r[n], kind, v) != DRIVE_OK) return fmi3Error;                                    \
+    }                                                                                                                    \
+    return fmi3OK;                                                                                                       \
+  }
+WHOLE_TYPE(Int32, DRIVE_INTEGER)
+WHOLE_TYPE(Boolean, DRIVE_BOOLEAN)
+
+FMI3_FUNCTION(GetString, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3String values[], size_t room)) {
   size_t n;
-  if (!has_arrays(c, "fmi3SetFloat64", SETTABLE, r, count, values, room)) return fmi3Error;
-  for (n = 0; n < count; ++n)
-    if (drive_set(c, "fmi3SetFloat64", r[n], values[n]) != DRIVE_OK) return fmi3Error;
+  if (!has_arrays(c, "fmi3GetString", READABLE, r, count, values)) return fmi3Error;
+  if (room != count) return fmi3_fail(c, "fmi3GetString", "needs as many values as references");
+  for (n = 0; n < count; ++n) {
+    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "there is no string with this reference");
+    values[n] = ((instance*)c)->unit.state.digest;
+  }
   return fmi3OK;
 }
 
@@ -181,21 +215,4 @@ FMI3_FUNCTION(SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte b
 FMI3_FUNCTION(DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState* state)) {
   if (!fmi3_may(c, "fmi3DeserializeFMUState", ANY_PHASE)) return fmi3Error;
   return fmi3_status(drive_from_bytes(c, "fmi3DeserializeFMUState", bytes, size, state));
-}
-
-/* ---- Steps ----------------------------------------------------------------------------------------------------------- */
-
-FMI3_FUNCTION(DoStep, (fmi3Instance c, fmi3Float64 point, fmi3Float64 size, fmi3Boolean noStateBefore,
-                       fmi3Boolean* eventHandlingNeeded, fmi3Boolean* terminateSimulation, fmi3Boolean* earlyReturn,
-                       fmi3Float64* lastSuccessfulTime)) {
-  drive_result result;
-  (void)noStateBefore;
-  if (!fmi3_may(c, "fmi3DoStep", DRIVE_STEP_COMPLETE)) return fmi3Error;
-  if (!eventHandlingNeeded || !terminateSimulation || !earlyReturn || !lastSuccessfulTime)
-    return fmi3_fail(c, "fmi3DoStep", "a place for a result is null");
-  result = drive_step(c, "fmi3DoStep", point, size);
-  *eventHandlingNeeded = *earlyReturn = false;
-  *terminateSimulation = result == DRIVE_DISCARD;
-  *lastSuccessfulTime = ((instance*)c)->unit.state.now_s;
-  return fmi3_status(result);
 }

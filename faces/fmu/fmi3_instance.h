@@ -5,10 +5,21 @@
 #include "faces/fmu/drive.h"
 #include "faces/fmu/fmi3_types.h"
 
-#define ANY_PHASE \
-  (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)
-#define READABLE (DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)
-#define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE)
+typedef struct {
+  drive unit; /* first: a drive's log finds its instance */
+  fmi3LogMessageCallback log;
+  fmi3IntermediateUpdateCallback update; /* null: the importer wants none */
+  fmi3InstanceEnvironment environment;
+  int events; /* changes of inputs are logged */
+  int event_mode, early_return;
+} fmi3_instance;
+
+#define ANY_PHASE                                                                                          \
+  (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED | \
+   DRIVE_EVENT)
+#define READABLE \
+  (DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED | DRIVE_EVENT | DRIVE_INTERMEDIATE)
+#define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_EVENT)
 
 /* Whether the call is allowed in these phases; else false, with a message. A null instance has no logger. */
 static inline int fmi3_may(fmi3Instance c, const char* function, unsigned phases) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions of FMI 3.0 that a unit exports and cannot offer: types that no variable has, other interfaces, event mode,
- * clocks, derivatives. modelDescription.xml says so. Each returns fmi3Error with a message. */
+/* Functions of FMI 3.0 that a unit exports and cannot offer: types that no variable has, other interfaces,
+ * intervals of clocks, derivatives. modelDescription.xml says so. Each returns fmi3Error with a message. */
 #include "faces/fmu/fmi3_instance.h"
 
 /* For a type that no variable has, or no variable that can be set. An empty list of references is no error. */
@@ -29,8 +29,6 @@ NEITHER(UInt16)
 NEITHER(UInt32)
 NEITHER(Int64)
 NEITHER(UInt64)
-NEITHER(Boolean)
-NO_SETTER(Int32)
 NO_SETTER(String)
 
 FMI3_FUNCTION(GetBinary, (fmi3Instance c, const fmi3ValueReference r[], size_t n, size_t sizes[], fmi3Binary v[], size_t room)) {
@@ -41,10 +39,6 @@ FMI3_FUNCTION(SetBinary, (fmi3Instance c, const fmi3ValueReference r[], size_t n
                           size_t room)) {
   (void)r, (void)sizes, (void)v, (void)room;
   return none(c, "fmi3SetBinary", SETTABLE, n);
-}
-FMI3_FUNCTION(GetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Clock v[])) {
-  (void)r, (void)v;
-  return none(c, "fmi3GetClock", READABLE, n);
 }
 FMI3_FUNCTION(SetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t n, const fmi3Clock v[])) {
   (void)r, (void)v;
@@ -57,8 +51,7 @@ FMI3_FUNCTION(SetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t n,
     used;                                                     \
     return fmi3_fail(c, "fmi3" #name, why);                   \
   }
-#define NO_CLOCKS "the unit has no clocks"
-#define NO_EVENTS "the unit has no event mode"
+#define NO_CLOCKS "the clocks are triggered: they have no interval"
 #define NO_DERIVATIVES "the unit gives no derivatives"
 #define NO_EXCHANGE "the unit is for co-simulation only"
 
@@ -80,13 +73,7 @@ REFUSED(SetShiftDecimal, (fmi3Instance c, references r, size_t n, const fmi3Floa
 REFUSED(SetShiftFraction, (fmi3Instance c, references r, size_t n, const fmi3UInt64 v[], const fmi3UInt64 of[]),
         ((void)r, (void)n, (void)v, (void)of), NO_CLOCKS)
 
-REFUSED(EnterEventMode, (fmi3Instance c), (void)0, NO_EVENTS)
-REFUSED(EnterStepMode, (fmi3Instance c), (void)0, NO_EVENTS)
-REFUSED(EvaluateDiscreteStates, (fmi3Instance c), (void)0, NO_EVENTS)
-REFUSED(UpdateDiscreteStates,
-        (fmi3Instance c, fmi3Boolean* more, fmi3Boolean* end, fmi3Boolean* nominals, fmi3Boolean* values, fmi3Boolean* timed,
-         fmi3Float64* time),
-        ((void)more, (void)end, (void)nominals, (void)values, (void)timed, (void)time), NO_EVENTS)
+REFUSED(EvaluateDiscreteStates, (fmi3Instance c), (void)0, "fmi3UpdateDiscreteStates does it")
 REFUSED(EnterConfigurationMode, (fmi3Instance c), (void)0, "the unit has no structural parameters")
 REFUSED(ExitConfigurationMode, (fmi3Instance c), (void)0, "the unit has no structural parameters")
 

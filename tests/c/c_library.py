@@ -47,7 +47,7 @@ DECLARED = {
     "sixstep_open_file": (_S, [C.c_char_p, _P(Options), _P(_H)]), "sixstep_open_text": (_S, [C.c_char_p, _P(Options), _P(_H)]),
     "sixstep_free": (None, [_H]), "sixstep_advance": (_S, [_H, _D]), "sixstep_advance_to_tick": (_S, [_H]),
     "sixstep_advance_to_hall_edge": (_S, [_H, _D]), "sixstep_advance_to_crossing": (_S, [_H, C.c_int, _D, _D]),
-    "sixstep_time": (_D, [_H]), "sixstep_period": (_D, [_H]), "sixstep_duration": (_D, [_H]),
+    "sixstep_time": (_D, [_H]), "sixstep_tick_after": (_D, [_H, _D]), "sixstep_period": (_D, [_H]), "sixstep_duration": (_D, [_H]),
     "sixstep_signal_count": (C.c_int, []), "sixstep_signal_at": (_S, [C.c_int, _P(Signal)]), "sixstep_signal_index": (C.c_int, [C.c_char_p]),
     "sixstep_value": (_D, [_H, C.c_int]), "sixstep_values": (_S, [_H, _P(_D), C.c_size_t]), "sixstep_describe": (C.c_char_p, [_H]),
     "sixstep_change": (_S, [_H, C.c_char_p, _P(_D)]), "sixstep_copy": (_S, [_H, _P(_H)]), "sixstep_save": (C.c_size_t, [_H, C.c_void_p, C.c_size_t]),

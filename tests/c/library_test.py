@@ -104,6 +104,33 @@ class Bits(unittest.TestCase):
             self.assertEqual(program(file)["digest"], mine)
         self.assertIn("voltage_V = 20", text)
 
+    def test_hall_edges_of_a_drive_are_events_and_reads_go_on_behind_them(self):
+        """A session that stands at an edge, to the picosecond, reads what another one does that never stood there."""
+        session, code, edges = opened(text=PLAIN), None, 0
+        while session.advance_to_hall_edge(5.9e-3) == c.OK and session.time() < 5.9e-3:
+            self.assertNotEqual(session.value_of("hall"), code)
+            code, at, edges = session.value_of("hall"), session.time(), edges + 1
+            sector = session.value_of("angle_rad") * 8 / (math.pi / 3)
+            self.assertAlmostEqual(sector, round(sector), delta=1e-9)
+            there, fresh = opened(text=PLAIN), opened(text=PLAIN)
+            for later in (0.0, 1e-6, 2e-6, 5e-6, 40e-6, 90e-6):
+                there.advance(at + later), fresh.advance(at + later) if later else None
+                self.assertTrue(not later or there.value_of("hall") == fresh.value_of("hall"), (at, later))
+                for name in ("i_a_A", "speed_rad_s", "u_c_V"):
+                    self.assertTrue(not later or abs(there.value_of(name) - fresh.value_of(name)) < 1e-9, (at, later, name))
+        self.assertGreater(edges, 2)
+        self.assertEqual(digest(session), program(PLAIN)["digest"])
+
+    def test_ticks_are_told_ahead(self):
+        session = opened(text=PLAIN)
+        self.assertEqual(session.tick_after(-1.0), 0.0)
+        for n in range(1, 20):
+            tick = session.tick_after(session.time())
+            self.assertEqual(session.advance_to_tick(), c.OK)
+            self.assertEqual(session.time(), tick)
+        self.assertTrue(math.isnan(session.tick_after(math.nan)) and math.isnan(session.tick_after(math.inf)))
+        self.assertTrue(math.isnan(LIB.sixstep_tick_after(None, 0.0)))
+
     def test_a_copy_and_a_saved_session_go_on_alike(self):
         session = opened(CURRENT)
         session.advance(4e-3)

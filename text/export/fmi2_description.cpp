@@ -24,13 +24,15 @@ std::string fmi2_head(const UnitModel& m) {
 }
 
 std::string fmi2_typed(const FmiVariable& v) {
-  if (v.kind == FmiKind::integer) return "<Integer/>";
+  const bool starts = v.role == FmiRole::input;
+  if (v.kind == FmiKind::integer) return starts ? "<Integer start=\"0\"/>" : "<Integer/>";
+  if (v.kind == FmiKind::boolean) return starts ? "<Boolean start=\"false\"/>" : "<Boolean/>";
   if (v.kind == FmiKind::text) return "<String/>";
   std::string out = "<Real";
   if (!v.unit.empty()) out += fmt::format(" unit=\"{}\"", markup_text(v.unit));
   if (const FmiUnit* const unit = fmi_unit(v.unit); unit != nullptr && !unit->display.empty())
     out += fmt::format(" displayUnit=\"{}\"", unit->display);
-  if (v.role == FmiRole::input) out += fmt::format(" start=\"{}\"", base::written(v.start));
+  if (starts) out += fmt::format(" start=\"{}\"", base::written(v.start));
   return out + "/>";
 }
 

@@ -16,29 +16,72 @@ std::string fmi3_head(const UnitModel& m) {
       "    instantiationToken=\"{}\" description=\"{}\" variableNamingConvention=\"flat\">\n"
       "  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
       "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"\n"
-      "      canReturnEarlyAfterIntermediateUpdate=\"false\" hasEventMode=\"false\" "
-      "providesIntermediateUpdate=\"false\"/>\n",
+      "      mightReturnEarlyFromDoStep=\"true\" canReturnEarlyAfterIntermediateUpdate=\"true\" "
+      "hasEventMode=\"true\" providesIntermediateUpdate=\"true\"/>\n",
       markup_text(m.name), m.token, markup_text(m.scenario.title), m.identifier);
 }
 
+const char* fmi3_type(FmiKind kind) {
+  switch (kind) {
+    case FmiKind::integer:
+      return "Int32";
+    case FmiKind::boolean:
+      return "Boolean";
+    case FmiKind::text:
+      return "String";
+    case FmiKind::clock:
+      return "Clock";
+    default:
+      return "Float64";
+  }
+}
+
+/// As many values as the array has.
+std::string fmi3_start(const FmiVariable& v) {
+  const std::string one = v.kind == FmiKind::boolean ? "false" : base::written(v.start);
+  std::string all = one;
+  for (int n = 1; n < v.count; ++n) all += " " + one;
+  return all;
+}
+
+const char* fmi3_causality(FmiRole role) {
+  switch (role) {
+    case FmiRole::time:
+      return "independent";
+    case FmiRole::input:
+      return "input";
+    case FmiRole::parameter:
+      return "parameter";
+    default:
+      return "output";
+  }
+}
+
+/// What belongs to a variable by its role and kind.
+std::string fmi3_attributes(const FmiVariable& v) {
+  if (v.kind == FmiKind::clock) return " intervalVariability=\"triggered\"";
+  if (v.role == FmiRole::parameter) return " initial=\"exact\" start=\"true\"";
+  if (v.role != FmiRole::output) return "";
+  return std::string(" initial=\"calculated\"") +
+         (v.continuous && v.kind == FmiKind::real ? " intermediateUpdate=\"true\"" : "");
+}
+
 std::string fmi3_variable(const FmiVariable& v) {
-  const char* const type = v.kind == FmiKind::integer ? "Int32"
-                           : v.kind == FmiKind::text  ? "String"
-                                                      : "Float64";
-  const char* const causality = v.role == FmiRole::time    ? "independent"
-                                : v.role == FmiRole::input ? "input"
-                                                           : "output";
   std::string out = fmt::format(
       "    <{} name=\"{}\" valueReference=\"{}\" causality=\"{}\" variability=\"{}\"{}\n        description=\"{}\"",
-      type, markup_text(v.name), v.reference, causality, v.continuous ? "continuous" : "discrete",
-      v.role == FmiRole::output ? " initial=\"calculated\"" : "", markup_text(v.description));
+      fmi3_type(v.kind), markup_text(v.name), v.reference, fmi3_causality(v.role),
+      v.role == FmiRole::parameter ? "fixed"
+      : v.continuous               ? "continuous"
+                                   : "discrete",
+      fmi3_attributes(v), markup_text(v.description));
   if (v.kind == FmiKind::real && !v.unit.empty()) {
     out += fmt::format(" unit=\"{}\"", markup_text(v.unit));
     if (const FmiUnit* const unit = fmi_unit(v.unit); unit != nullptr && !unit->display.empty())
       out += fmt::format(" displayUnit=\"{}\"", unit->display);
   }
-  if (v.role == FmiRole::input) out += fmt::format(" start=\"{}\"", base::written(v.start));
-  return out + "/>\n";
+  if (v.role == FmiRole::input) out += fmt::format(" start=\"{}\"", fmi3_start(v));
+  if (v.count == 1) return out + "/>\n";
+  return out + fmt::format(">\n      <Dimension start=\"{}\"/>\n    </{}>\n", v.count, fmi3_type(v.kind));
 }
 
 /// No output depends directly on an input, because a change waits for a control tick.
@@ -47,6 +90,7 @@ std::string fmi3_structure(const UnitModel& m) {
   for (const FmiVariable& v : m.variables) {
     if (v.role != FmiRole::output) continue;
     outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", v.reference);
+    if (v.kind == FmiKind::clock) continue;
     unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"\"/>\n", v.reference);
   }
   return "  <ModelStructure>\n" + outputs + unknowns + "  </ModelStructure>\n";
@@ -59,7 +103,7 @@ std::string fmi3_description(const UnitModel& m) {
   out +=
       "  <LogCategories>\n"
       "    <Category name=\"logStatusError\" description=\"refused calls\"/>\n"
-      "    <Category name=\"logStatusDiscard\" description=\"steps that the run did not reach\"/>\n"
+      "    <Category name=\"logStatusDiscard\" description=\"runs that were over before the end of a step\"/>\n"
       "    <Category name=\"logEvents\" description=\"changes of inputs, with their instants\"/>\n"
       "  </LogCategories>\n";
   out += fmt::format(

@@ -21,10 +21,10 @@ std::uint64_t fmi_hash(std::string_view text, std::uint64_t seed) {
   return hash;
 }
 
-/// A GUID computed from everything that determines the unit's behaviour.
-std::string fmi_token(const UnitTexts& unit, FmiVersion version) {
-  const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", SIXSTEP_VERSION, static_cast<int>(version),
-                                      unit.scenario, unit.motor, unit.identifier);
+/// A GUID of all that decides what the unit does.
+std::string fmi_token(const UnitTexts& unit, FmiVersion version, FmiChip chip) {
+  const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", SIXSTEP_VERSION, static_cast<int>(version),
+                                      static_cast<int>(chip), unit.scenario, unit.motor, unit.identifier);
   const std::string a = base::written_hex(fmi_hash(all, 0)),
                     b = base::written_hex(fmi_hash(all, 0x9e3779b97f4a7c15U));
   return fmt::format("{{{}-{}-{}-{}-{}}}", a.substr(0, 8), a.substr(8, 4), a.substr(12), b.substr(0, 4),
@@ -33,14 +33,27 @@ std::string fmi_token(const UnitTexts& unit, FmiVersion version) {
 
 std::string fmi_bits(double x) { return base::written_hex(std::bit_cast<std::uint64_t>(x)); }
 
-std::string variable_lines(const UnitModel& model) {
-  std::string out = fmt::format("token {}\n", model.token);
+const char* fmi_word(FmiKind kind) {
+  switch (kind) {
+    case FmiKind::real:
+      return "real";
+    case FmiKind::integer:
+      return "integer";
+    case FmiKind::boolean:
+      return "boolean";
+    default:
+      return "";
+  }
+}
+
+std::string variable_lines(const UnitModel& model, FmiChip chip) {
+  std::string out = fmt::format("token {}\nchip {}\n", model.token, static_cast<int>(chip));
   for (const FmiVariable& v : model.variables) {
-    if (v.role == FmiRole::input)
+    const std::string_view word = fmi_word(v.kind);
+    if (!v.key.empty())
       out += fmt::format("input {} {} {}\n", v.reference, fmi_bits(v.start), v.key);
-    else if (v.role == FmiRole::output && v.kind != FmiKind::text)
-      out += fmt::format("{} {} {}\n", v.kind == FmiKind::integer ? "integer" : "real", v.reference,
-                         fmi_bits(v.factor));
+    else if (v.role != FmiRole::time && !word.empty())
+      out += fmt::format("{} {} {} {}\n", word, v.reference, fmi_bits(v.factor), v.count);
   }
   return out;
 }
@@ -86,12 +99,12 @@ std::string fmi_unit_lines(const std::vector<std::string>& units) {
 }
 
 base::Result<UnitTexts> unit_texts(const study::Scenario& scenario, std::string_view name, FmiVersion version,
-                                   const std::vector<std::string>& sources) {
+                                   FmiChip chip, const std::vector<std::string>& sources) {
   study::Scenario own = scenario;
   own.require.clear();
   own.compare.clear();
   own.spread.clear();
-  base::Result<std::vector<FmiVariable>> variables = fmi_variables(own);
+  base::Result<std::vector<FmiVariable>> variables = fmi_variables(own, chip, version);
   if (!variables) return variables.problems();
   own.motor = "motor.toml";
   own.motor_sheet = own.sheet;
@@ -105,12 +118,12 @@ base::Result<UnitTexts> unit_texts(const study::Scenario& scenario, std::string_
   const UnitModel model{.scenario = own,
                         .name = std::string(name),
                         .identifier = unit.identifier,
-                        .token = fmi_token(unit, version),
+                        .token = fmi_token(unit, version, chip),
                         .variables = std::move(*variables),
                         .sources = sources};
   unit.description = version == FmiVersion::fmi2 ? fmi2_description(model) : fmi3_description(model);
   if (version == FmiVersion::fmi3) unit.build = fmi3_build(model);
-  unit.variables = variable_lines(model);
+  unit.variables = variable_lines(model, chip);
   return unit;
 }
 

@@ -13,8 +13,6 @@
 
 namespace text {
 
-enum class FmiVersion { fmi2, fmi3 };
-
 struct UnitTexts {
   std::string identifier;   ///< name of the binary and of its C functions: "drive"
   std::string description;  ///< text of modelDescription.xml
@@ -28,7 +26,7 @@ struct UnitTexts {
 /// files of sources/ to compile. Requirements and comparisons are left out, because a unit has no verdict.
 /// Problems: the scenario cannot be run.
 base::Result<UnitTexts> unit_texts(const study::Scenario& scenario, std::string_view name, FmiVersion version,
-                                   const std::vector<std::string>& sources);
+                                   FmiChip chip, const std::vector<std::string>& sources);
 
 /// Converts a name to an identifier of C that begins with a letter.
 std::string c_identifier(std::string_view name);

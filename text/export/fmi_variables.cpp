@@ -17,7 +17,7 @@ namespace {
 
 using study::ColumnId;
 
-constexpr unsigned first_input = 1000, digest_reference = 2000;
+constexpr unsigned first_input = 1000, first_use = 1020, first_clock = 1030, digest_reference = 2000;
 constexpr std::string_view acts =
     "A change acts at the first control tick at or after the communication point at which it was made";
 
@@ -54,11 +54,28 @@ std::string described_with_frame(const study::Column& column) {
   return column.frame.empty() ? column.meaning : fmt::format("{} ({})", column.meaning, column.frame);
 }
 
-void add_outputs(const study::Scenario& s, std::vector<FmiVariable>& all) {
+/// Currents and terminal voltages of the three phases as one variable.
+FmiVariable fmi_phases(ColumnId first, const std::vector<study::Column>& signals) {
+  const auto c = static_cast<unsigned>(first);
+  const bool currents = first == ColumnId::i_a;
+  return {.name = currents ? "phase_currents_A" : "terminal_voltages_V",
+          .reference = c,
+          .unit = signals[c].unit,
+          .description = currents ? "currents of phases a, b, c into the motor"
+                                  : "voltages of terminals a, b, c (pole, against the negative rail)",
+          .factor = signals[c].per_turning,
+          .count = 3};
+}
+
+void add_outputs(const study::Scenario& s, FmiChip chip, FmiVersion version, std::vector<FmiVariable>& all) {
   const std::vector<study::Column>& signals = study::all_columns(s.sheet.kind);
   for (std::size_t c = 1; c < signals.size(); ++c) {
     const auto id = static_cast<ColumnId>(c);
-    if (!study::applies(id, s)) continue;
+    if (!study::applies(id, s) || !is_of_plant(id, chip)) continue;
+    if (chip != FmiChip::of_scenario && version == FmiVersion::fmi3 && id <= ColumnId::u_c) {
+      if (id == ColumnId::i_a || id == ColumnId::u_a) all.push_back(fmi_phases(id, signals));
+      continue;
+    }
     all.push_back({.name = signals[c].name,
                    .reference = static_cast<unsigned>(c),
                    .kind = is_code(id) ? FmiKind::integer : FmiKind::real,
@@ -94,13 +111,14 @@ FmiVariable fmi_input(const char* name, const char* key, std::string unit, doubl
           .key = key};
 }
 
-void add_inputs(const study::Scenario& s, const study::Session& open, std::vector<FmiVariable>& all) {
+void add_inputs(const study::Scenario& s, FmiChip chip, const study::Session& open,
+                std::vector<FmiVariable>& all) {
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   std::vector<FmiVariable> inputs;
   const double reference = study::reference_waveform(s).front().value, load = load_at_start(s.load);
   const std::string_view of_mode = study::reference_unit(s.control.mode);
   const base::LinearUnit unit = linear ? base::in_linear(of_mode) : base::LinearUnit{of_mode, of_mode};
-  if (s.control.mode != sixstep::control::Mode::off &&
+  if (chip != FmiChip::gates && s.control.mode != sixstep::control::Mode::off &&
       takes(open, [&](study::At& at) { at.reference = study::Reference{.value = reference}; }))
     inputs.push_back(
         fmi_input("reference", "reference.value", std::string(unit.linear), reference * unit.factor,
@@ -119,6 +137,24 @@ void add_inputs(const study::Scenario& s, const study::Session& open, std::vecto
   }
 }
 
+/// Clocks of FMI 3, and whether each is used.
+void add_clocks(std::vector<FmiVariable>& all) {
+  const auto add = [&all](const char* name, unsigned reference, FmiKind kind, FmiRole role,
+                          const char* description) {
+    all.push_back({.name = name,
+                   .reference = reference,
+                   .kind = kind,
+                   .role = role,
+                   .continuous = false,
+                   .description = description});
+  };
+  add("use_tick_clock", first_use, FmiKind::boolean, FmiRole::parameter, "whether tick_clock ticks");
+  add("use_hall_clock", first_use + 1, FmiKind::boolean, FmiRole::parameter, "whether hall_clock ticks");
+  add("tick_clock", first_clock, FmiKind::clock, FmiRole::output, "ticks at each control tick");
+  add("hall_clock", first_clock + 1, FmiKind::clock, FmiRole::output,
+      "ticks at each change of the Hall code");
+}
+
 }  // namespace
 
 const FmiUnit* fmi_unit(std::string_view name) {
@@ -126,7 +162,9 @@ const FmiUnit* fmi_unit(std::string_view name) {
   return found == std::end(fmi_units) ? nullptr : found;
 }
 
-base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scenario) {
+base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& given, FmiChip chip,
+                                                     FmiVersion version) {
+  const study::Scenario scenario = with_stand_in(given, chip);
   const base::Result<study::Session> open = study::Session::open(scenario);
   if (!open) return open.problems();
   std::vector<FmiVariable> all = {
@@ -134,8 +172,10 @@ base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scen
        .role = FmiRole::time,
        .unit = "s",
        .description = "time of the importer, at which the run began at its start time"}};
-  add_outputs(scenario, all);
-  add_inputs(scenario, *open, all);
+  add_outputs(scenario, chip, version, all);
+  add_inputs(scenario, chip, *open, all);
+  add_plant(scenario, chip, version, all);
+  if (version == FmiVersion::fmi3) add_clocks(all);
   all.push_back({.name = "digest",
                  .reference = digest_reference,
                  .kind = FmiKind::text,

@@ -2,6 +2,7 @@
 // A slice of a run: its observers and its end. A whole run is one slice, a session many.
 #pragma once
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -18,6 +19,28 @@ struct LastSegment {
   sim::Instant from;
   double part;  ///< fraction of the polynomials' length that was simulated
   int probe_sector;
+  /// Sets the columns of an encoder or a resolver. Empty: the firmware has none.
+  std::function<void(FullRow& row, const LastSegment& at, double s, double t_s)> shaft{};
+
+  /// `rig` stands before the segment.
+  template <class Rig>
+  static LastSegment of(const Rig& rig, double s) {
+    LastSegment segment{rig.plant(), rig.now(), s, rig.probe_sector()};
+    const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
+    if (ports == nullptr || ports->given().kind == rig::ShaftSensor::none) return segment;
+    segment.shaft = [ports = *ports, pole_pairs = rig.shaft_motion(s, rig.now()).pole_pairs](
+                        FullRow& row, const LastSegment& at, double part, double t_s) {
+      using Plant = std::decay_t<decltype(rig.plant())>;
+      const auto& plant = std::get<Plant>(at.plant);
+      rig::ShaftMotion<double> motion{plant.expansion(), plant.state().sector, pole_pairs, part};
+      if constexpr (requires { plant.series(); })
+        if (ports.given().on_load)
+          motion.load = {&plant.series().load_w, plant.constants().elastic ? &plant.series().twist : nullptr,
+                         plant.constants().inv_gear};
+      set_shaft_sensor(row, ports, motion, part, t_s);
+    };
+    return segment;
+  }
 
   /// Sets the moving quantities of `row` to their values at t.
   void look(FullRow& row, const sim::Instant& t) const {
@@ -29,6 +52,11 @@ struct LastSegment {
           set_load_side(row, seen, s);
         },
         plant);
+    if (shaft) shaft(row, *this, fraction(t), t.seconds());
+  }
+  double fraction(const sim::Instant& t) const {
+    return fraction(
+        std::visit([](const auto& seen) { return static_cast<double>(seen.expansion().h); }, plant), t);
   }
   double fraction(double h, const sim::Instant& t) const {
     return h > 0 ? std::clamp(sim::seconds_between(from, t) / h, 0.0, part) : 0.0;
@@ -48,7 +76,8 @@ struct Slice {
   bool whole_run = false;  ///< continues to the end of the run, whatever `until` is
   bool unread = false;     ///< no row is taken
   bool taken = false;
-  bool stopped = false;  ///< stopped by an observer before the end of the slice
+  bool stopped = false;                ///< by an observer, not at its end
+  std::optional<std::uint8_t> pins{};  ///< ends after the event that gives the Hall pins another code
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -64,13 +93,15 @@ struct Slice {
       const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
     }
-    if (unread || taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
-    last.emplace(LastSegment{rig.plant(), from, s, rig.probe_sector()});
+    // An event up to half a picosecond before `until` is followed by another segment, which is the one that counts.
+    if (unread || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
+    last.emplace(LastSegment::of(rig, s));
     take(rig, last->fraction(h, until), until.seconds());
   }
   template <class Rig>
   bool done(const Rig& rig) {
     stopped = watchers.done(rig);
+    if (pins && rig.pins() != *pins) return true;
     return stopped || (!whole_run && !(rig.now() < until));
   }
   template <class Rig>

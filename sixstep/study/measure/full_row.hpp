@@ -66,13 +66,10 @@ inline void set_load_side(FullRow& row, const plant::general::Plant<double>& pla
   if (c.has_loop) set(ColumnId::loop_A, value(plant.series().loop));
 }
 
-/// Sets the columns of an encoder or a resolver, if the firmware has one.
-template <class Rig>
-void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
-  const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
-  if (ports == nullptr || ports->given().kind == rig::ShaftSensor::none) return;
-  const auto motion = rig.shaft_motion(s, rig.now());
-  const rig::ShaftRaw raw = rig::shaft_raw(*ports, motion.angle(s), sim::to_instant(t));
+/// Sets the columns of an encoder or a resolver.
+inline void set_shaft_sensor(FullRow& row, const rig::ShaftPorts& ports,
+                             const rig::ShaftMotion<double>& motion, double s, double t) {
+  const rig::ShaftRaw raw = rig::shaft_raw(ports, motion.angle(s), sim::to_instant(t));
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
   set(ColumnId::encoder_A, raw.lines >> 2 & 1);
   set(ColumnId::encoder_B, raw.lines >> 1 & 1);
@@ -80,6 +77,14 @@ void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
   set(ColumnId::absolute_code, raw.code);
   set(ColumnId::resolver_cos_V, raw.winding_V[0]);
   set(ColumnId::resolver_sin_V, raw.winding_V[1]);
+}
+
+/// The same, if the firmware has one.
+template <class Rig>
+void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
+  const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
+  if (ports != nullptr && ports->given().kind != rig::ShaftSensor::none)
+    set_shaft_sensor(row, *ports, rig.shaft_motion(s, rig.now()), s, t);
 }
 
 inline void set_field(FullRow& row, const rig::FieldTelemetry& held) {

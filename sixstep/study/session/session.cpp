@@ -170,6 +170,26 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
 bool Session::advance(double to_s) { return go(sim::to_instant(to_s), true); }
 bool Session::skip(double to_s) { return go(sim::to_instant(to_s), false); }
 bool Session::advance_to_tick() { return go(state_->tick_after(sim::to_instant(state_->present.t_s)), true); }
+bool Session::advance_to_hall_edge(double to_s) {
+  State& s = *state_;
+  const auto hall = static_cast<std::size_t>(ColumnId::hall);
+  const double before = s.present.signals[hall];
+  const Instant to = sim::to_instant(to_s);
+  if (!s.over &&
+      s.now() < to) {  // the event that ended the last slice may be an edge, and lies after present()
+    Present here;
+    Slice look{s.watchers, here, s.last, s.now(), s.reach, s.period()};
+    s.run->look(look);
+    if (here.signals[hall] != before) {
+      s.present = here;
+      return true;
+    }
+  }
+  return go(to, true, static_cast<std::uint8_t>(before));
+}
+double Session::tick_after_s(double at_s) const {
+  return state_->tick_after(sim::to_instant(at_s)).seconds();
+}
 bool Session::at_tick() const {
   const Instant now = state_->now(), next = state_->run->next_tick();
   return !state_->over && !(now < next) && !(next < now) && state_->is_tick(now) &&
@@ -182,7 +202,7 @@ void Session::call_controller() const {
   s.run->look(here);
 }
 
-bool Session::go(const Instant& asked, bool read) {
+bool Session::go(const Instant& asked, bool read, std::optional<std::uint8_t> pins) {
   State& s = *state_;
   const Instant end = s.compiled->end;
   const bool to_end = !(asked < end);
@@ -195,12 +215,18 @@ bool Session::go(const Instant& asked, bool read) {
   }
   Slice slice = s.slice(to_end ? end : asked);
   slice.unread = !read;
+  slice.pins = pins;
   if (!read) s.last.reset();
   s.stop = s.now() < slice.until ? s.run->advance(end, slice) : sim::Stop::observer;
-  // Carries out actions that are due at the end of the run.
-  if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = s.run->advance(end, slice);
+  // Actions due at the end of the run are done.
+  const bool at_end = !(s.now() < end);
+  if (at_end && s.stop == sim::Stop::observer && !slice.stopped && to_end)
+    s.stop = s.run->advance(end, slice);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
-  if (!slice.taken && read) s.run->look(slice);
+  if (!slice.taken && read) {
+    if (pins) s.last.reset();  // it is of an earlier segment
+    s.run->look(slice);
+  }
   return !s.over;
 }
 

@@ -7,7 +7,9 @@
 // - Copy: a session is a value. A copy is a saved state, and continues independently.
 // - Replay: run(session.scenario()) has the digest of the session, if that was run to its end or closed.
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "sixstep/study/measure/present.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -41,10 +43,15 @@ class Session {
   /// Advances to the next control tick after the present instant and reads it. The controller has not yet
   /// acted at this tick. Returns false like advance().
   bool advance_to_tick();
-  /// Whether the present instant is a control tick at which the controller has not yet acted.
+  /// Advances to the event that gives the Hall pins another code than at the present instant, or to to_s if none comes before.
+  /// False as by advance().
+  bool advance_to_hall_edge(double to_s);
+  /// Whether the present instant is a control tick on which the controller has not yet acted.
   bool at_tick() const;
-  /// Calls the controller with the measurement of the present instant, in a copy of the controller's state,
-  /// so that the session stays unchanged. The session must be at_tick().
+  /// Instant of the first control tick after an instant.
+  double tick_after_s(double at_s) const;
+  /// Calls the controller with the measurement of the present instant, in a copy of its state: the session is
+  /// unchanged. The session must be at_tick().
   void call_controller() const;
 
   /// Changes values at the next control tick, and returns its time in s, which scenario() has as well.
@@ -72,7 +79,7 @@ class Session {
   struct State;
   explicit Session(std::unique_ptr<State> state);
   double period_s() const;
-  bool go(const sim::Instant& asked, bool read);
+  bool go(const sim::Instant& asked, bool read, std::optional<std::uint8_t> pins = {});
 
   std::unique_ptr<State> state_;
 };

@@ -223,7 +223,8 @@ MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tou
 # Pages and tables of definitions: names, formulas, commands, exit codes, and pages of code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
-DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/run-a-firmware", "sixstep_status hal_run"), ("docs/howto/run-a-firmware", "static void advance"),
+DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
+            ("docs/howto/use-from-octave-and-simulink.md", ""), ("docs/howto/run-a-firmware", "sixstep_status hal_run"), ("docs/howto/run-a-firmware", "static void advance"),
             ("docs/howto/run-a-firmware", "| file in "), ("docs/howto/run-a-firmware", "| function or macro |"), ("docs/reference/glossary.md", "| term |"),
             ("docs/howto/record-a-motor.md", "| column |"), ("docs/howto/measure-a-frequency-response.md", "| what stands there |"), ("docs/howto/commission-a-drive.md", "| phase |"),
             ("docs/howto/read-the-curve.md", "| row |"), ("docs/howto/read-the-curve.md", "| column |"), ("docs/reference/product-drive.md", "| limit |"), ("docs/howto/put-a-controller-on-a-chip.md", "| what | exit code |"),

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// Variables of a unit without controller: the importer sets gates, a pair or legs, and reads what a controller measures.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/control/own/own_controller.h"
+#include "text/export/fmi_variables.hpp"
+
+namespace text {
+namespace {
+
+using study::ColumnId;
+
+/// First references, as in faces/fmu/plant.h.
+constexpr unsigned first_gate = 1100, first_of_pair = 1110, first_of_legs = 1120, first_measured = 1200,
+                   first_count = 1300;
+
+const char* stand_in_design(const sixstep_given*, const sixstep_real*, void*) { return nullptr; }
+void stand_in_step(const void*, void*, const sixstep_measured*, sixstep_real, sixstep_answer*) {}
+
+constexpr sixstep_controller stand_in(std::uint32_t answers) {
+  return {.interface = SIXSTEP_OWN_INTERFACE,
+          .answers = answers,
+          .name = "importer",
+          .sentence = "is the program that imports the unit",
+          .config_bytes = 0,
+          .state_bytes = 0,
+          .parameters = 0,
+          .parameter = nullptr,
+          .design = stand_in_design,
+          .start = nullptr,
+          .step = stand_in_step,
+          .hall = nullptr};
+}
+
+/// Adds variables one by one, with consecutive references.
+class PlantVariables {
+ public:
+  PlantVariables(FmiVersion version, std::vector<FmiVariable>& all) : version_(version), all_(all) {}
+
+  void at(unsigned reference) { next_ = reference; }
+  void input(FmiKind kind, const char* name, const char* unit, std::string description) {
+    add({.name = name,
+         .kind = kind,
+         .role = FmiRole::input,
+         .unit = unit,
+         .description = std::move(description)});
+  }
+  void output(FmiKind kind, const char* name, const char* unit, std::string description) {
+    add({.name = name, .kind = kind, .unit = unit, .description = std::move(description)});
+  }
+  /// FMI 3: one array; FMI 2: a scalar for each of a, b, c, with its letter in the place of {} in `one`.
+  void three(FmiRole role, FmiKind kind, const char* array, fmt::format_string<std::string_view&> one,
+             const char* unit, const std::string& description) {
+    const FmiVariable like{.name = {}, .kind = kind, .role = role, .unit = unit};
+    if (version_ == FmiVersion::fmi3) return add(like, array, description + ", of a, b, c", 3);
+    for (std::string_view phase : {"a", "b", "c"})
+      add(like, fmt::format(one, phase), fmt::format("{}, of {}", description, phase), 1);
+  }
+  void add(FmiVariable like, std::string name, std::string description, int count) {
+    like.name = std::move(name);
+    like.description = std::move(description);
+    like.count = count;
+    add(std::move(like));
+  }
+
+ private:
+  void add(FmiVariable variable) {
+    variable.reference = next_;
+    variable.continuous = false;
+    next_ += static_cast<unsigned>(variable.count);
+    all_.push_back(std::move(variable));
+  }
+
+  FmiVersion version_;
+  std::vector<FmiVariable>& all_;
+  unsigned next_ = 0;
+};
+
+void add_gates(FmiVersion version, PlantVariables& plant) {
+  constexpr const char* which[] = {"a_upper", "a_lower", "b_upper", "b_lower", "c_upper", "c_lower"};
+  constexpr std::string_view acts =
+      "acts at the communication point at which it was set; dead time is the importer's";
+  const FmiVariable like{.name = {}, .kind = FmiKind::boolean, .role = FmiRole::input};
+  plant.at(first_gate);
+  if (version == FmiVersion::fmi3)
+    return plant.add(like, "gates",
+                     fmt::format("gates: upper a, lower a, upper b, lower b, upper c, lower c; {}", acts), 6);
+  for (const char* gate : which)
+    plant.add(like, fmt::format("gate_{}", gate), fmt::format("gate of one switch; {}", acts), 1);
+}
+
+constexpr const char* enabled_words =
+    "false: all six gates off. Acts at the control tick at or after its communication point";
+
+void add_pair(PlantVariables& plant) {
+  using enum FmiKind;
+  plant.at(first_of_pair);
+  plant.input(boolean, "enabled", "", enabled_words);
+  plant.input(integer, "source", "",
+              "leg whose upper switch carries the current to the motor: 0, 1, 2 are a, b, c");
+  plant.input(integer, "sink", "", "leg whose lower switch carries it back");
+  plant.input(integer, "chopping", "", "off part of the period: 0 soft, 1 hard, 2 complementary");
+  plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper one, 1 the lower one");
+  plant.input(real, "duty", "1", "duty, 0 to 1");
+  plant.input(real, "overlap", "1",
+              "-1 to 1: duty of the third leg's upper switch; below 0: of its lower one");
+}
+
+void add_legs(PlantVariables& plant) {
+  using enum FmiKind;
+  plant.at(first_of_legs);
+  plant.input(boolean, "enabled", "", enabled_words);
+  plant.three(FmiRole::input, integer, "leg_states", "leg_{}_state", "",
+              "0 off, 1 low, 2 high, 3 chopped by its duty");
+  plant.three(FmiRole::input, integer, "leg_switches", "leg_{}_switches", "",
+              "switches of the pulse: 0 complementary, 1 upper, 2 lower, 3 lower first");
+  plant.three(FmiRole::input, real, "leg_duties", "leg_{}_duty", "1", "duty, 0 to 1");
+}
+
+void add_measured(PlantVariables& plant) {
+  using enum FmiKind;
+  plant.at(first_measured);
+  plant.three(FmiRole::output, real, "measured_currents_A", "measured_i_{}_A", "A",
+              "phase current as the controller measures it at the last control tick");
+  plant.output(real, "measured_speed_rad_s", "rad/s", "speed as measured at the last control tick");
+  plant.output(real, "measured_position_deg", "deg", "position as measured, counted over turns");
+  plant.output(real, "measured_bus_V", "V", "bus voltage as measured");
+  plant.output(real, "measured_magnet_cos", "1",
+               "cosine of the magnet's electrical angle from phase a, as measured");
+  plant.output(real, "measured_magnet_sin", "1",
+               "sine of the magnet's electrical angle from phase a, as measured");
+  plant.output(integer, "measured_hall", "", "Hall code as measured, H1 H2 H3 as bits 2, 1, 0");
+  plant.output(real, "setpoint", "",
+               "the scenario's reference at the last control tick, in the unit of control.mode");
+}
+
+/// The converters have a count only without the lags that sixstep_convert() refuses.
+void add_counts(const study::Scenario& s, PlantVariables& plant) {
+  using enum FmiKind;
+  if (s.sensors.current_bandwidth_Hz || s.sensors.current_delay_s > 0 || s.sensors.bus_bandwidth_Hz) return;
+  const std::string when = ", at each communication point";
+  if (s.sensors.currents == sixstep::rig::CurrentMeasurement::phases) {
+    plant.at(first_count);
+    plant.three(FmiRole::output, integer, "current_counts", "current_counts_{}", "",
+                "counts of the current's converter" + when);
+  }
+  if (!s.sensors.bus_range_V) return;
+  plant.at(first_count + 3);
+  plant.three(FmiRole::output, integer, "terminal_counts", "terminal_counts_{}", "",
+              "counts of the terminal's voltage, with the bus's divider" + when);
+  plant.output(integer, "bus_counts", "", "counts of the bus voltage" + when);
+}
+
+void add_encoder(const study::Scenario& s, PlantVariables& plant, std::vector<FmiVariable>& all) {
+  if (s.sensors.rotor != study::RotorSensing::encoder || s.sensors.shaft != study::SensorShaft::motor ||
+      s.sheet.kind == design::MotorKind::linear)
+    return;
+  plant.at(first_count + 7);
+  plant.output(
+      FmiKind::integer, "encoder_count", "",
+      "quarters of a line of an encoder on the motor's shaft, counted over turns, without missed edges");
+  all.back().factor = 4 * s.sensors.encoder.lines / (2 * sixstep::base::pi);
+}
+
+}  // namespace
+
+study::Scenario with_stand_in(study::Scenario s, FmiChip chip) {
+  static constexpr sixstep_controller pair = stand_in(SIXSTEP_ANSWERS_PAIR),
+                                      legs = stand_in(SIXSTEP_ANSWERS_LEGS);
+  if (chip != FmiChip::pair && chip != FmiChip::legs) return s;
+  s.control.drive = study::FirmwareKind::own;
+  s.control.own = {.controller = "importer", .number = {}, .loaded = chip == FmiChip::legs ? &legs : &pair};
+  return s;
+}
+
+bool is_of_plant(ColumnId id, FmiChip chip) {
+  using enum ColumnId;
+  if (chip == FmiChip::of_scenario) return true;
+  if (chip == FmiChip::gates && id >= encoder_A) return false;  // the board's peripheral is the controller's
+  return !(id >= duty && id <= position_ref) && id < i_d;
+}
+
+void add_plant(const study::Scenario& s, FmiChip chip, FmiVersion version, std::vector<FmiVariable>& all) {
+  PlantVariables plant(version, all);
+  switch (chip) {
+    case FmiChip::of_scenario:
+      return;
+    case FmiChip::gates:
+      add_gates(version, plant);
+      break;
+    case FmiChip::pair:
+      add_pair(plant);
+      break;
+    case FmiChip::legs:
+      add_legs(plant);
+      break;
+  }
+  if (chip != FmiChip::gates) add_measured(plant);
+  add_counts(s, plant);
+  add_encoder(s, plant, all);
+}
+
+}  // namespace text
