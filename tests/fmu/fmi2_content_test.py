@@ -20,6 +20,9 @@ class Description(unittest.TestCase):
         for file in [*FILES[::6], SPEED]:
             with self.subTest(file.stem):
                 self.check(exported(file))
+        for inputs in ("gates", "pair", "legs"):
+            with self.subTest(inputs):
+                self.check(exported(SPEED, "--kind", "plant", "--inputs", inputs, name=inputs))
 
     def check(self, unit):
         root = unit.description
@@ -52,7 +55,8 @@ class Description(unittest.TestCase):
         if causality == "input":
             self.assertIsNone(initial, "an input has no initial")
             self.assertIsNotNone(start, "an input has a start")
-            self.assertEqual(repr(float(start)), repr(float(f"{float(start):.17g}")))
+            if of.tag == "Real":
+                self.assertEqual(repr(float(start)), repr(float(f"{float(start):.17g}")))
         else:
             self.assertIsNone(start, "calculated and independent variables have none")
             self.assertEqual(initial, "calculated" if causality == "output" else None)

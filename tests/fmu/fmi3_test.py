@@ -110,8 +110,9 @@ class Fmi3(unittest.TestCase):
         self.assertEqual(Instance(unit).begin().run(1e-4, unit.stop()).digest(), ran(CURRENT)["digest"])
 
     def test_the_description_holds_the_rules_of_the_standard(self):
-        for file in [*FILES[::9], CURRENT]:
-            root = exported(file).description
+        plants = [(CURRENT, "--kind", "plant", "--inputs", inputs) for inputs in ("gates", "pair", "legs")]
+        for words in [*((file,) for file in FILES[::9]), (CURRENT,), *plants]:
+            root = exported(*words).description
             self.assertEqual((root.tag, root.get("fmiVersion")), ("fmiModelDescription", "3.0"))
             self.assertEqual([child.tag for child in root], ["CoSimulation", "UnitDefinitions", "LogCategories", "DefaultExperiment", "ModelVariables",
                                                              "ModelStructure"])

@@ -26,6 +26,7 @@ share/zsh/site-functions/_sixstep
 share/doc/sixstep/copyright
 share/doc/sixstep/changelog.gz
 share/sixstep/README.md
+share/sixstep/octave/sixstep.m
 share/sixstep/sixstep_control.hpp""".splitlines()
 FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
            "faces/loop/core", "sixstep/control"]

@@ -6,6 +6,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/own/own_controller.h"
+#include "sixstep/study/scenario/choices.hpp"
 #include "text/export/fmi_variables.hpp"
 
 namespace text {
@@ -48,8 +49,8 @@ class PlantVariables {
          .unit = unit,
          .description = std::move(description)});
   }
-  void output(FmiKind kind, const char* name, const char* unit, std::string description) {
-    add({.name = name, .kind = kind, .unit = unit, .description = std::move(description)});
+  void output(FmiKind kind, const char* name, std::string unit, std::string description) {
+    add({.name = name, .kind = kind, .unit = std::move(unit), .description = std::move(description)});
   }
   /// FMI 3: one array; FMI 2: a scalar for each of a, b, c, with its letter in the place of {} in `one`.
   void three(FmiRole role, FmiKind kind, const char* array, fmt::format_string<std::string_view&> one,
@@ -120,7 +121,7 @@ void add_legs(PlantVariables& plant) {
   plant.three(FmiRole::input, real, "leg_duties", "leg_{}_duty", "1", "duty, 0 to 1");
 }
 
-void add_measured(PlantVariables& plant) {
+void add_measured(const study::Scenario& s, PlantVariables& plant) {
   using enum FmiKind;
   plant.at(first_measured);
   plant.three(FmiRole::output, real, "measured_currents_A", "measured_i_{}_A", "A",
@@ -133,7 +134,7 @@ void add_measured(PlantVariables& plant) {
   plant.output(real, "measured_magnet_sin", "1",
                "sine of the magnet's electrical angle from phase a, as measured");
   plant.output(integer, "measured_hall", "", "Hall code as measured, H1 H2 H3 as bits 2, 1, 0");
-  plant.output(real, "setpoint", "",
+  plant.output(real, "setpoint", std::string(study::reference_unit(s.control.mode)),
                "the scenario's reference at the last control tick, in the unit of control.mode");
 }
 
@@ -198,7 +199,7 @@ void add_plant(const study::Scenario& s, FmiChip chip, FmiVersion version, std::
       add_legs(plant);
       break;
   }
-  if (chip != FmiChip::gates) add_measured(plant);
+  if (chip != FmiChip::gates) add_measured(s, plant);
   add_counts(s, plant);
   add_encoder(s, plant, all);
 }
