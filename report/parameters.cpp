@@ -97,6 +97,7 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
   html += row("Largest efficiency", s.max_efficiency_percent, "%");
   html += row("Speed/torque gradient", s.speed_torque_gradient_rpm_mNm, "rpm/mNm", "mechanical");
   html += row("Mechanical time constant τ<sub>m</sub>", s.mechanical_time_constant_ms, "ms");
+  html += row("Electrical time constant τ<sub>e</sub>", s.electrical_time_constant_ms, "ms");
   html += row("Largest speed", s.max_speed_rpm, "rpm", "mechanical");
   html += row("Thermal resistance, winding to housing", s.thermal_resistance_winding_housing_K_W, "K/W");
   html += row("Thermal resistance, housing to ambient", s.thermal_resistance_housing_ambient_K_W, "K/W");

@@ -14,15 +14,15 @@
 namespace report {
 namespace {
 
-/// A note on a stretch that is less than a whole turn: a curve then ends at another value than it began with,
+/// A note on a stretch of fewer than two turns: a curve then ends at another value than it began with,
 /// and its strongest lines are those of this jump.
 std::string cut_short(const Stretch& stretch) {
   constexpr double least_turn = 0.01;  // a held rotor that trembles has no electrical frequency
   if (!(stretch.part > least_turn)) return "";
   return fmt::format(
-      "<p class=\"alert\">The stretch holds {} of an electrical turn only. Lines of the electrical frequency and its "
+      "<p class=\"alert\">The stretch holds only {} electrical turns, fewer than two. Lines of the electrical frequency and its "
       "multiples are not resolved: a strong line below the PWM may come from where the stretch begins and ends. A "
-      "longer run shows whole turns.</p>\n",
+      "longer run shows more turns.</p>\n",
       escaped(plain(stretch.part, 2)));
 }
 
@@ -44,7 +44,8 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
   const double seconds = s.stretch.time.to - s.stretch.time.from;
   const Causes causes{.turns = s.stretch.turns,
                       .periods = s.period_s > 0.0 ? seconds / s.period_s : 0.0,
-                      .heat_steps = s.heat_step_s > 0.0 ? seconds / s.heat_step_s : 0.0};
+                      .heat_steps = s.heat_step_s > 0.0 ? seconds / s.heat_step_s : 0.0,
+                      .mains = seconds * s.mains_Hz};
   std::string rows;
   for (std::size_t n = 0; n < std::min(most, d.lines.tones.size()); ++n) {
     const Tone& tone = d.lines.tones[n];
@@ -78,9 +79,13 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
   if (!stretch) return std::nullopt;
   const bool free_running = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                             scenario.control.mode >= sixstep::control::Mode::current;
+  using sixstep::study::SourceKind;
+  const bool mains =
+      scenario.supply.source == SourceKind::single_phase || scenario.supply.source == SourceKind::three_phase;
   Spectra out{*stretch,
               free_running ? 0.0 : scenario.pwm.period_s,
               scenario.heat.motor || scenario.heat.devices ? scenario.heat.step_s : 0.0,
+              mains ? scenario.supply.mains_Hz : 0.0,
               {}};
   const auto& time = *find_column(trace, "t_s");
   for (const Wanted& w : wanted) {

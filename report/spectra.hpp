@@ -19,6 +19,7 @@ struct Spectra {
   Stretch stretch;
   double period_s = 0.0;     ///< period of the PWM; 0 if comparators switch
   double heat_step_s = 0.0;  ///< step of the thermal model, which changes the resistance; 0 without it
+  double mains_Hz = 0.0;     ///< 0: the bus has another source
   std::vector<DrawnSpectrum> all;
 };
 

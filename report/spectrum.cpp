@@ -107,8 +107,9 @@ std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
     const double whole = std::trunc(turned);
     const auto from =
         last_crossing(*time, *angle, angle->back() - whole * 2 * pi / pole_pairs, out.time.from);
-    if (whole == 0.0) out.part = std::abs(turned);
-    if (whole != 0.0 && from) out = {{*from, end}, std::llabs(static_cast<long long>(whole))};
+    const bool enough = std::abs(whole) >= fewest_turns;
+    if (!enough) out.part = std::abs(turned);
+    if (enough && from) out = {{*from, end}, std::llabs(static_cast<long long>(whole))};
   }
   if (out.time.to - out.time.from < fewest_periods * scenario.pwm.period_s) return std::nullopt;
   return out;
@@ -194,6 +195,10 @@ Origin origin_of(double at, const Causes& causes) {
   // At high orders every line is near some multiple.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return {order == 1.0 ? "electrical, the fundamental" : times(order, "electrical"), order * electrical};
+  // Full-wave rectified mains pulsate at multiples of twice the mains' frequency.
+  const double mains = causes.mains > 0.0 ? 2 * std::round(at / (2 * causes.mains)) : 0.0;
+  if (mains >= 1.0 && mains <= 60.0 && std::abs(at - mains * causes.mains) <= near)
+    return {times(mains, "mains"), mains * causes.mains};
   const double step = causes.heat_steps > 0.0 ? std::round(at / causes.heat_steps) : 0.0;
   if (step >= 1.0 && std::abs(at - step * causes.heat_steps) <= near)
     return {times(step, "step of the thermal model"), step * causes.heat_steps};

@@ -12,13 +12,17 @@
 
 namespace report {
 
+/// Fewest electrical turns that resolve the electrical frequency. The first line is left out, because a drift over the
+/// stretch appears there; with one turn it would be the fundamental.
+inline constexpr double fewest_turns = 2.0;
+
 /// The stretch of time from which a spectrum is computed: the later half of the last interval with one
 /// setpoint, at most 4096 PWM periods. If the rotor turns, it is shortened to whole electrical turns, so that
 /// harmonics of the electrical frequency coincide with lines.
 struct Stretch {
   Interval time;
   long long turns = 0;  ///< number of electrical turns
-  double part = 0.0;    ///< fraction of an electrical turn, if the stretch is shorter than one turn
+  double part = 0.0;    ///< electrical turns, if the stretch has fewer than `fewest_turns`
 };
 /// The stretch. Empty if it is shorter than 64 PWM periods, which do not resolve frequencies.
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
@@ -54,6 +58,7 @@ struct Causes {
   long long turns = 0;      ///< electrical
   double periods = 0.0;     ///< of the PWM
   double heat_steps = 0.0;  ///< of the thermal model
+  double mains = 0.0;       ///< of the mains behind a rectifier
 };
 /// "6 × electrical", "PWM", "PWM − 2 × electrical", "2 × step of the thermal model", "beside 3 × PWM"; empty for
 /// any other line. The line of a named cause is exact; that of any other tone is where it was found.

@@ -18,6 +18,7 @@
 #include "text/keys/key_advice.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/results/optimum_text.hpp"
+#include "text/results/plan_text.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace cli {
@@ -139,7 +140,10 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (const base::Problems unwritten = write(outputs, *plan, *best, json); !unwritten.empty())
     return refused(unwritten);
   if (a.json == "-") print(json);
-  if (!a.quiet) print(text::optimum_text(story, *best), a.json == "-" ? stderr : stdout);
+  const std::string drawn = text::drawn_text(
+      text::drive_spreads(plan->nominal, *plan->columns),
+      plan->scenarios->made_of().sheet_tolerances ? analysis::tolerances_not_drawn(plan->nominal) : "");
+  if (!a.quiet) print(drawn + text::optimum_text(story, *best), a.json == "-" ? stderr : stdout);
   return best->holds ? Exit::ok : Exit::failed;
 }
 

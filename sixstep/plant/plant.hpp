@@ -232,6 +232,9 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   return now;
 }
 
+// Defined once, in snapshot.cpp, for sources that are compiled for size use it, too.
+extern template Snapshot<double> Plant<double>::at(double) const;
+
 }  // namespace sixstep::plant
 
 #include "sixstep/plant/plant_changes.hpp"

@@ -51,18 +51,18 @@ TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
   EXPECT_THAT(html, Not(HasSubstr("<table")));
 }
 
-/// Two pole pairs turn by 0.38 of an electrical turn in the later half of the run, then by none, and by more
-/// than a whole one.
-TEST(Spectra, less_than_an_electrical_turn_is_told) {
-  for (const double turned : {0.38, 0.0, 1.2}) {
+/// Two pole pairs turn by 0.38 of an electrical turn in the later half of the run, by none, by one and by more than two. With one turn
+/// the fundamental would be the line that is left out.
+TEST(Spectra, fewer_than_two_electrical_turns_are_told) {
+  for (const double turned : {0.38, 0.0, 1.2, 2.4}) {
     sixstep::study::Trace trace = trace_of(rounding, tone);
     trace.columns.push_back({"angle_rad", "", "", ""});
     trace.values.emplace_back();
     for (const double t : trace.values[0]) trace.values.back().push_back(2 * t * turned * 2 * M_PI / 2);
     const std::string html = spectra_section(spectra(trace, scenario(), 2));
-    const char* told = "holds 0.38 of an electrical turn only";
-    EXPECT_EQ(html.find(told) != std::string::npos, turned == 0.38) << html;
-    EXPECT_EQ(html.find("electrical turn only") != std::string::npos, turned == 0.38) << html;
+    EXPECT_EQ(html.find("holds only 0.38 electrical turns") != std::string::npos, turned == 0.38) << html;
+    EXPECT_EQ(html.find("holds only 1.2 electrical turns") != std::string::npos, turned == 1.2) << html;
+    EXPECT_EQ(html.find("fewer than two") != std::string::npos, turned > 0.0 && turned < 2.0) << html;
   }
 }
 
@@ -88,6 +88,15 @@ TEST(Spectra, the_steps_of_the_thermal_model_are_named) {
   s.heat.motor = true;
   EXPECT_THAT(spectra_section(spectra(trace_of(rounding, tone), s, 2)),
               HasSubstr("<td>step of the thermal model</td>"));
+}
+
+/// Two diodes in series conduct in each half of the mains' period: the bus pulsates at twice 50 Hz and its multiples.
+TEST(Spectra, multiples_of_twice_the_mains_are_named) {
+  EXPECT_EQ(origin_of(100.1, {.mains = 50.0}).name, "2 × mains");
+  EXPECT_EQ(origin_of(100.1, {.mains = 50.0}).line, 100.0);
+  EXPECT_EQ(origin_of(300.0, {.mains = 50.0}).name, "6 × mains");
+  EXPECT_EQ(origin_of(150.0, {.mains = 50.0}).name, "");
+  EXPECT_EQ(origin_of(100.0, {}).name, "");
 }
 
 TEST(Spectra, a_tone_is_one_from_a_billionth_of_its_unit_on) {

@@ -235,7 +235,7 @@ TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
       const auto out = study::run(s);
       EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
       const bool told = out && std::any_of(out->remarks.begin(), out->remarks.end(), [](const auto& text) {
-                          return text.find("\"overlap\" lowers the torque at") != text.npos;
+                          return text.find("\"overlap\" lowers the torque near") != text.npos;
                         });
       return std::pair(out ? out->comparisons[0].measured : 0.0, told);
     };

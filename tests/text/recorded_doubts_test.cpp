@@ -176,7 +176,7 @@ TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
   star.between = analysis::EmfBetween::star;
   EXPECT_THAT(seen(both).channels, ElementsAre("u_a", "u_b", "u_c"));
   EXPECT_THAT(seen(both).notes,
-              ElementsAre("not used: u_ab (between terminals; those against one point are used)"));
+              ElementsAre("not used: u_ab (a line-to-line voltage; those of terminals are used)"));
   EXPECT_THAT(seen(both, star).channels, ElementsAre("u_a", "u_b", "u_c"));
   EXPECT_THAT(seen(both, between_lines).channels, ElementsAre("u_ab"));
   EXPECT_NEAR(seen(both).line_peak_mV_s, seen(both, between_lines).line_peak_mV_s, 1e-3);

@@ -104,15 +104,6 @@ std::string part(const analysis::Estimated& e) {
   return fmt::format("{:.3f} ({:.3f} .. {:.3f})", e.value, e.low, e.high);
 }
 
-/// The spread of each drive's values, before the table.
-std::string drives_text(const PlanStory& story) {
-  std::string text;
-  for (const DriveSpread& one : story.spread)
-    text += fmt::format("{}{} {}", text.empty() ? "each drive: " : ", ", visible(one.key), one.width);
-  if (!text.empty() && !story.not_drawn.empty()) text += "\nnot drawn: " + story.not_drawn;
-  return text.empty() ? "" : text + "\n";
-}
-
 std::string index_table(const PlanStory& story) {
   std::string text;
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f) {
@@ -139,6 +130,14 @@ std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStor
   return analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
 }
 
+std::string drawn_text(const std::vector<DriveSpread>& spread, const std::string& not_drawn) {
+  std::string text;
+  for (const DriveSpread& one : spread)
+    text += fmt::format("{}{} {}", text.empty() ? "each drive: " : ", ", visible(one.key), one.width);
+  if (!text.empty() && !not_drawn.empty()) text += "\nnot drawn: " + not_drawn;
+  return text.empty() ? "" : text + "\n";
+}
+
 std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario,
                                        const analysis::PlanColumns& columns) {
   std::vector<DriveSpread> all;
@@ -156,10 +155,11 @@ std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario,
 std::string plan_table(const PlanStory& story) {
   if (story.series.runs > 0 && !story.plan.axes.empty() &&
       analysis::points_of(story.plan) <= most_points_shown)
-    return drives_text(story) + point_table(story);
+    return drawn_text(story.spread, story.not_drawn) + point_table(story);
   const std::string indices =
       story.series.runs > 0 && story.plan.sampling == analysis::Sampling::saltelli ? index_table(story) : "";
-  return drives_text(story) + indices + series_table(story.name, story.series, story.plan);
+  return drawn_text(story.spread, story.not_drawn) + indices +
+         series_table(story.name, story.series, story.plan);
 }
 
 }  // namespace text

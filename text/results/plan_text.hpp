@@ -20,6 +20,8 @@ struct DriveSpread {
 
 /// The spreads of the columns' keys.
 std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario, const analysis::PlanColumns& columns);
+/// "each drive: KEY +-10 %, .." and what is not drawn, each with its reason; empty where drives do not differ.
+std::string drawn_text(const std::vector<DriveSpread>& spread, const std::string& not_drawn);
 
 inline constexpr const char* too_few_points =
     "too few points: an index is negative or above its total, or the first order adds up to more than 1";

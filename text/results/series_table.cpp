@@ -161,7 +161,10 @@ std::string stopped_text(const analysis::Series& series, const analysis::Plan& p
 std::string remarks_text(const analysis::Series& series, const analysis::Plan& plan) {
   std::string text;
   for (const analysis::SeriesRemark& r : series.remarks)
-    text += fmt::format("  remark, {}: {}\n", those(r.numbers, series, plan), visible(r.text));
+    text += fmt::format(
+        "  remark, {}{}: {}\n", those(r.numbers, series, plan),
+        r.differs ? fmt::format(" (its numbers are those of {} {})", one_of(plan), r.numbers.front()) : "",
+        visible(r.text));
   return text;
 }
 

@@ -164,9 +164,8 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
     return base::Problem{"current_A", base::written(I),
                          "must be above 0 and at most the " + base::rounded(most_A, 4) +
                              " A at which the bus drives the motor at rest and its rotor stays in the field",
-                         nominal.printed
-                             ? "remove it for twice the sheet's nominal current"
-                             : "remove it for a fifth of the current at full duty through the motor at rest"};
+                         nominal.printed ? "remove it for twice the sheet's nominal current"
+                                         : "remove it for the default, at most half of that bound"};
   return TestCurrentFrom{I, from};
 }
 

@@ -24,6 +24,7 @@ void add_remark(std::vector<SeriesRemark>& remarks, const std::string& text, std
       remarks, [&text](const SeriesRemark& r) { return differs_in_numbers_alone(r.text, text); });
   if (known == remarks.end()) return void(remarks.push_back({text, {number}}));
   if (known->numbers.back() != number) known->numbers.push_back(number);
+  known->differs = known->differs || known->text != text;
 }
 
 }  // namespace

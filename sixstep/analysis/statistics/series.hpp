@@ -38,6 +38,7 @@ struct Casualty {
 struct SeriesRemark {
   std::string text;                  ///< text as its first run has it
   std::vector<std::size_t> numbers;  ///< numbers of the runs that have it
+  bool differs = false;              ///< some of them have it with other numbers in its text
 };
 
 struct Series {

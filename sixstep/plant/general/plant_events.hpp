@@ -209,4 +209,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   return now;
 }
 
+// Defined once, in plant/snapshot.cpp.
+extern template Snapshot<double> Plant<double>::at(double) const;
+
 }  // namespace sixstep::plant::general

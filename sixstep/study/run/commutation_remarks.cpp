@@ -53,11 +53,13 @@ std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
          "it stays in effect for up to one period after the commutation has ended";
 }
 
+/// The ripple of the current makes the overlap lower the torque from slightly below that speed.
+constexpr double near_it = 0.98;
+
 double longest_overlap_rad_s(const design::MotorModel& motor, double current_A, double bus_V) {
-  constexpr double ripple = 0.97;
   const plant::Machine& m = motor.machine;
   const double per_rad_s = m.pole_pairs * m.L_H * current_A / (base::pi / 3);
-  return ripple * (bus_V - 1.5 * m.R_ohm * current_A) / (per_rad_s + emf_share(motor) * m.K_e_V_s);
+  return near_it * (bus_V - 1.5 * m.R_ohm * current_A) / (per_rad_s + emf_share(motor) * m.K_e_V_s);
 }
 
 std::string on_long_overlap(const Scenario& s, const design::MotorModel& motor, double bus_V,
@@ -68,14 +70,17 @@ std::string on_long_overlap(const Scenario& s, const design::MotorModel& motor, 
   const plant::Machine& m = motor.machine;
   const double left_V = bus_V - emf_share(motor) * m.K_e_V_s * w.held_rad_s - 1.5 * m.R_ohm * w.held_A;
   const double sector_s = base::pi / 3 / (m.pole_pairs * w.held_rad_s);
-  std::string text = named(s) + " lowers the torque at " + few_digits(w.held_rad_s) +
-                     " rad/s and a reference of " + few_digits(w.held_A) + " A: ";
-  text += left_V > 0.0 ? "the leaving phase's current takes " + few_digits(1e3 * m.L_H * w.held_A / left_V) +
-                             " ms to end, and a sector lasts " + few_digits(1e3 * sector_s) + " ms"
-                       : "the leaving phase's current does not end within a sector";
+  std::string text =
+      named(s) +
+      " lowers the torque near and above the speed at which the leaving phase's current takes a sector to "
+      "end: at " +
+      few_digits(w.held_rad_s) + " rad/s and a reference of " + few_digits(w.held_A) + " A ";
+  text += left_V > 0.0 ? "it takes " + few_digits(1e3 * m.L_H * w.held_A / left_V) +
+                             " ms, and a sector lasts " + few_digits(1e3 * sector_s) + " ms"
+                       : "it does not end within a sector";
   if (limit_rad_s > 0.0)
-    text += "; at this current and bus that is so above " + few_digits(limit_rad_s) + " rad/s";
-  return text + "; use \"duty-step\" or a higher bus there";
+    text += "; at this current and bus the speed is " + few_digits(limit_rad_s / near_it) + " rad/s";
+  return text + "; compare it with \"duty-step\" or a higher bus there";
 }
 
 }  // namespace sixstep::study

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/check/check.hpp"
@@ -151,7 +152,8 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
   const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm), own_s = turn_off_s(s.bridge);
   const auto refuse = [&](const std::string& limit) {
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s), limit,
-                   "give the gate drivers' dead time, as 500e-9"});
+                   "give the gate drivers' dead time, as " +
+                       base::written(base::shortened(std::fmax(500e-9, 1.2 * own_s), 2, base::Towards::up))});
   };
   if (!(s.bridge.dead_time_s > 0))
     refuse("turns one switch of a leg on while the other turns off, and real ones short the bus then");
