@@ -191,6 +191,9 @@ bool names_a_current(const Values& reference) {
   return std::ranges::any_of(reference, [](double ampere) { return ampere != 0.0; });
 }
 
+/// Smaller currents are only rounding.
+constexpr double least_A = 1e-9;
+
 /// The row in the window in which `measure` is largest; the first one of equals.
 template <class Measure>
 std::size_t largest_row(const Values& time, const Interval& window, const Measure& measure) {
@@ -236,6 +239,10 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
   }
   const std::optional<Values> asked = asked_values(trace, step.held);
   if (asked && names_a_current(*asked) && std::isfinite((*asked)[peak])) out.asked_A = (*asked)[peak];
+  for (double* ampere : {&out.peak_A, &out.rms_A, &out.then_low_A, &out.then_high_A})
+    if (std::abs(*ampere) < least_A) *ampere = 0.0;
+  for (std::optional<double>* ampere : {&out.then_mean_A, &out.asked_A})
+    if (*ampere && std::abs(**ampere) < least_A) *ampere = 0.0;
   return out;
 }
 

@@ -85,7 +85,7 @@ class Plan(ProgramTest):
         self.assertIn("numbers 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
 
     def test_a_run_of_a_plan_has_the_remarks_of_the_run_alone(self):
-        """Neither the table nor a resumed store loses one; a remark with other numbers in other runs is one line."""
+        """Neither the table nor a resumed store loses one; a remark with other numbers in other runs is one line, which says whose they are."""
         (self.path / "b.toml").write_text(SHORT.format(limit=1e3).replace("1e-4", "2e-3").replace("locked = true", "dynamometer_times_s = [0]\ndynamometer_rad_s = [2000]"))
         vary = ["run", "b.toml", "--vary", "pwm.period_s=5us,20us,40us", "--set", "heat.step_s=1"]
         alone = [json.loads(self.run_program(*vary, "--only", str(n), "--json", "-", code=None).stdout)["remarks"] for n in range(3)]
@@ -99,7 +99,7 @@ class Plan(ProgramTest):
                 self.assertEqual(sum(n in r["runs"] for r in told), len(alone[n]))
             for remark in told:
                 self.assertIn(remark["text"], alone[remark["runs"][0]])
-            self.assertIn(f"  remark, runs 1, 2: {short[1][0]}\n", table)
+            self.assertIn(f"  remark, runs 1, 2 (its numbers are those of run 1): {short[1][0]}\n", table)
             self.assertIn("  remark, all runs: given without effect: ", table)
 
     def test_a_drive_of_ideal_sensors_is_given_no_seed(self):

@@ -153,6 +153,23 @@ TEST(HeldCurrent, the_mean_behind_a_step_is_from_the_moment_told_on) {
               HasSubstr("From then until the end: " + computed(*current->then_mean_A, "A") + " on average"));
 }
 
+/// A current of 1e-25 A is a rounding error of a sum, and no reader's pA.
+TEST(HeldCurrent, what_only_rounding_left_is_none) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 2.0);
+  s.control.current.settle_s = 1e-3;
+  s.load.locked = true;
+  Ran run = ran(s);
+  const auto step = largest_step(run.trace, s);
+  ASSERT_TRUE(step);
+  for (std::size_t n = 0; n < run.trace.columns.size(); ++n)
+    if (run.trace.columns[n].name == "i_m_A")
+      for (double& ampere : run.trace.values[n]) ampere *= 1e-25;
+  const auto current = step_current(run.trace, *step);
+  ASSERT_TRUE(current && current->then_mean_A);
+  for (const double ampere : {current->peak_A, current->rms_A, *current->then_mean_A, current->then_high_A})
+    EXPECT_EQ(ampere, 0.0);
+}
+
 /// At the instant of the step the current still has its old level, which may be the larger one.
 TEST(HeldCurrent, the_peak_of_a_reversal_is_one_of_the_new_sign) {
   study::Scenario s = maxon_scenario(control::Mode::current, 5.0);

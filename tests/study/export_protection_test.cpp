@@ -163,6 +163,13 @@ TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
     EXPECT_EQ(unmeasured(s).empty(), dead_s > 150e-9) << dead_s;
     EXPECT_EQ(study::short_dead_time(s), "") << "the charges decide";
   }
+  s.bridge.gate_drain_charge_C = 50e-9;  // 550 ns: the cure is longer
+  s.bridge.dead_time_s = 500e-9;
+  const base::Problems refused = unmeasured(s);
+  ASSERT_EQ(refused.size(), 1u);
+  s.bridge.dead_time_s = std::stod(refused[0].cure.substr(refused[0].cure.rfind(' ')));
+  EXPECT_GT(s.bridge.dead_time_s, 550e-9);
+  EXPECT_TRUE(unmeasured(s).empty());
   s.bridge.gate_current_A = s.bridge.gate_source_charge_C = s.bridge.gate_drain_charge_C = 0;
   for (const double dead_s : {25e-9, 50e-9, 99e-9, 101e-9, 500e-9}) {
     s.bridge.dead_time_s = dead_s;

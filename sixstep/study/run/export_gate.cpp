@@ -151,9 +151,11 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
   if (s.control.mode == Mode::off) return;
   const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm), own_s = turn_off_s(s.bridge);
   const auto refuse = [&](const std::string& limit) {
-    out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s), limit,
-                   "give the gate drivers' dead time, as " +
-                       base::written(base::shortened(std::fmax(500e-9, 1.2 * own_s), 2, base::Towards::up))});
+    out.push_back(
+        {"bridge.dead_time_s", written(s.bridge.dead_time_s), limit,
+         "give the gate drivers' dead time, as " +
+             base::rounded(1e9 * base::shortened(std::fmax(500e-9, 1.2 * own_s), 2, base::Towards::up), 3) +
+             "e-9"});
   };
   if (!(s.bridge.dead_time_s > 0))
     refuse("turns one switch of a leg on while the other turns off, and real ones short the bus then");
