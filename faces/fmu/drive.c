@@ -125,6 +125,7 @@ drive_result drive_initialize(drive* self) {
     close_session(&self->state);
     return DRIVE_ERROR;
   }
+  plant_measure(&self->variables, &self->state);
   plant_look(&self->variables, &self->state);
   self->state.phase = DRIVE_INITIALIZATION;
   return DRIVE_OK;

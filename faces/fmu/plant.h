@@ -32,7 +32,9 @@ sixstep_status plant_advance_to_event(const drive_variables* variables, drive_st
                                       unsigned* events);
 /* Instants this near are one, s: sums of step sizes miss control ticks by rounding. */
 double plant_near(const sixstep_session* session);
-/* Reads measurements, if the run stands at a control tick, and counts. */
+/* Reads what a controller outside measures, if the run stands at a control tick. An advance does it at the last tick passed. */
+void plant_measure(const drive_variables* variables, drive_state* state);
+/* Reads the counts of converters. */
 void plant_look(const drive_variables* variables, drive_state* state);
 
 #endif

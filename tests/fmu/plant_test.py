@@ -207,6 +207,69 @@ class Bits(unittest.TestCase):
         self.assertEqual(seen, [seen[0]] * 3)
 
 
+class Measured(unittest.TestCase):
+    MIDDLE = ("--set", "pwm.sample=middle", "--set", "pwm.alignment=centre")
+    NOISE = ("--set", "sensors.current_noise_A=0.05")
+
+    def seen(self, plant):
+        return (*plant.get_three("measured_currents_A", "measured_i_{}_A"),
+                *(plant.get(name if name == "setpoint" else "measured_" + name) for name in ("speed_rad_s", "position_deg", "bus_V", "hall", "setpoint")))
+
+    def driven(self, version, inputs, words):
+        plant = Plant(version, "plain", inputs, *words)
+        given = (("source", 0), ("sink", 1), ("duty", 0.3)) if inputs == "pair" else ()
+        self.assertEqual([plant.put(*one) for one in (*given, ("enabled", True))], [OK] * (len(given) + 1))
+        if inputs == "legs":
+            plant.put_three("leg_states", "leg_{}_state", [3, 1, 0])
+            plant.put_three("leg_duties", "leg_{}_duty", [0.3, 0.0, 0.0])
+        return plant
+
+    def test_they_hold_the_last_control_tick_whatever_the_steps(self):
+        """Steps of any size show what the same unit, stepped from tick to tick, has at the last tick."""
+        for version, inputs, words, first in ((2, "pair", self.MIDDLE, 0.5), (3, "legs", self.MIDDLE, 0.5), (3, "pair", self.NOISE, 0.0)):
+            ticked, at_ticks = self.driven(version, inputs, words), []
+            at_ticks.append(self.seen(ticked))  # first = 0.5: nothing is measured yet
+            for k in range(100):
+                if k + first > 0:
+                    self.assertEqual(ticked.step((k + first) * PERIOD), OK, ticked.messages())
+                    at_ticks.append(self.seen(ticked))
+            self.assertEqual(len(set(at_ticks)), len(at_ticks), "each tick differs")
+            self.assertEqual(ticked.step(6e-3), OK)
+            digest = ticked.digest()
+            for size in (30e-6, 47e-6, 13e-6, 333e-6):
+                with self.subTest(f"{inputs} {version} {size}"):
+                    plant, n = self.driven(version, inputs, words), 0
+                    while (n + 1) * size < 99.4 * PERIOD:
+                        n += 1
+                        self.assertEqual(plant.step(n * size), OK, plant.messages())
+                        ticks = math.floor(n * size / PERIOD + 1e-6 + (0.5 if first else 1))
+                        self.assertEqual(self.seen(plant), at_ticks[ticks if first else ticks - 1], n)
+                    self.assertEqual(plant.step(6e-3), OK)
+                    self.assertEqual(plant.digest(), digest)
+
+    def test_ticks_between_hall_edges_are_measured_too(self):
+        """In event mode with the Hall clock alone a step stops at edges, and shows the tick before."""
+        ticked = self.driven(3, "pair", ())
+        at_ticks = [self.seen(ticked)] + [(ticked.step(k * PERIOD), self.seen(ticked))[1] for k in range(1, 120)]
+        edged = fmi3.Instance(unit_of(3, "plain", "pair"), events=True, early=True)
+        self.assertEqual(edged.put("use_tick_clock", False), OK)
+        edged.begin()
+        for name, value in (("source", 0), ("sink", 1), ("duty", 0.3), ("enabled", True)):
+            self.assertEqual(edged.put(name, value), OK)
+        self.assertEqual(edged.call("EnterStepMode"), OK)
+        now, edges = 0.0, 0
+        plant = Plant.__new__(Plant)
+        plant.version, plant.is_ = 3, edged
+        while now < 5.4e-3:
+            self.assertEqual(edged.step(now, 0.73e-3), OK, edged.messages)
+            now = edged.last.value
+            edges += edged.needed.value
+            self.assertEqual(self.seen(plant), at_ticks[math.floor(now / PERIOD + 1e-6)], now)
+            if edged.needed.value:
+                self.assertEqual((edged.call("EnterEventMode"), edged.call("EnterStepMode")), (OK, OK))
+        self.assertGreater(edges, 1)
+
+
 class Laws(unittest.TestCase):
     def test_current_of_a_held_pair_rises_by_resistance_and_inductance(self):
         R, L, U = 1.03, 0.572e-3, 24  # terminal values of data/motors/maxon-251601.toml
