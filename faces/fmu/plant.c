@@ -37,6 +37,19 @@ static uint32_t gates_of(const double* set) {
 static double input(const double* set, unsigned reference) { return set[reference - DRIVE_FIRST_SET]; }
 static uint8_t byte(const double* set, unsigned reference) { return (uint8_t)input(set, reference); }
 
+void plant_start(const drive_variables* variables, drive_state* state) {
+  if (variables->chip == SIXSTEP_CHIP_PAIR) state->set[PLANT_SINK - DRIVE_FIRST_SET] = 1;
+  memcpy(state->set_applied, state->set, sizeof state->set);
+}
+
+const char* plant_wrong_pair(const drive_variables* variables, const drive_state* state) {
+  const double* const set = state->set;
+  if (variables->chip != SIXSTEP_CHIP_PAIR || !byte(set, PLANT_PAIR_ENABLED)) return NULL;
+  return byte(set, PLANT_SOURCE) != byte(set, PLANT_SINK)
+             ? NULL
+             : "the inputs source and sink are the same leg; set two different ones while enabled is true";
+}
+
 static sixstep_answer answer_of(sixstep_chip chip, const double* set) {
   sixstep_answer answer;
   unsigned k;

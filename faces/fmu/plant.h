@@ -24,6 +24,10 @@ enum {
 
 /* Null, or the limit that the value of an input for the bridge breaks. */
 const char* plant_limit(unsigned reference, double value);
+/* Start values of the inputs for the bridge, which are 0 in `state`: those of modelDescription.xml. */
+void plant_start(const drive_variables* variables, drive_state* state);
+/* Null, or the limit that the inputs of a pair break together: each alone could be on its way to a valid pair. */
+const char* plant_wrong_pair(const drive_variables* variables, const drive_state* state);
 /* Gives inputs that have changed to the session. SIXSTEP_OVER: the run is over. */
 sixstep_status plant_apply(const drive_variables* variables, drive_state* state);
 /* Advances to an instant of the run, or to the first event of `stops` before or at it; to a control tick within

@@ -359,6 +359,31 @@ class Misuse(unittest.TestCase):
             self.assertEqual(legs.put(name, values), ERROR, name)
         self.assertEqual((plant.step(1e-4), legs.step(1e-4)), (OK, OK))
 
+    def test_a_pair_of_equal_legs_is_refused_and_a_valid_one_goes_on(self):
+        """From the start values `enabled` alone is a pair: source a, sink b. Both the same leg are none, whoever names it first."""
+        for version in (2, 3):
+            self.assertEqual([self.start_of(version, name) for name in ("source", "sink", "duty", "enabled")], ["0", "1", "0", "false"])
+            plant = Plant(version, "held", "pair")
+            self.assertEqual([plant.get(name) for name in ("source", "sink")], [0, 1])
+            self.assertEqual((plant.put("enabled", True), plant.step(1e-4)), (OK, OK), plant.messages())
+            self.assertEqual((plant.put("sink", 0), plant.put("duty", 0.5), plant.is_.step(plant.now, 30e-6)), (OK, OK, ERROR))
+            self.assertIn("source and sink", plant.messages()[-1][2])
+            self.assertNotIn("controller", plant.messages()[-1][2])
+            self.assertEqual((plant.put("source", 2), plant.step(1e-3), plant.step(2e-3)), (OK, OK, OK), plant.messages())
+            self.assertLess(plant.currents()[0], -0.1, "c to a")
+            self.assertEqual((plant.put("sink", 2), plant.put("enabled", False), plant.step(3e-3)), (OK, OK, OK), "a bridge that is off needs no pair")
+
+    def start_of(self, version, name):
+        variable = unit_of(version, "held", "pair").variables[name]
+        return (variable[0] if version == 2 else variable).get("start")
+
+    def test_numbers_of_messages_are_short(self):
+        plant = Plant(2, "plain", "gates")
+        plant.step(1e-5 + 2e-5)
+        plant.gates(0b000011)
+        self.assertEqual(plant.step(1e-5 + 2e-5 + 3e-5), DISCARD)
+        self.assertRegex(plant.messages()[-1][2], r"at 3e-05 s, before 6e-05 s: both switches")
+
     def test_references_and_sizes_must_fit(self):
         plant = Plant(3, "plain", "gates")
         reference, six = (C.c_uint32 * 1)(1100), (C.c_bool * 6)()
