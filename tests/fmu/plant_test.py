@@ -153,6 +153,15 @@ class Bits(unittest.TestCase):
             self.assertEqual(self.controlled(2, name, inputs, controller, save_at=50), told["digest"])
             self.assertEqual(self.controlled(3, name, inputs, controller, save_at=50, part=0.37), told["digest"])
 
+    def test_a_controller_sampled_in_the_middle_begins_with_half_a_period(self):
+        told = ran(FOLDER / "sine.toml", *Measured.MIDDLE, "--set", "control.drive=own", "--set", f"control.own.controller={OwnController('sine_voltage').file}")
+        plant, own = Plant(3, "sine", "legs", *Measured.MIDDLE), OwnController("sine_voltage")
+        for n in range(120):
+            self.assertEqual(plant.step((n + 0.5) * PERIOD), OK, plant.messages())
+            own.act(plant)
+        self.assertEqual(plant.step(6e-3), OK, plant.messages())
+        self.assertEqual(plant.digest(), told["digest"])
+
     def test_sums_of_step_sizes_reach_the_ticks(self):
         """Communication points that an importer adds up miss k T by rounding, and the controller acts at each tick."""
         plant, own, now, ticks = Plant(2, "plain", "pair"), OwnController("pair_of_the_code"), 0.0, 0
