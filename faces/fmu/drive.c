@@ -49,7 +49,9 @@ drive_result drive_refused(drive* self, const char* function, const sixstep_sess
 void drive_number(char* text, size_t room, double value) {
   char raw[64];
   size_t out = 0, in = 0;
-  snprintf(raw, sizeof raw, "%.17g", value);
+  int digits = 6;
+  do snprintf(raw, sizeof raw, "%.*g", digits, value); /* as few as name the value to the bit */
+  while (digits++ < 17 && strtod(raw, NULL) != value);
   for (; raw[in] && out + 1 < room; ++in) {
     if (raw[in] && strchr("0123456789+-eE", raw[in]))
       text[out++] = raw[in];
@@ -72,6 +74,7 @@ void drive_reset(drive* self) {
   self->state.uses[0] = self->state.uses[1] = 1;
   memcpy(self->state.wanted, self->variables.starts, sizeof self->state.wanted);
   memcpy(self->state.applied, self->variables.starts, sizeof self->state.applied);
+  plant_start(&self->variables, &self->state);
 }
 
 void drive_clear(drive* self) {
@@ -125,6 +128,7 @@ drive_result drive_initialize(drive* self) {
     close_session(&self->state);
     return DRIVE_ERROR;
   }
+  plant_measure(&self->variables, &self->state);
   plant_look(&self->variables, &self->state);
   self->state.phase = DRIVE_INITIALIZATION;
   return DRIVE_OK;

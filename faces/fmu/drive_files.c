@@ -184,9 +184,21 @@ typedef struct {
   char token[64];
   drive_state state; /* its pointers are written as null */
   uint64_t session;  /* number of the session's bytes */
+  uint64_t check;    /* checksum() of all bytes, itself 0 */
 } head;
 
-static const char magic[16] = "sixstep unit 1";
+static const char magic[16] = "sixstep unit 2";
+
+/* FNV-1a: each byte changes the sum, whatever the others are. */
+static uint64_t checksum(const head* h, const unsigned char* session) {
+  uint64_t sum = 14695981039346656037u, n;
+  unsigned char bytes[sizeof *h]; /* not an assignment, which may leave padding out */
+  memcpy(bytes, h, sizeof bytes);
+  memset(bytes + offsetof(head, check), 0, sizeof h->check);
+  for (n = 0; n < sizeof bytes; ++n) sum = (sum ^ bytes[n]) * 1099511628211u;
+  for (n = 0; n < h->session; ++n) sum = (sum ^ session[n]) * 1099511628211u;
+  return sum;
+}
 
 size_t drive_bytes(drive* self, const void* of, unsigned char* bytes, size_t room) {
   const drive_state* s = find(self, of);
@@ -200,8 +212,9 @@ size_t drive_bytes(drive* self, const void* of, unsigned char* bytes, size_t roo
   h.state.next = NULL;
   if (s->session && !(h.session = sixstep_save(s->session, NULL, 0))) return 0;
   if (bytes && sizeof h + h.session <= room) {
-    memcpy(bytes, &h, sizeof h);
     if (s->session) sixstep_save(s->session, bytes + sizeof h, room - sizeof h);
+    h.check = checksum(&h, bytes + sizeof h);
+    memcpy(bytes, &h, sizeof h);
   }
   return sizeof h + h.session;
 }
@@ -225,6 +238,8 @@ drive_result drive_from_bytes(drive* self, const char* function, const unsigned 
   if (!bytes || !at || count < sizeof h) return drive_fail(self, function, "the bytes are not a saved state of this unit");
   memcpy(&h, bytes, sizeof h);
   if (!is_head(self, &h, count)) return drive_fail(self, function, "the bytes are not a saved state of this unit");
+  if (checksum(&h, bytes + sizeof h) != h.check)
+    return drive_fail(self, function, "the bytes of the saved state are damaged: their checksum differs");
   if (h.session) {
     status = sixstep_load(bytes + sizeof h, (size_t)h.session, &session);
     if (status != SIXSTEP_OK && status != SIXSTEP_OVER) {

@@ -2,6 +2,7 @@
 /* Steps of a unit: inputs act, then the run advances. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "faces/fmu/drive.h"
@@ -38,14 +39,23 @@ static drive_result change_inputs(drive* self, const char* function) {
   return DRIVE_OK;
 }
 
+/* A number for a reader. */
+static void short_number(char* text, size_t room, double value) {
+  char raw[64];
+  double rounded;
+  snprintf(raw, sizeof raw, "%.9g", value);
+  rounded = strtod(raw, NULL);
+  drive_number(text, room, rounded);
+}
+
 static drive_result stop_early(drive* self, const char* function, double asked_s) {
   char text[DRIVE_MESSAGE], at[64], asked[64];
   sixstep_problem fault;
-  drive_number(at, sizeof at, self->state.now_s);
-  drive_number(asked, sizeof asked, asked_s);
+  short_number(at, sizeof at, self->state.now_s);
+  short_number(asked, sizeof asked, asked_s);
   if (sixstep_problem_at(self->state.session, 0, &fault) == SIXSTEP_OK)
-    snprintf(text, sizeof text, "%s: a fault stopped the run before %s s: %.200s %.200s %.200s; %.200s", function, asked,
-             fault.place, fault.value, fault.limit, fault.cure);
+    snprintf(text, sizeof text, "%s: a fault stopped the run at %s s, before %s s: %.200s%s%.300s; %.200s", function, at, asked,
+             fault.value, *fault.value ? " " : "", fault.limit, fault.cure);
   else
     snprintf(text, sizeof text,
              "%s: the run is over at %s s, before %s s: its duration has passed; name a later stop time at the set-up",
@@ -57,6 +67,8 @@ static drive_result stop_early(drive* self, const char* function, double asked_s
 
 /* Inputs act at the present communication point. */
 static drive_result apply_inputs(drive* self, const char* function) {
+  const char* const wrong = plant_wrong_pair(&self->variables, &self->state);
+  if (wrong) return drive_fail(self, function, wrong);
   if (change_inputs(self, function) != DRIVE_OK) return DRIVE_ERROR;
   switch (plant_apply(&self->variables, &self->state)) {
     case SIXSTEP_OK:
@@ -65,12 +77,25 @@ static drive_result apply_inputs(drive* self, const char* function) {
   }
 }
 
+/* FMI: an importer that has named a stop time must not step beyond it. Not a number: it has named none. */
+static int is_past_stop(const drive_state* s, double to_s) { return to_s > s->stop_s + 1e-12 * (1 + fabs(s->stop_s)); }
+
+static drive_result refuse_past_stop(drive* self, const char* function, double to_s) {
+  char text[DRIVE_MESSAGE], to[64], stop[64];
+  short_number(to, sizeof to, to_s);
+  short_number(stop, sizeof stop, self->state.stop_s);
+  snprintf(text, sizeof text, "the step ends at %s s, but the stop time of the set-up is %s s; end the step there, or set none up",
+           to, stop);
+  return drive_fail(self, function, text);
+}
+
 drive_result drive_begin_step(drive* self, const char* function, double point, double size) {
   const double now_s = self->state.now_s;
   if (!(size > 0) || !isfinite(size)) return drive_fail(self, function, "the step size must be above 0");
   /* A picosecond is the library's resolution; importers that add steps up are further away in the end. */
   if (!(fabs(point - now_s) <= 1e-9 * (1 + fabs(now_s))))
     return drive_fail(self, function, "the communication point must be the end of the step before");
+  if (is_past_stop(&self->state, point + size)) return refuse_past_stop(self, function, point + size);
   return apply_inputs(self, function);
 }
 

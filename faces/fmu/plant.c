@@ -37,6 +37,19 @@ static uint32_t gates_of(const double* set) {
 static double input(const double* set, unsigned reference) { return set[reference - DRIVE_FIRST_SET]; }
 static uint8_t byte(const double* set, unsigned reference) { return (uint8_t)input(set, reference); }
 
+void plant_start(const drive_variables* variables, drive_state* state) {
+  if (variables->chip == SIXSTEP_CHIP_PAIR) state->set[PLANT_SINK - DRIVE_FIRST_SET] = 1;
+  memcpy(state->set_applied, state->set, sizeof state->set);
+}
+
+const char* plant_wrong_pair(const drive_variables* variables, const drive_state* state) {
+  const double* const set = state->set;
+  if (variables->chip != SIXSTEP_CHIP_PAIR || !byte(set, PLANT_PAIR_ENABLED)) return NULL;
+  return byte(set, PLANT_SOURCE) != byte(set, PLANT_SINK)
+             ? NULL
+             : "the inputs source and sink are the same leg; set two different ones while enabled is true";
+}
+
 static sixstep_answer answer_of(sixstep_chip chip, const double* set) {
   sixstep_answer answer;
   unsigned k;
@@ -80,43 +93,17 @@ double plant_near(const sixstep_session* session) {
   return period_s < 1e-6 ? period_s / 1000 : 1e-9;
 }
 
-/* At a control tick the library measures only if the run was advanced to the tick itself. */
-static sixstep_status advance(const drive_variables* variables, sixstep_session* run, double to_s) {
-  const double near_s = plant_near(run), tick_s = sixstep_tick_after(run, to_s - near_s);
-  sixstep_status status = SIXSTEP_OK;
-  if (variables->chip != SIXSTEP_CHIP_PAIR && variables->chip != SIXSTEP_CHIP_LEGS) return sixstep_advance(run, to_s);
-  if (!(tick_s <= to_s + near_s)) return sixstep_advance(run, to_s);
-  if (sixstep_tick_after(run, sixstep_time(run)) < tick_s) status = sixstep_advance(run, tick_s - sixstep_period(run) / 2);
-  return status == SIXSTEP_OK ? sixstep_advance_to_tick(run) : status;
+static int has_caller(const drive_variables* variables) {
+  return variables->chip == SIXSTEP_CHIP_PAIR || variables->chip == SIXSTEP_CHIP_LEGS;
 }
 
-/* Hall edges are searched up to a picosecond before the end, which may be a tick. */
-sixstep_status plant_advance_to_event(const drive_variables* variables, drive_state* state, double to_s, unsigned stops,
-                                      unsigned* events) {
-  sixstep_session* const run = state->session;
-  const int hall = sixstep_signal_index("hall");
-  const double code = sixstep_value(run, hall), tick_s = sixstep_tick_after(run, sixstep_time(run));
-  const int to_tick = (stops & DRIVE_TICK) && tick_s <= to_s + plant_near(run);
-  const double end_s = to_tick ? tick_s : to_s, before_s = end_s - 1e-12;
-  sixstep_status status = SIXSTEP_OK;
-  *events = 0;
-  if ((stops & DRIVE_HALL) && before_s > sixstep_time(run)) {
-    status = sixstep_advance_to_hall_edge(run, before_s);
-    if (status == SIXSTEP_OK && sixstep_value(run, hall) != code) *events = DRIVE_HALL;
-    if (status != SIXSTEP_OK || *events) return status;
-  }
-  status = advance(variables, run, end_s);
-  if ((stops & DRIVE_HALL) && sixstep_value(run, hall) != code) *events |= DRIVE_HALL;
-  if (to_tick) *events |= DRIVE_TICK;
-  return status;
-}
-
-static void look_at_measured(drive_state* state) {
+/* Between two ticks, and if no controller is outside, the library refuses: the values of the last tick remain. */
+void plant_measure(const drive_variables* variables, drive_state* state) {
   double* const to = state->measured;
   sixstep_measured seen;
   double setpoint;
   unsigned k;
-  if (sixstep_measure(state->session, &seen, &setpoint) != SIXSTEP_OK) return; /* between two ticks */
+  if (!has_caller(variables) || sixstep_measure(state->session, &seen, &setpoint) != SIXSTEP_OK) return;
   for (k = 0; k < 3; ++k) to[k] = seen.current_A[k];
   to[3] = seen.speed_rad_s;
   to[4] = seen.position_deg;
@@ -125,6 +112,60 @@ static void look_at_measured(drive_state* state) {
   to[7] = seen.magnet_sin;
   to[8] = seen.hall;
   to[9] = setpoint;
+}
+
+/* The last control tick up to an instant of the run, plant_near() after it included; NaN: there is none after the present. */
+static double last_tick(const sixstep_session* run, double to_s) {
+  const double near_s = plant_near(run), now_s = sixstep_time(run);
+  double tick_s = sixstep_tick_after(run, fmax(now_s, to_s - 1.5 * sixstep_period(run))), next_s;
+  if (!(tick_s <= to_s + near_s)) return NAN;
+  while ((next_s = sixstep_tick_after(run, tick_s + near_s)) <= to_s + near_s) tick_s = next_s;
+  return tick_s;
+}
+
+/* The library measures at a control tick only, and only if the run was advanced to the tick itself. */
+static sixstep_status advance(const drive_variables* variables, drive_state* state, double to_s) {
+  sixstep_session* const run = state->session;
+  const double tick_s = has_caller(variables) ? last_tick(run, to_s) : NAN;
+  sixstep_status status = SIXSTEP_OK;
+  if (isnan(tick_s)) return sixstep_advance(run, to_s);
+  if (sixstep_tick_after(run, sixstep_time(run)) < tick_s) status = sixstep_advance(run, tick_s - sixstep_period(run) / 2);
+  if (status == SIXSTEP_OK) status = sixstep_advance_to_tick(run);
+  /* The run's end may be a tick. After a fault nothing is asked, so that its problem remains. */
+  if (status == SIXSTEP_OK || sixstep_time(run) >= to_s - 1e-12) plant_measure(variables, state);
+  return status == SIXSTEP_OK && tick_s < to_s - plant_near(run) ? sixstep_advance(run, to_s) : status;
+}
+
+/* Whether a Hall edge comes before an instant, which may be a tick: the search ends a picosecond earlier. */
+static sixstep_status advance_to_edge(sixstep_session* run, double end_s, int* found) {
+  const int hall = sixstep_signal_index("hall");
+  const double code = sixstep_value(run, hall), before_s = end_s - 1e-12;
+  sixstep_status status = SIXSTEP_OK;
+  if (before_s > sixstep_time(run)) status = sixstep_advance_to_hall_edge(run, before_s);
+  *found = status == SIXSTEP_OK && sixstep_value(run, hall) != code;
+  return status;
+}
+
+sixstep_status plant_advance_to_event(const drive_variables* variables, drive_state* state, double to_s, unsigned stops,
+                                      unsigned* events) {
+  sixstep_session* const run = state->session;
+  const int hall = sixstep_signal_index("hall");
+  const double code = sixstep_value(run, hall), near_s = plant_near(run);
+  const unsigned edges = stops & DRIVE_HALL, ticks = stops & DRIVE_TICK;
+  sixstep_status status = SIXSTEP_OK;
+  int is_tick, found = 0;
+  *events = 0;
+  do { /* from tick to tick, if a controller outside measures at each that the search for an edge passes */
+    const double tick_s = sixstep_tick_after(run, sixstep_time(run));
+    is_tick = (ticks || (edges && has_caller(variables))) && tick_s <= to_s + near_s;
+    if (edges) status = advance_to_edge(run, is_tick ? tick_s : to_s, &found);
+    if (status == SIXSTEP_OK && !found) {
+      status = advance(variables, state, is_tick ? tick_s : to_s);
+      if (is_tick) *events |= ticks;
+    }
+    if (edges && sixstep_value(run, hall) != code) *events |= DRIVE_HALL;
+  } while (status == SIXSTEP_OK && is_tick && !*events && sixstep_time(run) < to_s - near_s);
+  return status;
 }
 
 static void look_at_counts(const drive_variables* variables, drive_state* state) {
@@ -146,6 +187,5 @@ static void look_at_counts(const drive_variables* variables, drive_state* state)
 
 void plant_look(const drive_variables* variables, drive_state* state) {
   if (variables->chip == SIXSTEP_CHIP_OF_SCENARIO) return;
-  if (variables->chip != SIXSTEP_CHIP_GATES) look_at_measured(state);
   look_at_counts(variables, state);
 }

@@ -24,6 +24,10 @@ enum {
 
 /* Null, or the limit that the value of an input for the bridge breaks. */
 const char* plant_limit(unsigned reference, double value);
+/* Start values of the inputs for the bridge, which are 0 in `state`: those of modelDescription.xml. */
+void plant_start(const drive_variables* variables, drive_state* state);
+/* Null, or the limit that the inputs of a pair break together: each alone could be on its way to a valid pair. */
+const char* plant_wrong_pair(const drive_variables* variables, const drive_state* state);
 /* Gives inputs that have changed to the session. SIXSTEP_OVER: the run is over. */
 sixstep_status plant_apply(const drive_variables* variables, drive_state* state);
 /* Advances to an instant of the run, or to the first event of `stops` before or at it; to a control tick within
@@ -32,7 +36,9 @@ sixstep_status plant_advance_to_event(const drive_variables* variables, drive_st
                                       unsigned* events);
 /* Instants this near are one, s: sums of step sizes miss control ticks by rounding. */
 double plant_near(const sixstep_session* session);
-/* Reads measurements, if the run stands at a control tick, and counts. */
+/* Reads what a controller outside measures, if the run stands at a control tick. An advance does it at the last tick passed. */
+void plant_measure(const drive_variables* variables, drive_state* state);
+/* Reads the counts of converters. */
 void plant_look(const drive_variables* variables, drive_state* state);
 
 #endif

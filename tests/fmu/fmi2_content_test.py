@@ -131,6 +131,41 @@ class Content(unittest.TestCase):
         instance.run(1e-4, unit.stop())
         self.assertEqual(instance.digest(), told["digest"])
 
+    def test_a_saved_state_with_any_bit_changed_is_refused(self):
+        """One bit in each byte of the unit's own numbers, and of every hundredth byte of the session's."""
+        unit = exported(CURRENT)
+        instance, other = fmi.Instance(unit).begin(), fmi.Instance(unit)
+        instance.run(1e-4, 5e-4)
+        whole = instance.saved()
+        for n in [*range(2500), *range(2500, len(whole), 100), len(whole) - 1]:
+            if n < len(whole):
+                bytes_ = bytearray(whole)
+                bytes_[n] ^= 1 << n % 8
+                self.assertEqual(other.load(bytes(bytes_)), fmi.ERROR, n)
+                self.assertIn("saved", other.messages[-1][2])
+        for bytes_ in (whole[:-1], whole + b"\0", b""):
+            self.assertEqual(other.load(bytes_), fmi.ERROR)
+        self.assertEqual(other.load(whole), fmi.OK, other.messages)
+        self.assertEqual((other.run(1e-4, unit.stop(), 5e-4), other.digest()), (unit.stop(), ran(CURRENT)["digest"]))
+
+    def test_no_step_goes_beyond_the_stop_time(self):
+        """A stop time of the set-up is a limit, also one before the scenario's end; a step up to it, give or take rounding, is none beyond."""
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit).begin(stop=1e-3)
+        self.assertEqual(instance.step(0, 2e-3), fmi.ERROR)
+        self.assertRegex(instance.messages[-1][2], r"0\.002 s.*stop time.*0\.001 s")
+        now = 0.0
+        for _ in range(30):  # a sum of steps misses the stop time by rounding
+            self.assertEqual(instance.step(now, 1e-3 / 30), fmi.OK, instance.messages)
+            now += 1e-3 / 30
+        self.assertEqual(instance.step(now, 1e-6), fmi.ERROR)
+        near = fmi.Instance(unit).begin(stop=1e-3)
+        self.assertEqual(near.step(0, 1e-3 * (1 + 1e-12)), fmi.OK)
+        shifted = fmi.Instance(unit).begin(start=5.0, stop=5.001)
+        self.assertEqual((shifted.step(5.0, 2e-3), shifted.step(5.0, 5.001 - 5.0)), (fmi.ERROR, fmi.OK))
+        longer = fmi.Instance(unit).begin(stop=unit.stop() + 1e-3)
+        self.assertEqual((longer.step(0, unit.stop() + 2e-3), longer.step(0, unit.stop() + 1e-3)), (fmi.ERROR, fmi.OK))
+
     def test_the_same_scenario_makes_the_same_bytes_and_another_one_another_guid(self):
         one, again = exported(CURRENT), exported(CURRENT, name="again")
         self.assertEqual((FOLDER / f"{CURRENT.stem}.fmu").read_bytes(), (FOLDER / "again.fmu").read_bytes())

@@ -165,6 +165,15 @@ class Clocks(unittest.TestCase):
 
 
 class EarlyReturn(unittest.TestCase):
+    def test_no_step_goes_beyond_the_stop_time(self):
+        unit = unit_of(PLAIN, *FAST)
+        for stop in (1e-3, unit.stop() + 1e-3):
+            instance = fmi.Instance(unit).begin(stop=stop)
+            self.assertEqual(instance.step(0, stop + 1e-3), ERROR)
+            self.assertIn("stop time", instance.messages[-1][2])
+            self.assertEqual((instance.step(0, stop * (1 + 1e-12)), instance.ends.value), (OK, False))
+            self.assertEqual(instance.step(stop, 1e-4), ERROR)
+
     def test_a_fault_returns_early_if_it_may(self):
         told = ran(FAULTY, "--set", "duration_s=5e-3")
         self.assertTrue(told["fault"])

@@ -153,6 +153,15 @@ class Bits(unittest.TestCase):
             self.assertEqual(self.controlled(2, name, inputs, controller, save_at=50), told["digest"])
             self.assertEqual(self.controlled(3, name, inputs, controller, save_at=50, part=0.37), told["digest"])
 
+    def test_a_controller_sampled_in_the_middle_begins_with_half_a_period(self):
+        told = ran(FOLDER / "sine.toml", *Measured.MIDDLE, "--set", "control.drive=own", "--set", f"control.own.controller={OwnController('sine_voltage').file}")
+        plant, own = Plant(3, "sine", "legs", *Measured.MIDDLE), OwnController("sine_voltage")
+        for n in range(120):
+            self.assertEqual(plant.step((n + 0.5) * PERIOD), OK, plant.messages())
+            own.act(plant)
+        self.assertEqual(plant.step(6e-3), OK, plant.messages())
+        self.assertEqual(plant.digest(), told["digest"])
+
     def test_sums_of_step_sizes_reach_the_ticks(self):
         """Communication points that an importer adds up miss k T by rounding, and the controller acts at each tick."""
         plant, own, now, ticks = Plant(2, "plain", "pair"), OwnController("pair_of_the_code"), 0.0, 0
@@ -205,6 +214,69 @@ class Bits(unittest.TestCase):
                 again.step(now + n * 17e-6)
             seen.append((again.currents(), again.get("speed_rad_s"), again.get("hall")))
         self.assertEqual(seen, [seen[0]] * 3)
+
+
+class Measured(unittest.TestCase):
+    MIDDLE = ("--set", "pwm.sample=middle", "--set", "pwm.alignment=centre")
+    NOISE = ("--set", "sensors.current_noise_A=0.05")
+
+    def seen(self, plant):
+        return (*plant.get_three("measured_currents_A", "measured_i_{}_A"),
+                *(plant.get(name if name == "setpoint" else "measured_" + name) for name in ("speed_rad_s", "position_deg", "bus_V", "hall", "setpoint")))
+
+    def driven(self, version, inputs, words):
+        plant = Plant(version, "plain", inputs, *words)
+        given = (("source", 0), ("sink", 1), ("duty", 0.3)) if inputs == "pair" else ()
+        self.assertEqual([plant.put(*one) for one in (*given, ("enabled", True))], [OK] * (len(given) + 1))
+        if inputs == "legs":
+            plant.put_three("leg_states", "leg_{}_state", [3, 1, 0])
+            plant.put_three("leg_duties", "leg_{}_duty", [0.3, 0.0, 0.0])
+        return plant
+
+    def test_they_hold_the_last_control_tick_whatever_the_steps(self):
+        """Steps of any size show what the same unit, stepped from tick to tick, has at the last tick."""
+        for version, inputs, words, first in ((2, "pair", self.MIDDLE, 0.5), (3, "legs", self.MIDDLE, 0.5), (3, "pair", self.NOISE, 0.0)):
+            ticked, at_ticks = self.driven(version, inputs, words), []
+            at_ticks.append(self.seen(ticked))  # first = 0.5: nothing is measured yet
+            for k in range(100):
+                if k + first > 0:
+                    self.assertEqual(ticked.step((k + first) * PERIOD), OK, ticked.messages())
+                    at_ticks.append(self.seen(ticked))
+            self.assertEqual(len(set(at_ticks)), len(at_ticks), "each tick differs")
+            self.assertEqual(ticked.step(6e-3), OK)
+            digest = ticked.digest()
+            for size in (30e-6, 47e-6, 13e-6, 333e-6):
+                with self.subTest(f"{inputs} {version} {size}"):
+                    plant, n = self.driven(version, inputs, words), 0
+                    while (n + 1) * size < 99.4 * PERIOD:
+                        n += 1
+                        self.assertEqual(plant.step(n * size), OK, plant.messages())
+                        ticks = math.floor(n * size / PERIOD + 1e-6 + (0.5 if first else 1))
+                        self.assertEqual(self.seen(plant), at_ticks[ticks if first else ticks - 1], n)
+                    self.assertEqual(plant.step(6e-3), OK)
+                    self.assertEqual(plant.digest(), digest)
+
+    def test_ticks_between_hall_edges_are_measured_too(self):
+        """In event mode with the Hall clock alone a step stops at edges, and shows the tick before."""
+        ticked = self.driven(3, "pair", ())
+        at_ticks = [self.seen(ticked)] + [(ticked.step(k * PERIOD), self.seen(ticked))[1] for k in range(1, 120)]
+        edged = fmi3.Instance(unit_of(3, "plain", "pair"), events=True, early=True)
+        self.assertEqual(edged.put("use_tick_clock", False), OK)
+        edged.begin()
+        for name, value in (("source", 0), ("sink", 1), ("duty", 0.3), ("enabled", True)):
+            self.assertEqual(edged.put(name, value), OK)
+        self.assertEqual(edged.call("EnterStepMode"), OK)
+        now, edges = 0.0, 0
+        plant = Plant.__new__(Plant)
+        plant.version, plant.is_ = 3, edged
+        while now < 5.4e-3:
+            self.assertEqual(edged.step(now, 0.73e-3), OK, edged.messages)
+            now = edged.last.value
+            edges += edged.needed.value
+            self.assertEqual(self.seen(plant), at_ticks[math.floor(now / PERIOD + 1e-6)], now)
+            if edged.needed.value:
+                self.assertEqual((edged.call("EnterEventMode"), edged.call("EnterStepMode")), (OK, OK))
+        self.assertGreater(edges, 1)
 
 
 class Laws(unittest.TestCase):
@@ -295,6 +367,31 @@ class Misuse(unittest.TestCase):
         for name, values in (("leg_states", (0, 4, 0)), ("leg_switches", (0, 0, -1)), ("leg_duties", (0.1, 0.2, math.inf))):
             self.assertEqual(legs.put(name, values), ERROR, name)
         self.assertEqual((plant.step(1e-4), legs.step(1e-4)), (OK, OK))
+
+    def test_a_pair_of_equal_legs_is_refused_and_a_valid_one_goes_on(self):
+        """From the start values `enabled` alone is a pair: source a, sink b. Both the same leg are none, whoever names it first."""
+        for version in (2, 3):
+            self.assertEqual([self.start_of(version, name) for name in ("source", "sink", "duty", "enabled")], ["0", "1", "0", "false"])
+            plant = Plant(version, "held", "pair")
+            self.assertEqual([plant.get(name) for name in ("source", "sink")], [0, 1])
+            self.assertEqual((plant.put("enabled", True), plant.step(1e-4)), (OK, OK), plant.messages())
+            self.assertEqual((plant.put("sink", 0), plant.put("duty", 0.5), plant.is_.step(plant.now, 30e-6)), (OK, OK, ERROR))
+            self.assertIn("source and sink", plant.messages()[-1][2])
+            self.assertNotIn("controller", plant.messages()[-1][2])
+            self.assertEqual((plant.put("source", 2), plant.step(1e-3), plant.step(2e-3)), (OK, OK, OK), plant.messages())
+            self.assertLess(plant.currents()[0], -0.1, "c to a")
+            self.assertEqual((plant.put("sink", 2), plant.put("enabled", False), plant.step(3e-3)), (OK, OK, OK), "a bridge that is off needs no pair")
+
+    def start_of(self, version, name):
+        variable = unit_of(version, "held", "pair").variables[name]
+        return (variable[0] if version == 2 else variable).get("start")
+
+    def test_numbers_of_messages_are_short(self):
+        plant = Plant(2, "plain", "gates")
+        plant.step(1e-5 + 2e-5)
+        plant.gates(0b000011)
+        self.assertEqual(plant.step(1e-5 + 2e-5 + 3e-5), DISCARD)
+        self.assertRegex(plant.messages()[-1][2], r"at 3e-05 s, before 6e-05 s: both switches")
 
     def test_references_and_sizes_must_fit(self):
         plant = Plant(3, "plain", "gates")

@@ -25,7 +25,8 @@ std::string fmi2_head(const UnitModel& m) {
 
 std::string fmi2_typed(const FmiVariable& v) {
   const bool starts = v.role == FmiRole::input;
-  if (v.kind == FmiKind::integer) return starts ? "<Integer start=\"0\"/>" : "<Integer/>";
+  if (v.kind == FmiKind::integer)
+    return starts ? fmt::format("<Integer start=\"{}\"/>", base::written(v.start)) : "<Integer/>";
   if (v.kind == FmiKind::boolean) return starts ? "<Boolean start=\"false\"/>" : "<Boolean/>";
   if (v.kind == FmiKind::text) return "<String/>";
   std::string out = "<Real";

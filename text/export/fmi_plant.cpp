@@ -42,12 +42,13 @@ class PlantVariables {
   PlantVariables(FmiVersion version, std::vector<FmiVariable>& all) : version_(version), all_(all) {}
 
   void at(unsigned reference) { next_ = reference; }
-  void input(FmiKind kind, const char* name, const char* unit, std::string description) {
+  void input(FmiKind kind, const char* name, const char* unit, std::string description, double start = 0.0) {
     add({.name = name,
          .kind = kind,
          .role = FmiRole::input,
          .unit = unit,
-         .description = std::move(description)});
+         .description = std::move(description),
+         .start = start});
   }
   void output(FmiKind kind, const char* name, std::string unit, std::string description) {
     add({.name = name, .kind = kind, .unit = std::move(unit), .description = std::move(description)});
@@ -102,7 +103,7 @@ void add_pair(PlantVariables& plant) {
   plant.input(boolean, "enabled", "", enabled_words);
   plant.input(integer, "source", "",
               "leg whose upper switch carries the current to the motor: 0, 1, 2 are a, b, c");
-  plant.input(integer, "sink", "", "leg whose lower switch carries it back");
+  plant.input(integer, "sink", "", "leg whose lower switch carries it back; not that of source", 1.0);
   plant.input(integer, "chopping", "", "off part of the period: 0 soft, 1 hard, 2 complementary");
   plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper one, 1 the lower one");
   plant.input(real, "duty", "1", "duty, 0 to 1");
