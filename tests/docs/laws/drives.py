@@ -93,7 +93,7 @@ def bring_up_avr(test, spot):
     told = re.search(r"lower one's fall to the upper one's rise ([\d.]+) us", spot.text)
     dead_us, cycle_us = 1e6 * float(scenario["bridge"]["dead_time_s"]), 1 / 16
     test.assertTrue(told and dead_us <= float(told.group(1)) <= dead_us + 2 * cycle_us + 0.05, f"{spot}: pause at the gates")
-    told = re.search(r"peaks are ([\d.]+) A, ([\d.]+) A and ([\d.]+) A, and above ([\d.]+) A the drive stops .*? 140 rad/s \(([\d.]+) A\)", spot.text)
+    told = re.search(r"are ([\d.]+) A, ([\d.]+) A and ([\d.]+) A. A converted sample above ([\d.]+) A stops .*? is ([\d.]+) A at 140 rad/s", spot.text)
     *held, limit, beyond = map(float, told.groups())
     counts = re.search(r"over_current_counts = (\d+)", (REPOSITORY / "faces/firmware/example/avr/board.hpp").read_text(encoding="utf-8"))
     full = 2 * float(scenario["sensors"]["current_range_A"])
