@@ -165,7 +165,7 @@ TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
   }
   s.bridge.gate_drain_charge_C = 50e-9;  // 550 ns: the cure is longer
   s.bridge.dead_time_s = 500e-9;
-  const base::Problems refused = unmeasured(s);
+  const base::Problems refused = study::never_measured(s);
   ASSERT_EQ(refused.size(), 1u);
   s.bridge.dead_time_s = std::stod(refused[0].cure.substr(refused[0].cure.rfind(' ')));
   EXPECT_GT(s.bridge.dead_time_s, 550e-9);
