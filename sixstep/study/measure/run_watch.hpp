@@ -37,9 +37,9 @@ struct RunWatch {
       emf_bus_V = state.bus;
     }
     if (state.bus > highest_bus_V) highest_bus_V = state.bus;
-    double ampere = 0.0;
-    for (const auto i : state.i) ampere = std::fmax(ampere, std::fabs(static_cast<double>(i)));
-    if (ampere > highest_phase_A) highest_phase_A = ampere;
+    for (const auto i : state.i)
+      if (const double ampere = std::fabs(static_cast<double>(i)); ampere > highest_phase_A)
+        highest_phase_A = ampere;
     if constexpr (requires { rig.firmware().holds_commutation(); }) look_at_commutation(rig, speed);
     if constexpr (requires { rig.plant().more(); }) look_at_charge(rig.plant().more().charge.value, rig);
     if (shunt_least_duty >= 0.0 && rig.ticked()) {
