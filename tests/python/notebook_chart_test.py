@@ -83,7 +83,7 @@ class NotebookChart(unittest.TestCase):
         ipython.get_ipython = lambda: types.SimpleNamespace(kernel=object())
         ipython.display = display
         with mock.patch.dict(sys.modules, {"IPython": ipython, "IPython.display": display}), contextlib.redirect_stderr(io.StringIO()) as silent:
-            sixstep.run(current(duration_s=2.0), progress=True)
+            sixstep.run(current(duration_s=20.0), progress=True)
         self.assertEqual(silent.getvalue(), "")
         self.assertEqual(told[-1], "")
         parts = [float(re.search(r"value='([\d.]+)'", shown)[1]) for shown in told[:-1]]
