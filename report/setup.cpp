@@ -263,7 +263,7 @@ std::string sentences(const study::Scenario& scenario) {
 std::string setup_section(const study::Scenario& scenario) {
   std::string rest;
   for (const auto& [key, value] : other_keys(scenario, sentences))
-    rest += (rest.empty() ? "" : "<br>") + escaped(key + " = " + value);
+    rest += fmt::format("{}{}", rest.empty() ? "" : "<br>", escaped(fmt::format("{} = {}", key, value)));
   return sentences(scenario) + (rest.empty() ? "" : "<div><dt>Other keys</dt><dd>" + rest + "</dd></div>\n");
 }
 

@@ -18,7 +18,8 @@ dear=(clang-analyzer-\* bugprone-{reserved-identifier,stringview-nullptr,assert-
 checks=--checks=$(IFS=,; echo "${dear[*]/#/-}")
 # A batch includes sources, and a name of one source may hide that of another.
 in_batches=("$checks,-bugprone-suspicious-include" --extra-arg=-Wno-shadow)
-tidy() { clang-tidy --quiet "$@" 2>/dev/null; }
+# GCC's own flags say nothing to clang.
+tidy() { clang-tidy --quiet --extra-arg=-Wno-unused-command-line-argument "$@" 2>/dev/null; }
 export -f tidy
 
 if [ -n "$alone" ]; then
