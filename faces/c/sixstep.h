@@ -191,10 +191,8 @@ SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixst
  * run, and the next advance returns SIXSTEP_OVER. If gates are set twice at one instant, the last ones apply.
  * Instants of changes are rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
-/* Advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows which. With
- * SIXSTEP_CHIP_GATES the instant is rounded to 1 ps. With the other chips, sensors.hall_delay_s or hall_glitches_Hz let lines
- * change where the rotor passes no edge: such a change is found at the run's next event, at the latest at the next control
- * tick, and a glitch that is over by then is not found. */
+/* Advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows which. Changes by
+ * sensors.hall_delay_s, by a glitch or by a broken line count. With SIXSTEP_CHIP_GATES the instant is rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
 /* SIXSTEP_CHIP_GATES: advances to the next edge of a comparator for the back-EMF, or to to_s if none comes before.
  * At an edge, the terminal of leg 0, 1 or 2, less the mean of the three terminals, changes from above level_V to

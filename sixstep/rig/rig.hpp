@@ -118,6 +118,12 @@ class Rig {
     return static_cast<std::uint8_t>((wires_.at_pins(probes_.code(plant_.sector())) & ~stuck_low_) |
                                      stuck_high_);
   }
+  /// True if a clock is due now that can change the Hall pins: a delayed edge, or an action of the timeline.
+  bool pins_due() const {
+    if constexpr (can_be_askew)
+      if (!(now_ < probes_.next())) return true;
+    return next_action_ < timeline_.size() && !(now_ < timeline_[next_action_].at);
+  }
   const Wires& wires() const { return wires_; }
   /// Gates ordered by the board's legs: each leg has the gates of the phase that is connected to it.
   decltype(auto) leg_gates() const { return wires_.at_legs(plant_.gates()); }

@@ -3,6 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/plant/hall.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/compile/general_plant.hpp"
 #include "tests/support/general_scenarios.hpp"
 #include "tests/support/product_scenarios.hpp"
@@ -47,6 +54,57 @@ TEST(SessionOnGeneral, SlicesHaveTheBitsOfTheUncutRun) {
       for (std::size_t n = 0; n < rows[0].size(); ++n)  // NaN where a column does not apply
         ASSERT_TRUE(rows[0][n] == rows[1][n] || (rows[0][n] != rows[0][n] && rows[1][n] != rows[1][n])) << n;
     }
+}
+
+struct LineChange {
+  double t_s = 0.0;
+  std::uint8_t lines = 0;  ///< lines that change
+};
+
+/// Changes of the Hall lines of a rotor that is turned at constant speed: each edge of a sector, late by the delay, and
+/// both ends of each glitch of the timeline.
+std::vector<LineChange> line_changes(const Scenario& s, double first_angle_rad) {
+  std::vector<LineChange> out;
+  const double electrical_rad_s = 8 * s.load.dynamometer_rad_s[0],
+               at = 8 * first_angle_rad / base::sector_rad;
+  for (int edge = static_cast<int>(std::floor(at)) + 1;; ++edge) {
+    const double t_s = (edge - at) * base::sector_rad / electrical_rad_s + s.sensors.hall_delay_s;
+    if (t_s > s.duration_s) break;
+    out.push_back(
+        {t_s, static_cast<std::uint8_t>(plant::hall_code(edge % 6) ^ plant::hall_code((edge + 5) % 6))});
+  }
+  for (const rig::Action& action : compile(s)->timeline)
+    if (action.kind == rig::ActionKind::hall_glitch)
+      out.push_back({action.at.seconds(), static_cast<std::uint8_t>(8 >> static_cast<int>(action.value))});
+  std::sort(out.begin(), out.end(), [](const LineChange& a, const LineChange& b) { return a.t_s < b.t_s; });
+  return out;
+}
+
+TEST(SessionOnGeneral, FindsEachChangeOfDelayedAndDisturbedHallLines) {
+  for (const Mode mode : {Mode::duty, Mode::current}) {
+    Scenario s = product_scenario(mode, 0.2);  // a trip does not end its run
+    s.sensors.hall_stable_samples = 2;
+    s.duration_s = 8e-3;
+    s.load.dynamometer_times_s = {0.0};
+    s.load.dynamometer_rad_s = {210.0};
+    s.sensors.hall_delay_s = 37e-6;  // more than a PWM period
+    s.sensors.hall_glitches_Hz = 5e3;
+    s.sensors.hall_glitch_s = 0.7e-6;  // far shorter than a period
+    Session session = opened(s);
+    const auto hall = static_cast<std::size_t>(ColumnId::hall),
+               angle = static_cast<std::size_t>(ColumnId::angle);
+    auto code = static_cast<std::uint8_t>(session.present().signals[hall]);
+    const std::vector<LineChange> expected = line_changes(s, session.present().signals[angle]);
+    ASSERT_GT(expected.size(), 70U);
+    for (const LineChange& change : expected) {
+      ASSERT_TRUE(session.advance_to_hall_edge(1.0));
+      EXPECT_NEAR(session.present().t_s, change.t_s, 2e-12);
+      code ^= change.lines;
+      EXPECT_EQ(session.present().signals[hall], code) << change.t_s;
+    }
+    EXPECT_FALSE(session.advance_to_hall_edge(1.0));  // none is left until the end
+    EXPECT_EQ(closed(session).digest, outcome(s).digest);
+  }
 }
 
 TEST(SessionOnGeneral, ShowsTheLoadsSideAtTheInstantAskedFor) {

@@ -77,7 +77,7 @@ struct Slice {
   bool unread = false;     ///< no row is taken
   bool taken = false;
   bool stopped = false;                ///< by an observer, not at its end
-  std::optional<std::uint8_t> pins{};  ///< ends after the event that gives the Hall pins another code
+  std::optional<std::uint8_t> pins{};  ///< ends at the instant at which the Hall pins get another code
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -101,8 +101,16 @@ struct Slice {
   template <class Rig>
   bool done(const Rig& rig) {
     stopped = watchers.done(rig);
-    if (pins && rig.pins() != *pins) return true;
+    if (pins && pins_at(rig) != *pins) return true;
     return stopped || (!whole_run && !(rig.now() < until));
+  }
+  /// Code of the Hall pins at the present instant, after all actions that are due.
+  template <class Rig>
+  static std::uint8_t pins_at(const Rig& rig) {
+    if (!rig.pins_due()) return rig.pins();
+    Rig twin = rig;
+    twin.act();
+    return twin.pins();
   }
   template <class Rig>
   void take(const Rig& rig, double s, double t_s) {

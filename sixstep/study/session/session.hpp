@@ -43,8 +43,8 @@ class Session {
   /// Advances to the next control tick after the present instant and reads it. The controller has not yet
   /// acted at this tick. Returns false like advance().
   bool advance_to_tick();
-  /// Advances to the event that gives the Hall pins another code than at the present instant, or to to_s if none comes before.
-  /// False as by advance().
+  /// Advances to the instant at which the Hall pins get another code than at the present instant, or to to_s if none comes
+  /// before. Delays, glitches and broken lines count. False as by advance().
   bool advance_to_hall_edge(double to_s);
   /// Whether the present instant is a control tick on which the controller has not yet acted.
   bool at_tick() const;
