@@ -184,5 +184,14 @@ for words in "${platforms[@]}"; do
   [ ${#lines[@]} -lt 2 ] || printf '%s\n' "${lines[@]:1}"
   case $answer in same) same=$((same + 1)) ;; left-out) left_out=$((left_out + 1)) ;; *) other=$((other + 1)) ;; esac
 done
+# Drawn scenarios through every interface. The C library and the units are those of build/dev.
+reader_program=$out/${wasm_text//[^A-Za-z0-9+]/-}
+if [ -e "$reader_program" ] && [ -e build/dev/lib/libsixstep.so ]; then
+  python3 tests/digest/drawn_faces.py build/dev/sixstep . build/dev/lib/libsixstep.so "$out/drawn" \
+    node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs "$reader_program" || other=$((other + 1))
+elif [ -n "$task" ]; then
+  echo "drawn scenarios: build/dev is missing (./test builds it)"
+  other=$((other + 1))
+fi
 echo "$same of ${#platforms[@]} platforms give the bits of $golden, $other do not, $left_out left out"
 [ "$other" = 0 ] && [ "$same" -gt 0 ] && { [ -z "$task" ] || [ "$left_out" = 0 ]; }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_scenarios FILE..: reads scenarios from their texts, as a page in a browser does, runs them, and prints name, digest of the
-// trajectory and number of segments. It needs sixstep/ and the readers of text/, without a file system: this program passes the texts.
+// read_scenarios [--in-steps] FILE..: reads scenarios from their texts, as a page in a browser does, runs them, and prints name, digest of
+// the trajectory and number of segments. It needs sixstep/ and the readers of text/, without a file system: this program passes the texts.
+// With --in-steps each scenario is run as a session, too, in steps of 1 ms, 37 us, 10 us and drawn ones: their digests must be the same.
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "sixstep/base/random.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/session/session.hpp"
 #include "text/scenario/scenario_file.hpp"
 #include "text/sources.hpp"
 
@@ -30,21 +35,39 @@ base::Result<text::NamedText> beside(const text::Naming& naming) {
   return base::Problem{.where = path};
 }
 
-base::Result<study::Outcome> outcome_of(const std::string& path) {
+base::Result<study::Scenario> read(const std::string& path) {
   std::optional<std::string> text = contents(path);
   if (!text) return base::Problem{.where = path, .limit = "cannot be read"};
-  const base::Result<study::Scenario> scenario =
-      text::read_scenario_text(path, std::move(*text), {.overrides = {}, .resolve = beside});
-  if (!scenario) return scenario.problems();
-  return study::run(*scenario);
+  return text::read_scenario_text(path, std::move(*text), {.overrides = {}, .resolve = beside});
 }
 
-bool print(const std::string& path) {
-  const base::Result<study::Outcome> out = outcome_of(path);
-  if (!out) {
-    for (const base::Problem& p : out.problems()) std::fprintf(stderr, "%s\n", base::to_string(p).c_str());
-    return false;
-  }
+/// Runs the scenario as a session and reads it after each step; step_s = 0: steps of 0.1 to 300 us are drawn.
+base::Result<study::Outcome> in_steps(const study::Scenario& scenario, double step_s) {
+  base::Result<study::Session> session = study::Session::open(scenario);
+  if (!session) return session.problems();
+  double at_s = 0.0;
+  for (std::uint64_t n = 0; session->advance(at_s); ++n)
+    at_s += step_s > 0 ? step_s : 1e-7 + 3e-4 * base::uniform({39, 0, n});
+  return session->close();
+}
+
+bool report(const base::Problems& problems) {
+  for (const base::Problem& p : problems) std::fprintf(stderr, "%s\n", base::to_string(p).c_str());
+  return false;
+}
+
+bool print(const std::string& path, bool also_in_steps) {
+  const base::Result<study::Scenario> scenario = read(path);
+  if (!scenario) return report(scenario.problems());
+  const base::Result<study::Outcome> out = study::run(*scenario);
+  if (!out) return report(out.problems());
+  if (also_in_steps)
+    for (const double step_s : {1e-3, 37e-6, 10e-6, 0.0}) {
+      const base::Result<study::Outcome> stepped = in_steps(*scenario, step_s);
+      if (!stepped) return report(stepped.problems());
+      if (stepped->digest != out->digest)
+        return report({{path, base::written(step_s), "steps of this length have another digest", ""}});
+    }
   std::printf("%-56s %s %8lld\n", path.c_str(), base::written_hex(out->digest).c_str(),
               static_cast<long long>(out->segments));
   return true;
@@ -53,7 +76,8 @@ bool print(const std::string& path) {
 }  // namespace
 
 int main(int count, char** paths) {
+  const bool also_in_steps = count > 1 && std::string_view(paths[1]) == "--in-steps";
   bool ok = true;
-  for (int n = 1; n < count; ++n) ok = print(paths[n]) && ok;
+  for (int n = also_in_steps ? 2 : 1; n < count; ++n) ok = print(paths[n], also_in_steps) && ok;
   return ok ? 0 : 1;
 }
