@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch/optimise.hpp"
 
-#include <nlopt.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "batch/for_each.hpp"
+#include "batch/nlopt_calls.hpp"
 #include "batch/plan_runs.hpp"
 #include "sixstep/analysis/plan/sobol_sequence.hpp"
 #include "sixstep/base/written.hpp"
@@ -161,7 +160,7 @@ class Search {
     return wanted.search->at(n, u).misses[wanted.requirement];
   }
   const Evaluated& at(unsigned n, const double* u) {
-    if (ended()) nlopt_force_stop(optimiser_.get());
+    if (ended()) nlopt_calls()->force_stop(optimiser_.get());
     if (ended()) return *tried_.back();
     std::vector<double> place(u, u + n);
     for (double& x : place) x = std::clamp(x, 0.0, 1.0);
@@ -170,24 +169,24 @@ class Search {
 
   void refine(std::vector<double> u) {
     const auto keys = static_cast<unsigned>(u.size());
-    optimiser_.reset(nlopt_create(NLOPT_LN_COBYLA, keys));
+    optimiser_.reset(nlopt_calls()->create(NLOPT_LN_COBYLA, keys));
     nlopt_opt o = optimiser_.get();
     std::vector<double> low(keys, 0.0), high(keys, 1.0), step(keys, 0.1);
-    nlopt_set_lower_bounds(o, low.data());
-    nlopt_set_upper_bounds(o, high.data());
-    nlopt_set_initial_step(o, step.data());
-    nlopt_set_min_objective(o, cost_of, this);
+    nlopt_calls()->set_lower_bounds(o, low.data());
+    nlopt_calls()->set_upper_bounds(o, high.data());
+    nlopt_calls()->set_initial_step(o, step.data());
+    nlopt_calls()->set_min_objective(o, cost_of, this);
     std::vector<Wanted> wanted;
     for (std::size_t n = 0; n < required_.size(); ++n) wanted.push_back({this, n});
-    for (Wanted& w : wanted) nlopt_add_inequality_constraint(o, miss_of, &w, 0.0);
-    nlopt_set_xtol_rel(o, 0.0);
+    for (Wanted& w : wanted) nlopt_calls()->add_inequality_constraint(o, miss_of, &w, 0.0);
+    nlopt_calls()->set_xtol_rel(o, 0.0);
     const std::vector<double> tolerance(keys, 1e-4);
-    nlopt_set_xtol_abs(o, tolerance.data());
-    nlopt_set_maxeval(o, static_cast<int>(4 * w_.evaluations));
+    nlopt_calls()->set_xtol_abs(o, tolerance.data());
+    nlopt_calls()->set_maxeval(o, static_cast<int>(4 * w_.evaluations));
     double least = 0.0;
-    const nlopt_result how =
-        nlopt_optimize(o, u.data(), &least);  // the result is not used, because the best of all tried points
-                                              // is taken, however the search ended
+    const nlopt_result how = nlopt_calls()->optimize(
+        o, u.data(), &least);  // the result is not used, because the best of all tried points
+                               // is taken, however the search ended
     converged_ = !ended() && (how == NLOPT_XTOL_REACHED || how == NLOPT_FTOL_REACHED || how == NLOPT_SUCCESS);
   }
 
@@ -217,7 +216,7 @@ class Search {
   }
 
   struct Destroy {
-    void operator()(nlopt_opt_s* o) const { nlopt_destroy(o); }
+    void operator()(nlopt_opt_s* o) const { nlopt_calls()->destroy(o); }
   };
   const Optimisation& w_;
   std::vector<std::size_t> required_;
@@ -229,6 +228,12 @@ class Search {
 };
 
 }  // namespace
+
+base::Problems missing_optimiser() {
+  if (nlopt_calls()) return {};
+  return {{"optimise", "", "needs NLopt, and libnlopt.so.0 cannot be loaded",
+           "install it: apt install libnlopt0"}};
+}
 
 std::optional<analysis::Optimum> optimise(const Optimisation& work) { return Search(work).run(); }
 

@@ -33,7 +33,10 @@ struct Optimisation {
   unsigned jobs = 0;
 };
 
-/// Runs the search. Half of the points, but at most ten per key, are spread evenly over the ranges; then
+/// The Problem of a machine on which NLopt cannot be loaded.
+base::Problems missing_optimiser();
+
+/// Runs the search. Requires missing_optimiser() to be empty. Half of the points, but at most ten per key, are spread evenly over the ranges; then
 /// COBYLA continues from the best of them. The same input gives the same path with any number of threads.
 /// Empty if the search was stopped before its first point was complete, or if no point could run.
 std::optional<analysis::Optimum> optimise(const Optimisation& work);

@@ -123,6 +123,7 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (!figure) return refused(figure.problems());
   if (const base::Problems problems = not_to_be_chosen(a, plan->scenarios->plan()); !problems.empty())
     return refused(problems);
+  if (const base::Problems problems = batch::missing_optimiser(); !problems.empty()) return refused(problems);
   catch_interrupts();
   OptimumFiles outputs;
   if (const base::Problems problems = outputs.open(a); !problems.empty()) return refused(problems);

@@ -4,31 +4,35 @@
 namespace files {
 
 base::Result<Database> Database::open(const std::string& path) {
+  if (!sqlite_calls())
+    return base::Problem{path.empty() ? "the rows of the runs" : path + ":", "",
+                         "needs SQLite, and libsqlite3.so.0 cannot be loaded",
+                         "install it: apt install libsqlite3-0"};
   Database db;
   db.path_ = path;
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &handle,
-                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite().open_v2(
+      path.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
   db.handle_.reset(handle);
   if (code != SQLITE_OK) return db.problem();
   return db;
 }
 
 base::Problems Database::run(const std::string& sql) {
-  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return {};
+  if (sqlite().exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return {};
   return {problem()};
 }
 
 base::Result<Statement> Database::prepare(const std::string& sql) {
   sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v2(handle_.get(), sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr) !=
+  if (sqlite().prepare_v2(handle_.get(), sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr) !=
       SQLITE_OK)
     return problem();
   return Statement(statement);
 }
 
 base::Problem Database::problem() const {
-  const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
+  const int code = handle_ ? sqlite().errcode(handle_.get()) : SQLITE_NOMEM;
   if ((code & 0xff) == SQLITE_NOMEM)
     return {path_.empty() ? "the rows of the runs" : path_ + ":", "", "found no memory",
             "free memory, or reduce the work: fewer --jobs, fewer runs"};
@@ -40,7 +44,7 @@ base::Problem Database::problem() const {
               "wait until that has closed it, or name another store"};
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return damaged(path_, std::string("SQLite says: ") + sqlite3_errmsg(handle_.get()));
+      return damaged(path_, std::string("SQLite says: ") + sqlite().errmsg(handle_.get()));
     case SQLITE_FULL:
       return {path_ + ":", "", "cannot grow: the disk is full", "free disk space and resume"};
     case SQLITE_CANTOPEN:
@@ -48,7 +52,7 @@ base::Problem Database::problem() const {
     case SQLITE_PERM:
       return {path_ + ":", "", "cannot be opened for writing", "name a file in a folder that can be written"};
     default:
-      problem.limit += std::string(": ") + sqlite3_errmsg(handle_.get());
+      problem.limit += std::string(": ") + sqlite().errmsg(handle_.get());
       problem.cure = "name another file";
       return problem;
   }

@@ -3,8 +3,6 @@
 // for three reasons: a database is one file, its transactions survive any kill, and its query language is
 // available everywhere.
 #pragma once
-#include <sqlite3.h>
-
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +11,7 @@
 #include <variant>
 
 #include "files/rooms.hpp"
+#include "files/store/sqlite_calls.hpp"
 #include "sixstep/base/result.hpp"
 
 namespace files {
@@ -25,14 +24,14 @@ class Statement {
  public:
   explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}
 
-  void bind(int place, std::int64_t x) { sqlite3_bind_int64(statement_.get(), place, x); }
+  void bind(int place, std::int64_t x) { sqlite().bind_int64(statement_.get(), place, x); }
   void bind(int place, std::string_view text) {
-    sqlite3_bind_text(statement_.get(), place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+    sqlite().bind_text(statement_.get(), place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
   }
   /// Binds a number. NaN becomes NULL; infinity is stored.
-  void bind(int place, double x) { sqlite3_bind_double(statement_.get(), place, x); }
+  void bind(int place, double x) { sqlite().bind_double(statement_.get(), place, x); }
   void bind_cell(int place, const Cell& cell) {
-    sqlite3_bind_null(statement_.get(), place);
+    sqlite().bind_null(statement_.get(), place);
     if (const auto* whole = std::get_if<std::int64_t>(&cell)) bind(place, *whole);
     if (const auto* number = std::get_if<double>(&cell)) bind(place, *number);
     if (const auto* text = std::get_if<std::string>(&cell)) bind(place, std::string_view(*text));
@@ -40,42 +39,42 @@ class Statement {
 
   /// Advances to the next row; false if there is none. The statement can then be bound and run again.
   bool step() {
-    code_ = sqlite3_step(statement_.get());
+    code_ = sqlite().step(statement_.get());
     if (code_ == SQLITE_ROW) return true;
-    sqlite3_reset(statement_.get());
+    sqlite().reset(statement_.get());
     return false;
   }
   bool failed() const { return code_ != SQLITE_ROW && code_ != SQLITE_DONE; }
   int code() const { return code_; }
 
-  std::int64_t whole(int column) const { return sqlite3_column_int64(statement_.get(), column); }
+  std::int64_t whole(int column) const { return sqlite().column_int64(statement_.get(), column); }
   std::optional<double> number(int column) const {
-    if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return {};
-    return sqlite3_column_double(statement_.get(), column);
+    if (sqlite().column_type(statement_.get(), column) == SQLITE_NULL) return {};
+    return sqlite().column_double(statement_.get(), column);
   }
   Cell cell(int column) const {
-    switch (sqlite3_column_type(statement_.get(), column)) {
+    switch (sqlite().column_type(statement_.get(), column)) {
       case SQLITE_INTEGER:
         return whole(column);
       case SQLITE_FLOAT:
-        return sqlite3_column_double(statement_.get(), column);
+        return sqlite().column_double(statement_.get(), column);
       case SQLITE_TEXT:
         return text(column);
       default:
         return std::monostate{};
     }
   }
-  int columns() const { return sqlite3_column_count(statement_.get()); }
+  int columns() const { return sqlite().column_count(statement_.get()); }
   std::string text(int column) const {
-    const auto* chars = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+    const auto* chars = reinterpret_cast<const char*>(sqlite().column_text(statement_.get(), column));
     return chars
-               ? std::string(chars, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)))
+               ? std::string(chars, static_cast<std::size_t>(sqlite().column_bytes(statement_.get(), column)))
                : std::string();
   }
 
  private:
   struct Finalize {
-    void operator()(sqlite3_stmt* s) const { sqlite3_finalize(s); }
+    void operator()(sqlite3_stmt* s) const { sqlite().finalize(s); }
   };
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
   int code_ = SQLITE_DONE;
@@ -96,7 +95,7 @@ class Database {
 
  private:
   struct Close {
-    void operator()(sqlite3* db) const { sqlite3_close_v2(db); }
+    void operator()(sqlite3* db) const { sqlite().close_v2(db); }
   };
   std::unique_ptr<sqlite3, Close> handle_;
   std::string path_;
