@@ -10,7 +10,7 @@ namespace sixstep::study::detail {
 using PairChip = base::Result<Chip<rig::PairDrive>>;
 using LegChip = base::Result<Chip<rig::LegDrive>>;
 
-// The chip of the scenario. Problems: the arithmetic cannot hold the drive.
+// The chip of the scenario. Problems: the drive's numbers do not fit into the arithmetic.
 PairChip sensed_chip(const Scenario& scenario, const Compiled& compiled);
 PairChip product_chip(const Scenario& scenario, const Compiled& compiled);
 PairChip sensorless_chip(const Scenario& scenario, const Compiled& compiled);

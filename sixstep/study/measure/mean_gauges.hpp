@@ -65,7 +65,8 @@ class Rms {
   double integral_ = 0.0, seconds_ = 0.0;
 };
 
-/// Rms about the mean. The mean is unknown before the end, so that intervals are merged.
+/// Rms about the mean. The mean is known only at the end; until then each interval has its own mean, and
+/// intervals are merged.
 class RippleRms {
  public:
   void part(const Series& c, int degree, double, double length) {

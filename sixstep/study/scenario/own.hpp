@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// A number of the controller that replaces its preset.
+/// A value that replaces the preset of one of the controller's numbers.
 struct OwnNumber {
   std::string name;
   double value = 0.0;
