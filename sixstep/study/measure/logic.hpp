@@ -12,8 +12,8 @@
 namespace sixstep::study {
 
 enum class LogicKind : std::uint8_t {
-  level,  ///< the value is a number of `bits` bits, or logic_unknown
-  event   ///< the value is a count of occurrences
+  level,  ///< a number of `bits` bits, or logic_unknown
+  event   ///< occurs where its number, a count, increases
 };
 
 struct LogicSignal {
@@ -66,8 +66,8 @@ inline constexpr std::uint32_t logic_unknown = 0xffff'ffffu;
 /// In the order of LogicId.
 const std::vector<LogicSignal>& logic_signals();
 
-/// Receives an instant in ps and the values of all signals from this instant on. Instants increase. Each row
-/// differs from the previous row, except the last row, which marks the end of the run.
+/// Takes an instant in ps and all signals from that instant on. Instants rise, and each row differs from the
+/// one before, except the last row, which marks the end of the run.
 using LogicSink = std::function<void(std::int64_t ps, std::span<const std::uint32_t>)>;
 
 }  // namespace sixstep::study
