@@ -22,7 +22,7 @@ Torques<Real> torques(const Constants<Real>& c, Motion motion) {
 }
 
 /// True if the sum of the torques is linear in the speed, as FlatPair requires (recurrences.hpp). Each
-/// present torque is linear; a new torque that is not must return false here.
+/// present torque is linear; for a new torque that is not linear this function must return false.
 template <class Real>
 constexpr bool is_line_over_speed(const Torques<Real>& all) {
   [[maybe_unused]] const auto& [load, dry, per_speed] = all;
