@@ -44,7 +44,8 @@ std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStor
 inline constexpr std::size_t most_points_shown = 60;
 
 /// The table, in one of three forms:
-/// - one line per point with its figures; for several drives the median, and the number of drives that hold;
+/// - one line per point with its figures; for several drives the median, and the number of drives that meet
+///   the requirements;
 /// - the statistics of all runs;
 /// - the Sobol indices, if the plan is sampled for them.
 std::string plan_table(const PlanStory& story);
