@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Circuit law of the three-leg bridge on a star winding as pure functions (model.md 2): the connection of each
-// leg, its pole voltage against the negative rail, and the star point's voltage. settle.hpp decides the
+// Circuit law of the three-leg bridge on a star winding as pure functions (model.md 2): the connection of
+// each leg, its pole voltage against the negative rail, and the star point's voltage. settle.hpp decides the
 // connections that gates and currents do not determine.
 #pragma once
 #include <algorithm>

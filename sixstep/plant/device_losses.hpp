@@ -27,7 +27,8 @@ struct DeviceEnergy {
   double diode = 0.0, recovery = 0.0;                      ///< energy of its antiparallel diode
 
   double switching() const { return turn_on + turn_off + recovery; }
-  /// Energy that heats the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode is not.
+  /// Energy that heats the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode
+  /// is not.
   double in_crystal(bool igbt) const {
     return conduction + turn_on + turn_off + (igbt ? 0.0 : diode + recovery);
   }
@@ -43,8 +44,8 @@ class DeviceLosses {
  public:
   explicit DeviceLosses(const SwitchingLaw& law = {}) : law_(law) {}
 
-  /// Begins a segment: each leg whose connection has changed since the last segment has switched current i at bus
-  /// voltage U. With `counts` false no energy is counted; the connections are only stored.
+  /// Begins a segment: each leg whose connection has changed since the last segment has switched current i at
+  /// bus voltage U. With `counts` false no energy is counted; the connections are only stored.
   template <class Real>
   void begin(const Legs& legs, const PerLeg<Real>& i, Real U, bool counts = true) {
     if (known_ && counts)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number of turns.
+// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number
+// of turns.
 //
 //   A = [frac(N theta/2 pi) < 1/2], B follows a quarter of a line later, Z = 1 over the first line of a turn
 //   counted x4: floor(4 N theta/2 pi);   absolute: the Gray code of floor(2^n frac(theta/2 pi))
@@ -25,7 +26,8 @@ struct ShaftAngle {
 /// counted over all turns.
 template <class Real>
 std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
-  // Whole sectors are computed in integers: theta/2 pi = (sector + x/60 deg)/(6 p); x adds less than one sector.
+  // Whole sectors are computed in integers: theta/2 pi = (sector + x/60 deg)/(6 p); x adds less than one
+  // sector.
   const std::int64_t per_turn = 6 * at.pole_pairs, turns = at.sector / per_turn, rest = at.sector % per_turn;
   const std::int64_t whole = parts * rest / per_turn, left = parts * rest % per_turn;
   const Real more = (static_cast<Real>(left) + static_cast<Real>(parts) * (at.x / Real(base::sector_rad))) /

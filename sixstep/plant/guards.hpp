@@ -33,8 +33,8 @@ inline constexpr int saturated = 32;  // + 1: the current along the magnet's axi
 inline constexpr int first_free = 34;
 }  // namespace guard
 
-/// Rounding noise of a value: 64 eps x natural scale (architecture.md, pitfall 6), times `slack`, which settling
-/// raises if rounding made every mode inconsistent.
+/// Rounding noise of a value: 64 eps x natural scale (architecture.md, pitfall 6), times `slack`, which
+/// settling raises if rounding made every mode inconsistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {
   constexpr Real eps =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applies a located event to the state, and sets values within rounding of zero to zero before the mode is settled.
-// Part of plant.hpp.
+// Applies a located event to the state, and sets values within rounding of zero to zero before the mode is
+// settled. Part of plant.hpp.
 #pragma once
 #include <utility>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrates the energies of bridge, winding and shaft over one segment from the segment's own series: the terms of
-// the energy balance (model.md 5). Terms that are zero are not computed.
+// Integrates the energies of bridge, winding and shaft over one segment from the segment's own series: the
+// terms of the energy balance (model.md 5). Terms that are zero are not computed.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/series/quadrature.hpp"

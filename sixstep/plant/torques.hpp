@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Torques that act on the rotor, each defined once (model.md (4)). The recurrences, the guards, the energy balance
-// and the figures of merit use them.
+// Torques that act on the rotor, each defined once (model.md (4)). The recurrences, the guards, the energy
+// balance and the figures of merit use them.
 #pragma once
 #include "sixstep/plant/expansion.hpp"
 

@@ -159,8 +159,8 @@ struct EnumText<sixstep::control::VoltageLimit> {
                                                                                     {"circle", circle, ""}};
 };
 
-/// Visits the fields of a configuration (design/fields) twice in parallel: as designed in SI, and as kept in the
-/// target's arithmetic.
+/// Visits the fields of a configuration (design/fields) twice in parallel: as designed in SI, and as kept in
+/// the target's arithmetic.
 template <class Scalar>
 class ConfigText {
  public:

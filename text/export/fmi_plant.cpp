@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables of a unit without controller: the importer sets gates, a pair or legs, and reads what a controller measures.
+// Variables of a unit without controller: the importer sets gates, a pair or legs, and reads what a
+// controller measures.
 #include <fmt/format.h>
 
 #include <utility>
@@ -182,8 +183,9 @@ study::Scenario with_stand_in(study::Scenario s, FmiChip chip) {
 bool is_of_plant(ColumnId id, FmiChip chip) {
   using enum ColumnId;
   if (chip == FmiChip::of_scenario) return true;
-  if (chip == FmiChip::gates && id >= encoder_A) return false;  // the encoder's peripheral belongs to the
-                                                                // controller
+  if (chip == FmiChip::gates && id >= encoder_A)
+    return false;  // the encoder's peripheral belongs to the
+                   // controller
   return !(id >= duty && id <= position_ref) && id < i_d;
 }
 

@@ -43,7 +43,8 @@ base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scen
 study::Scenario with_stand_in(study::Scenario scenario, FmiChip chip);
 /// Whether the plant determines a signal, not the scenario's controller.
 bool is_of_plant(study::ColumnId id, FmiChip chip);
-/// Inputs for the bridge, measurements and counts of a unit without controller. References: faces/fmu/plant.h.
+/// Inputs for the bridge, measurements and counts of a unit without controller. References:
+/// faces/fmu/plant.h.
 void add_plant(const study::Scenario& scenario, FmiChip chip, FmiVersion version,
                std::vector<FmiVariable>& all);
 

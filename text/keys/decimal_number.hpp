@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the text of a decimal number to the nearest double, the same on every platform and in every locale.
+// Converts the text of a decimal number to the nearest double, the same on every platform and in every
+// locale.
 #pragma once
 #include <cstddef>
 #include <optional>

@@ -76,7 +76,7 @@ bool is_among(const Columns& columns, const RecordedColumn& column) {
   return std::any_of(columns.begin(), columns.end(), [&](const Picked& p) { return p.column == &column; });
 }
 
-/// Notes each unused column with the reason. If the options name the columns, it notes nothing.
+/// Notes each unused column with the reason. Called only if the options do not name the columns.
 void note_rest(const Recording& r, const Columns& used, const RecordedColumn* time, const BenchUse& use,
                Notes& notes) {
   std::vector<NotUsed> rest;

@@ -75,7 +75,8 @@ void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   if (!c.elastic) z.load_w[n] = c.inv_gear * y.w[n];
 }
 
-/// False for a plain star on a stiff bus, with a trapezoid and a rigid shaft: only currents and speed change then.
+/// False for a plain star on a stiff bus, with a trapezoid and a rigid shaft: only currents and speed change
+/// then.
 template <class Real>
 bool moves_more(const Constants<Real>& c) {
   return c.inv_C > 0 || c.inv_L_b > 0 || c.has_loop || c.elastic || c.mains_peak > 0 || c.rotations > 0 ||

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of the general kernel (model.md 7 to 9): windings with different phases, delta, saliency, saturation,
-// back-EMF by harmonics or as a table, cogging, gear and elastic shaft with a load of its own, IGBTs, a battery,
-// mains or a source with an inductance, a brake chopper. SI units. A member with its default value has no effect.
+// Parameters of the general kernel (model.md 7 to 9): windings with different phases, delta, saliency,
+// saturation, back-EMF by harmonics or as a table, cogging, gear and elastic shaft with a load of its own,
+// IGBTs, a battery, mains or a source with an inductance, a brake chopper. SI units. A member with its
+// default value has no effect.
 #pragma once
 #include <vector>
 

@@ -58,8 +58,8 @@ class Plant {
     breaking_ |= 1U << k;
     stale_ = true;
   }
-  /// The upper or lower switch of leg k fails: permanently on (`shorted`), or permanently off while its diode still
-  /// works. The gates change with the next set_gates().
+  /// The upper or lower switch of leg k fails: permanently on (`shorted`), or permanently off while its diode
+  /// still works. The gates change with the next set_gates().
   void fail_switch(int k, bool high, bool shorted) {
     Gates& gates = shorted ? failed_.shorted : failed_.open;
     (high ? gates.high : gates.low).set(static_cast<std::size_t>(k));

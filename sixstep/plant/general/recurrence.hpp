@@ -46,8 +46,9 @@ class Recurrence {
     if (has_axes_) axes_.begin();
   }
 
-  /// Computes terms n + 1 of all states from terms n, and terms n of the quantities that follow from the states. The
-  /// shaft is a separate object, so that no reference points to the members here and they can stay in registers.
+  /// Computes terms n + 1 of all states from terms n, and terms n of the quantities that follow from the
+  /// states. The shaft is a separate object, so that no reference points to the members here and they can
+  /// stay in registers.
   template <class Shaft>
   [[gnu::always_inline]] void take_order(int n, Shaft& shaft) {
     const Real f = y_.h / Real(n + 1);

@@ -23,7 +23,8 @@ class ShaftTerms {
   ShaftTerms(const Constants<Real>& c, Mode& mode, Real load, Expansion<Real>& y, Series<Real>& z)
       : c_(c), mode_(mode), load_(load), y_(y), z_(z), plain_(is_plain(c)), turns_(turns(mode.motion)) {}
 
-  /// Computes terms n of the torques and n + 1 of speeds and angles; y.torque[n] and z.cogging[n] must be set.
+  /// Computes terms n of the torques and n + 1 of speeds and angles; y.torque[n] and z.cogging[n] must be
+  /// set.
   [[gnu::always_inline]] void take_order(int n, Real f) {
     if (!plain_) return take_any_order(n, f);
     const Real w = y_.w[n], load = steps(n);
@@ -83,8 +84,8 @@ class ShaftTerms {
     }
     return load;
   }
-  /// Torques that the breakaway torque opposes, for motion forward and backward. `through`: torque through the
-  /// gear at the load's side, before the gear's losses.
+  /// Torques that the breakaway torque opposes, for motion forward and backward. `through`: torque through
+  /// the gear at the load's side, before the gear's losses.
   void push(int n, Real drive, Real through) {
     z_.forward[n] = drive - c_.inv_gear * through;
     z_.backward[n] = z_.forward[n];

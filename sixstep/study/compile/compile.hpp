@@ -81,8 +81,8 @@ double unseen_at_rest_A(const Scenario& scenario, double R_ohm);
 /// Turns a scenario into the parts of a run. Requires that check() found nothing.
 base::Result<Compiled> compile(const Scenario& scenario);
 
-/// A loop's gains per sample, as its keys give them; empty if the pole placement designs them. Problems: gains
-/// given in more than one way, or incompletely.
+/// A loop's gains per sample, as its keys give them; empty if the pole placement designs them. Problems:
+/// gains given in more than one way, or incompletely.
 struct GivenGains {
   std::optional<design::PiGains> gains;
   std::string origin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chips that a rig can have. Each firmware is compiled in each arithmetic, separately from the kernels, in
-// the file chip_* with its name.
+// The chips that a rig can have. Each firmware is compiled in each arithmetic, separately from the kernels,
+// in the file chip_* with its name.
 #pragma once
 #include "sixstep/rig/any_drive.hpp"
 #include "sixstep/study/compile/rig_of.hpp"

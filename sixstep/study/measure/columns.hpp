@@ -71,7 +71,8 @@ enum class ColumnId : std::uint8_t {
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
 using FullRow = std::array<double, column_count>;
 
-/// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold NaN.
+/// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold
+/// NaN.
 bool applies(ColumnId id, control::Mode mode);
 /// Whether a column has a meaning in any mode of the run, with the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);

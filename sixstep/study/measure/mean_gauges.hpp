@@ -79,8 +79,8 @@ class RippleRms {
   double value(double) const { return std::sqrt(squares_ / seconds_); }
 
  private:
-  /// Merges two intervals into one (Chan, Golub, LeVeque 1983) without a difference of large squares, so that a
-  /// ripple of a millionth of its mean keeps its digits.
+  /// Merges two intervals into one (Chan, Golub, LeVeque 1983) without a difference of large squares, so that
+  /// a ripple of a millionth of its mean keeps its digits.
   void merge(double mean, double squares, double length) {
     const double all = seconds_ + length;
     if (!(all > 0.0)) return;

@@ -22,9 +22,9 @@ struct RunWatch {
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
   std::int64_t samples = 0, hidden_samples = 0;  ///< all samples of the shunt, and those in which it shows no
                                                  ///< current
-  bool held_a_commutation = false;  ///< the drive made at least one duty step
-  bool held_other_duty = false;     ///< in a duty step, or immediately before it, the duty was below 1
-  double duty_before = 0.0;         ///< the drive's last duty outside of a duty step, magnitude
+  bool held_a_commutation = false;               ///< the drive made at least one duty step
+  bool held_other_duty = false;  ///< in a duty step, or immediately before it, the duty was below 1
+  double duty_before = 0.0;      ///< the drive's last duty outside of a duty step, magnitude
   double held_rad_s = 0.0,
          held_A = 0.0;  ///< speed and current reference of the duty step with their largest product
 

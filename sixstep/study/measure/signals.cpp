@@ -144,7 +144,8 @@ Extremes phase_bounds(const SegmentView& g) {
   return bounds_of_currents(g, weights);
 }
 
-/// A signal that is constant or a sum of the segment's own series, over the whole segment and with its degree.
+/// A signal that is constant or a sum of the segment's own series, over the whole segment and with its
+/// degree.
 struct PlainSignal {
   Signal signal;
   Series (*series)(const SegmentView&);

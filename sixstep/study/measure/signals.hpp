@@ -14,8 +14,8 @@ namespace sixstep::study {
 
 using Series = series::Coefficients<double>;
 
-/// The data of a segment that figures read. It has one type for all firmwares, so that the figures are compiled
-/// once.
+/// The data of a segment that figures read. It has one type for all firmwares, so that the figures are
+/// compiled once.
 struct SegmentView {
   plant::View plant;
   ModulatorView modulator;

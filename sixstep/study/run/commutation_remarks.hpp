@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds a duty step or an overlap (control/commutation_step.hpp) that never acts, or acts with an unsuitable pattern.
+// Finds a duty step or an overlap (control/commutation_step.hpp) that never acts, or acts with an unsuitable
+// pattern.
 #pragma once
 #include <string>
 

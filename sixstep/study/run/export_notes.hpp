@@ -47,7 +47,8 @@ std::string short_dead_time(const Scenario& scenario);
 /// drive has no stall thresholds and so detects no stall.
 std::string without_protection(const Scenario& scenario);
 
-/// The bound of a product drive's setpoint, which is the scenario's largest reference. Empty for other drives.
+/// The bound of a product drive's setpoint, which is the scenario's largest reference. Empty for other
+/// drives.
 std::string setpoint_bound(const Scenario& scenario);
 
 }  // namespace sixstep::study

@@ -20,8 +20,8 @@ std::string few_digits(double x);
 std::vector<std::string> passed_limits(const Scenario& scenario, const RunWatch& watch,
                                        const Outcome& outcome);
 
-/// Compares the highest phase current with the limit that a user's controller was given (0: none), and with the
-/// converters' range.
+/// Compares the highest phase current with the limit that a user's controller was given (0: none), and with
+/// the converters' range.
 std::vector<std::string> passed_currents(const Scenario& scenario, double given_limit_A,
                                          const RunWatch& watch);
 

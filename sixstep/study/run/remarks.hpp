@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes remarks: facts about the drive that a run found and a user may not expect, one sentence each with its
-// numbers.
+// Writes remarks: facts about the drive that a run found and a user may not expect, one sentence each with
+// its numbers.
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/outcome.hpp"

@@ -39,8 +39,8 @@ struct OnCore {
   double setpoint_range = 0.0;
 };
 
-/// Runs the scenario. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
-/// outcome; Problems: the run could not start.
+/// Runs the scenario. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of
+/// the outcome; Problems: the run could not start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {}, const OnCore& core = {});
 
 /// Whether Listeners::keep_going ended the run early. A run that a fault stopped is not cut short.

@@ -13,8 +13,8 @@ inline bool retunes(const At& at) { return at.control != AtControl{} || at.pwm !
 /// The events in time order. Two events at one instant keep their order in the file.
 std::vector<const At*> in_order(const Scenario& scenario);
 
-/// The time of an event, s. An event that changes the mode waits for the control sample at or after its time_s,
-/// so that mode and reference change together.
+/// The time of an event, s. An event that changes the mode waits for the control sample at or after its
+/// time_s, so that mode and reference change together.
 double happens_at_s(const Scenario& scenario, const At& at);
 /// The first control sample at or after `ticks`. The chip uses the configuration of an event at `ticks` from
 /// this sample on.

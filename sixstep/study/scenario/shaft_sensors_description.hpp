@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of [sensors.encoder], [sensors.absolute] and [sensors.resolver]: names, units, ranges and meanings.
+// The keys of [sensors.encoder], [sensors.absolute] and [sensors.resolver]: names, units, ranges and
+// meanings.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
