@@ -15,7 +15,7 @@ namespace text {
 struct NamedText {
   std::string name;  ///< name for messages; names inside the text are relative to it
   std::string text;
-  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if the name is that of a
+  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if the name refers to a
                                                    ///< controller
 };
 

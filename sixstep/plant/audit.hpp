@@ -94,7 +94,7 @@ inline typename Audit<Real>::Point Audit<Real>::begin_of(const Expansion<Real>& 
   return {{y.i[law.leg[0]][0], y.i[law.leg[1]][0], y.i[law.leg[2]][0]}, y.w[0]};
 }
 
-/// `y.end` holds the increments until the segment's end, from which Plant::advance() continues the state.
+/// `y.end` contains the increments up to the segment's end; Plant::advance() continues the state from them.
 template <class Real>
 inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
                                                        const Point& begin) {
@@ -128,7 +128,8 @@ inline void Audit<Real>::take(const Plant<Real>& plant, const SegmentEnergy<Real
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
   // A clamp that closes on a turning shaft takes its kinetic energy, even if the clamp opens at the same
-  // instant. Standstill also sets a speed within noise to zero; that energy is not counted.
+  // instant. Standstill also sets a speed within noise to zero; the kinetic energy of such a speed is not
+  // counted.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
   // mutant: stopped && end_.w != 0 => false
   if (stopped && end_.w != 0) friction_load_.add(kinetic_energy(end_), Real(0));

@@ -52,8 +52,9 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps, w the flat width in degrees
-/// (model.md 1). f is linear over one piece, whose middle is `middle_deg` after the sector's start.
+/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps, with the angle phi from the
+/// centre of the top and the flat width w, both in degrees (model.md 1). f is linear over one piece, whose
+/// middle is `middle_deg` after the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;

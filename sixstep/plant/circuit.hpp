@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Circuit law of the three-leg bridge on a star winding as pure functions (model.md 2): the connection of each
-// leg, its pole voltage against the negative rail, and the star point's voltage. settle.hpp decides the
-// connections that gates and currents leave open.
+// Circuit law of the three-leg bridge on a star winding as pure functions (model.md 2): the connection of
+// each leg, its pole voltage against the negative rail, and the star point's voltage. settle.hpp decides the
+// connections that gates and currents do not determine.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ constexpr Real along_diode(Connection diode, Real v) {
 /// Pole voltage of a connected leg, V against the negative rail: u_k = bus_share U_s + offset_V - r_ohm i_k.
 template <class Real>
 struct PoleTerms {
-  Real bus_share{};  ///< 1 on the positive rail, 0 on the negative one
+  Real bus_share{};  ///< 1 on the positive rail, 0 on the negative rail
   Real offset_V{};
   Real r_ohm{};
 };
@@ -118,7 +118,7 @@ constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real
   return (U_s - highest - lowest) / Real(2);
 }
 
-/// All three pole voltages: connected legs by their devices, floating ones at u_n + e_k (model.md 2).
+/// All three pole voltages: of connected legs by their devices, of floating legs u_n + e_k (model.md 2).
 template <class Real>
 constexpr PerLeg<Real> pole_voltages(const Legs& legs, const PoleTable<Real>& poles, Real U_s,
                                      const PerLeg<Real>& i, const PerLeg<Real>& e) {

@@ -6,7 +6,7 @@
 // A switch that takes over a current from the other switch's diode loses E_on, and that diode loses E_rr. A
 // switch that turns off a current loses E_off. Nothing is lost without current, or where the current flows in
 // the direction of the switch's own diode: a channel that carries this current counts as the diode, because
-// any pause between the two leaves the current in the diode.
+// the diode carries the current in any pause between the two switches.
 #pragma once
 #include <array>
 
@@ -27,7 +27,8 @@ struct DeviceEnergy {
   double diode = 0.0, recovery = 0.0;                      ///< energy of its antiparallel diode
 
   double switching() const { return turn_on + turn_off + recovery; }
-  /// Energy that heats the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode is not.
+  /// Energy that heats the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode
+  /// is not.
   double in_crystal(bool igbt) const {
     return conduction + turn_on + turn_off + (igbt ? 0.0 : diode + recovery);
   }
@@ -43,8 +44,8 @@ class DeviceLosses {
  public:
   explicit DeviceLosses(const SwitchingLaw& law = {}) : law_(law) {}
 
-  /// Begins a segment: each leg whose connection has changed since the last segment has switched current i at bus
-  /// voltage U. With `counts` false no energy is counted; the connections are only stored.
+  /// Begins a segment: each leg whose connection has changed since the last segment has switched current i at
+  /// bus voltage U. With `counts` false no energy is counted; the connections are only stored.
   template <class Real>
   void begin(const Legs& legs, const PerLeg<Real>& i, Real U, bool counts = true) {
     if (known_ && counts)
@@ -71,8 +72,8 @@ class DeviceLosses {
   void clear() { energies_ = {}; }
 
  private:
-  /// Counts a change of connection. A positive current is carried forward by the upper switch, a negative one by the
-  /// lower.
+  /// Counts a change of connection. The transistor of the upper switch carries a positive current, the
+  /// transistor of the lower switch a negative current.
   void switched(Connection before, Connection after, double i, double U, LegDevices& leg) const {
     if (i == 0.0) return;
     const bool from_high = is_high(before), to_high = is_high(after), positive = i > 0;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number of turns.
+// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number
+// of turns.
 //
 //   A = [frac(N theta/2 pi) < 1/2], B follows a quarter of a line later, Z = 1 over the first line of a turn
 //   counted x4: floor(4 N theta/2 pi);   absolute: the Gray code of floor(2^n frac(theta/2 pi))
+//
+// theta is the shaft's mechanical angle, N the number of lines per turn, n the number of bits.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -19,11 +22,12 @@ struct ShaftAngle {
   std::int64_t pole_pairs = 1;
 };
 
-/// floor(parts theta/2 pi): index of the present one of `parts` equal parts of a turn, counted over all
-/// turns.
+/// floor(parts theta/2 pi): index of the part of a turn, of `parts` equal parts, in which the shaft is;
+/// counted over all turns.
 template <class Real>
 std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
-  // Whole sectors are computed in integers: theta/2 pi = (sector + x/60 deg)/(6 p); x adds less than one sector.
+  // Whole sectors are computed in integers: theta/2 pi = (sector + x/60 deg)/(6 p); x adds less than one
+  // sector.
   const std::int64_t per_turn = 6 * at.pole_pairs, turns = at.sector / per_turn, rest = at.sector % per_turn;
   const std::int64_t whole = parts * rest / per_turn, left = parts * rest % per_turn;
   const Real more = (static_cast<Real>(left) + static_cast<Real>(parts) * (at.x / Real(base::sector_rad))) /

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the Taylor coefficients of a segment, order by order, until rounding level is reached.
+// Computes the Taylor coefficients of a segment, order by order, until they are below rounding level.
 #pragma once
 #include <type_traits>
 #include <utility>
@@ -67,8 +67,8 @@ template <class Real>
 struct Convergence {
   Real amp_limit, speed_limit, volt_limit;
   Real before = 0, last = 0;
-  /// At rest and without current. Torque and current may then alternate so that only the terms 1, 4, 7, 10
-  /// are nonzero: a zero term does not show that the series has converged, and all orders are computed.
+  /// True at rest and without current. Torque and current may then alternate so that only the terms 1, 4, 7,
+  /// 10 are nonzero: a zero term does not show that the series has converged, and all orders are computed.
   bool from_nothing;
 
   Convergence(const Constants<Real>& c, const Expansion<Real>& y)
@@ -274,8 +274,8 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
   }
 }
 
-/// `wanted`, s, or less where one series cannot cover it: half of the fastest time constant. Nearly all
-/// segments are short enough and need no division.
+/// The length, s, that one series can cover: `wanted`, but at most half of the fastest time constant. Nearly
+/// all segments are short enough and need no division.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& state, Real wanted) {
   const Real rate = c.steady_rate + c.pole_pairs * detail::abs(state.w);

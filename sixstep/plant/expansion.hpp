@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants holds the plant's numbers, Expansion the polynomials of one segment. Guards, recorded values and
-// energy read the same series, because the right-hand side is polynomial in the state between events
+// Constants contains the plant's numbers, Expansion the polynomials of one segment. Guards, recorded values
+// and energy read the same series, because the right-hand side is polynomial in the state between events
 // (model.md 12).
 #pragma once
 #include <cmath>
@@ -26,13 +26,13 @@ struct Constants {
   Real volt_scale, amp_scale, speed_scale, torque_scale;
   Real volt_noise, amp_noise, speed_noise, torque_noise;  // noise_of() the four scales
   Real steady_rate;                                       // constant part of the fastest rate, 1/s
-  Real amp_limit, speed_limit, volt_limit;                // 1 over the size at which a term of the series is
-                                                          // rounding
+  Real amp_limit, speed_limit, volt_limit;                // 1 divided by the size at which a term of the
+                                                          // series is rounding
   Real K_e;
 };
 
-/// A term of a series counts as zero when it is this many times smaller than its state's natural scale. That
-/// is well below the last bit, so that truncation errors never add up.
+/// A term of a series counts as zero if it is this many times smaller than its state's natural scale. This
+/// threshold is well below the last bit, so that truncation errors never add up.
 template <class Real>
 inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
@@ -52,7 +52,7 @@ struct Expansion {
   series::Coefficients<Real> w, x, bus, torque;
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
   Increments<Real> end;
-  PerLeg<Real> reach_i;  ///< bound: no series moves further from its first value than this
+  PerLeg<Real> reach_i;  ///< bound: no series changes from its first value by more than this
   Real reach_w = 0, reach_x = 0;
   Real later_x = 0;  ///< bound of the change of x without its first term
 };

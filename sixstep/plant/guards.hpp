@@ -17,11 +17,11 @@ inline constexpr int edge_ahead = 4;
 inline constexpr int edge_behind = 5;
 inline constexpr int low_rail = 6;        // + k; leg k's terminal reaches its low diode
 inline constexpr int high_rail = 9;       // + k; leg k's terminal reaches its high diode
-inline constexpr int floating_star = 12;  // + 3 j + k: e_j - e_k against the rails
+inline constexpr int floating_star = 12;  // + 3 j + k: e_j - e_k reaches U_s + 2 V_f
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
 inline constexpr int source = 23;
-inline constexpr int brake = 24;       // this and the next ones: general kernel only
+inline constexpr int brake = 24;       // this and the following guards: general kernel only
 inline constexpr int load_turns = 25;  // the load's speed changes its sign
 inline constexpr int gear_turns = 26;  // the torque through a lossy gear changes its sign
 inline constexpr int faster = 27;      // the load's speed passes a point of its torque's table upwards
@@ -33,8 +33,8 @@ inline constexpr int saturated = 32;  // + 1: the current along the magnet's axi
 inline constexpr int first_free = 34;
 }  // namespace guard
 
-/// Rounding noise of a value: 64 eps x natural scale (pitfall 6), times `slack`, which settling raises where
-/// rounding made every mode inconsistent.
+/// Rounding noise of a value: 64 eps x natural scale (architecture.md, pitfall 6), times `slack`, which
+/// settling raises if rounding made every mode inconsistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {
   constexpr Real eps =

@@ -3,8 +3,8 @@
 //
 //   60 deg n + offset + own[n mod N],   N = 6 per electrical turn, or 6 p per mechanical turn (magnets differ)
 //
-// and appears h/2 later in the direction of motion, h the hysteresis. The edges without hysteresis give the
-// first sector.
+// and appears h/2 later in the direction of motion, h the hysteresis. The sector at the start of the run
+// follows from the edges without hysteresis.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -18,8 +18,8 @@ namespace sixstep::plant {
 struct HallPlacement {
   double offset_deg = 0.0;        ///< offset of all edges
   double hysteresis_deg = 0.0;    ///< distance between an edge's positions in the two directions
-  std::vector<double> own_deg{};  ///< further offset of each edge, the first that at 0 degrees; none, 6, or 6
-                                  ///< p values
+  std::vector<double> own_deg{};  ///< further offset of each edge, the edge at 0 degrees first; 0, 6 or 6 p
+                                  ///< values
 
   bool as_sectors() const { return offset_deg == 0.0 && hysteresis_deg == 0.0 && own_deg.empty(); }
 };
@@ -46,8 +46,8 @@ class HallProbes {
   /// Sector according to the probes, counted over all turns as State::sector is.
   std::int64_t shown() const { return shown_; }
 
-  /// Calls visit(ProbeEdge, series, degree, noise) for each edge: the series falls through zero where that
-  /// edge appears. `sector` is the rotor's own sector.
+  /// Calls visit(ProbeEdge, series, degree, noise) for each edge: the series falls through zero where the
+  /// edge appears. `sector` is the rotor's sector.
   template <class Visit>
   void guards(const Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     const Real noise = noise_of(Real(base::sector_rad), Real(1));

@@ -12,14 +12,15 @@ struct LegsLaw {
   struct Terms {
     Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< coefficients of U_s, 1, i and i_2
   };
-  std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating ones
+  std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating legs
   std::uint8_t connected = 0;
   std::uint8_t floating = 0, diodes = 0;  ///< as masks: bit k is leg k
   PerLeg<PoleTerms<Real>> pole{};         ///< pole terms in the order of `leg`; zero for a floating leg
   PerLeg<Real> along{};  ///< in the order of `leg`: sign that makes a diode's current positive; 0: no diode
   Terms slope, slope_2;  ///< di/dt of the first current and, where three legs are connected, of the second
   Terms star;            ///< u_n + mean of e over the connected legs, for one or two connected legs
-  Real emf_rate = 0;     ///< factor of the back-EMF: di/dt = -emf_rate (e_leg - e_other or - mean)
+  Real emf_rate = 0;     ///< factor of the back-EMF: di/dt = -emf_rate (e_leg - e_other) with two legs,
+                         ///< -emf_rate (e_leg - mean of e) with three
 };
 
 /// One law per set of connections, by legs_index().

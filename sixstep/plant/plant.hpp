@@ -47,16 +47,16 @@ class Plant {
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
 
-  /// Settles the mode if gates, load or state have changed since, and expands. Returns the length covered, s;
-  /// a negative value means that no mode is consistent.
+  /// Settles the mode if gates, load or state have changed since the last call, and expands. Returns the
+  /// length covered, s; a negative value means that no mode is consistent.
   double expand(double wanted);
   template <class Visit>
   void guards(Visit&& visit) const {
     mode_guards(constants_, mode_, y_, slack_, visit);
     edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
-  /// Ends the segment at the fraction s of its length: the expansion's `end` gets the increments until there.
-  /// Call it once per expansion.
+  /// Ends the segment at the fraction s of its length: writes the increments up to this fraction to the
+  /// expansion's `end`. Call it once per expansion.
   void end_at(Real s) {
     if (s != 1) y_.end = detail::increments(y_, constants_.legs[legs_index(mode_.legs)], s);
   }
@@ -70,8 +70,7 @@ class Plant {
   const Gates& gates() const { return gates_; }
   const Constants<Real>& constants() const { return constants_; }
   const Expansion<Real>& expansion() const { return y_; }
-  /// Factor on the constants' noise levels in this mode: 1, or more where no mode was consistent with factor
-  /// 1.
+  /// Factor on the constants' noise levels in this mode: 1, or more if no mode was consistent with factor 1.
   Real slack() const { return slack_; }
   int sector() const { return mode_.sector; }
   /// Number of times that a floating leg began to conduct by a diode.
@@ -219,7 +218,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   now.i = {y_.i[0][0] + a, y_.i[1][0] + b, y_.i[2][0] + c};
   now.speed = y_.w[0] + w;
   now.bus = constants_.inv_C > 0 ? evaluate(y_.bus, y_.degree, s) : y_.bus[0];
-  State<Real> unit;  // speed 1 gives the back-EMF's shape, and current 1 the torque's
+  State<Real> unit;  // with speed 1 the back-EMF of a phase equals its torque per ampere
   unit.w = 1;
   unit.x = y_.x[0] + x;
   const PerLeg<Real> shape = detail::back_emf(constants_, unit, mode_);
@@ -232,7 +231,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   return now;
 }
 
-// Defined once, in snapshot.cpp, for sources that are compiled for size use it, too.
+// Defined once, in snapshot.cpp, because sources that are compiled for size use it too.
 extern template Snapshot<double> Plant<double>::at(double) const;
 
 }  // namespace sixstep::plant

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes to a running plant: the clamp on its shaft, its source, and the noise scales that follow from them. Part
-// of plant.hpp.
+// Changes to a running plant: the clamp on its shaft, its source, and the noise scales that follow from them.
+// Part of plant.hpp.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 

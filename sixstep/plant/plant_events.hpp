@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applies a located event to the state, and sets values within rounding of zero to zero before the mode is settled.
-// Part of plant.hpp.
+// Applies a located event to the state, and sets values within rounding of zero to zero before the mode is
+// settled. Part of plant.hpp.
 #pragma once
 #include <utility>
 
@@ -47,8 +47,8 @@ bool Plant<Real>::apply(int id) {
     return leaves;
   }
   if (id < guard::standstill) {
-    // Two legs share one current and reach zero together. When one of three reaches zero, the other two carry one
-    // current.
+    // Two legs share one current and reach zero together. When one of three currents reaches zero, the other
+    // two legs share one current.
     state_.i[id] = state_.i_low[id] = 0;
     if (connected_count(mode_.legs) == 2) state_.i = state_.i_low = {};
     detail::balance(state_);

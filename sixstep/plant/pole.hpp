@@ -7,16 +7,15 @@
 
 namespace sixstep::plant {
 
-/// Voltage of a floating terminal as a sum over the other series. If no leg is connected, the voltage is e_k
-/// alone.
+/// Voltage of a floating terminal as a sum over the other series. If no leg is connected, the voltage is e_k.
 template <class Real>
 struct PoleLaw {
   Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< coefficients of U_s, 1, i of `leg`, w phi0 and w phi1
   int leg = 0;
 };
 
-/// u_n is the mean of u_s - e_s over the connected legs s. There are none, one, or two that share one
-/// current.
+/// u_n is the mean of u_s - e_s over the connected legs s. Zero, one or two legs are connected; two connected
+/// legs share one current.
 template <class Real>
 [[gnu::always_inline]] inline PoleLaw<Real> pole_law(const EmfPiece<Real>& p, const LegsLaw<Real>& law,
                                                      unsigned k) {

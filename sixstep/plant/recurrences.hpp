@@ -79,7 +79,7 @@ template <bool sine, class Real>
 struct OneCurrent {
   static constexpr bool sine_shape = sine;
   PairLaw<sine, Real> pair;
-  Real from_square;  // w (x - x(0)) = ((x - x(0))^2)'/2 over p h; a square needs half the products
+  Real from_square;  // w (x - x(0)) = ((x - x(0))^2)'/(2 p h); a square needs half the products
 
   OneCurrent(const Rotor<Real>&, const Constants<Real>& c, const LegsLaw<Real>& law,
              const ShapeLine<sine, Real>& f)
@@ -125,7 +125,7 @@ struct FlatPair {
   FlatPair(const Rotor<Real>& rotor, const Constants<Real>&, const LegsLaw<Real>& law,
            const ShapeLine<false, Real>& f)
       : pair(law, f) {
-    // Only those rotor terms that multiply i and w enter M; the constant terms enter at order 1.
+    // Only the rotor terms that multiply i and w enter M; the constant terms enter at order 1.
     [[maybe_unused]] const auto& [inv_J, pole_pairs, steady, per_speed] = rotor;
     const Real a = pair.slope.i, b = pair.from_w0;
     // mutant: -per_speed * inv_J => Real(0)
@@ -159,8 +159,8 @@ struct FlatPair {
   }
 };
 
-/// All three legs are connected: two recurrences, and the third current is minus their sum. Coefficients are
-/// multiplied out as in PairLaw, with i_c eliminated.
+/// All three legs are connected: two recurrences, and the third current is minus the sum of the two currents.
+/// Coefficients are multiplied out as in PairLaw, with i_c eliminated.
 template <bool sine, class Real>
 struct TwoCurrents {
   static constexpr bool sine_shape = sine;
@@ -176,7 +176,7 @@ struct TwoCurrents {
               const ShapeLine<sine, Real>& f) {
     const Real mean_0 = (f.now[0] + f.now[1] + f.now[2]) * Real(1.0L / 3);
     const Real mean_1 = (f.rise[0] + f.rise[1] + f.rise[2]) * Real(1.0L / 3);
-    // w (x - x(0)) = ((x - x(0))^2)'/2 over p h; a square needs half the products.
+    // w (x - x(0)) = ((x - x(0))^2)'/(2 p h); a square needs half the products.
     const Real rate_1 = sine ? law.emf_rate : law.emf_rate * c.inv_pole_pairs;
     a = {law.slope, -law.emf_rate * (f.now[0] - mean_0), -rate_1 * (f.rise[0] - mean_1)};
     // mutant: f.rise[1] - mean_1 => f.rise[1]

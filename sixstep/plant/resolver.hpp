@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output voltages of a resolver with p_r pole pairs (model.md 10), at an instant t. On both there is noise:
+// Output voltages of a resolver with p_r pole pairs (model.md 10), at an instant t, for the shaft's angle
+// theta and the excitation's angular frequency w_x. Both have additional noise:
 //
 //   V_1 = k V_R sin(w_x t + d_1) cos(p_r theta)
 //   V_2 = k (1 + a) V_R sin(w_x t + d_2) sin(p_r theta + q)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrates the energies of bridge, winding and shaft over one segment from the segment's own series: the terms of
-// the energy balance (model.md 5). Terms that are zero are not computed.
+// Integrates the energies of bridge, winding and shaft over one segment from the segment's own series: the
+// terms of the energy balance (model.md 5). Terms that are zero are not computed.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/series/quadrature.hpp"
@@ -8,7 +8,7 @@
 namespace sixstep::plant {
 
 /// Energies over one segment, J. Friction is in two parts, `viscous` and `dry`. `travel` is the angle that
-/// the shaft turned, rad. `load_viscous` is the part of `viscous` that acts at the load's own side.
+/// the shaft turned, rad. `load_viscous` is the part of `viscous` that acts at the load's side.
 template <class Real>
 struct SegmentEnergy {
   Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0,
@@ -160,7 +160,7 @@ template <class Real>
 }
 
 /// Energies of a segment. In nearly all segments the rotor turns, with two legs on their flat tops or with
-/// three connected: each of these two cases has code without further branches.
+/// three connected legs: each of these two cases has code without further branches.
 template <class Real>
 [[gnu::always_inline]] inline SegmentEnergy<Real> segment_energy_here(const Plant<Real>& plant, Real to) {
   const Constants<Real>& c = plant.constants();
@@ -191,7 +191,7 @@ SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return detail::segment_energy_here(plant, to);
 }
 /// The version for double is compiled once, for any processor. The audit's version for processors with AVX
-/// gives the same bits (plant/audit_avx.cpp).
+/// has the same results to the bit (plant/audit_avx.cpp).
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
 
 }  // namespace sixstep::plant

@@ -7,7 +7,7 @@
 namespace sixstep::plant::detail {
 
 // The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
-// included (model.md 12: an unrolled kernel takes a quarter of the time of one with counted loops).
+// included (model.md 12: an unrolled kernel takes a quarter of the time of a kernel with loops).
 
 /// The series of a segment while the recurrence adds terms. The recurrence holds them in a local variable, so
 /// that the newest terms stay in registers and no store delays them. Series that a law does not use are not

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // settle() finds the consistent mode. Switches and nonzero currents determine most connections. Three things
 // are enumerated: legs without gate and current, the rotor at rest, and the bus at the source's voltage.
-// Exactly one combination is right. Where rounding makes several look right, the one with most legs off is
-// taken (model.md 2, 4b). Values at the instant decide first; the series decide only ties.
+// Exactly one combination is right. If rounding makes several combinations look right, settle() takes the
+// combination with most legs off (model.md 2, 4b). Values at the instant decide first; the series decide only
+// ties.
 #pragma once
 #include <span>
 
@@ -97,8 +98,8 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// All combinations in which up to three undecided legs float or conduct by a diode, those with fewest legs
-/// on first. There is one table per number of undecided legs.
+/// All combinations in which up to three undecided legs float or conduct by a diode; combinations with fewest
+/// legs on come first. There is one table per number of undecided legs.
 struct Combination {
   std::array<Connection, 3> leg{};
   std::uint8_t on = 0;
@@ -163,7 +164,7 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
   return holds_in_series(q.constants, mode, scratch, q.slack);
 }
 
-/// Tries all combinations of the open legs, those with fewest legs on first.
+/// Tries all combinations of the open legs, combinations with fewest legs on first.
 template <class Real>
 bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned open, Mode& mode,
                      Expansion<Real>& scratch, bool& expanded) {
@@ -202,8 +203,8 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch
 
 }  // namespace detail
 
-/// Finds the consistent mode and writes it to `mode`. `expanded` becomes true if `scratch` holds the mode's
-/// expansion over q.h. Returns false if no mode is consistent at this rounding level.
+/// Finds the consistent mode and writes it to `mode`. `expanded` becomes true if `scratch` contains the
+/// mode's expansion over q.h. Returns false if no mode is consistent at this rounding level.
 template <class Real>
 bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
   using enum Motion;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Settles the mode where nothing has to be tried (model.md 2): gates and currents determine the connections,
-// and the open legs are clearly away from the rails. Nearly every event is so; settle.hpp settles the others.
+// and the open legs are clearly away from the rails. Nearly every event is of this kind; settle.hpp settles
+// the other events.
 #pragma once
 #include "sixstep/plant/guards.hpp"
 
@@ -19,7 +20,8 @@ void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& 
   }
 }
 
-/// Writes the connections that gates and currents determine. Returns a mask of the legs that they leave open.
+/// Writes the connections that gates and currents determine. Returns a mask of the open legs, whose
+/// connections they do not determine.
 template <class Real>
 unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
   unsigned open = 0;
@@ -73,9 +75,9 @@ template <class Real>
 
 }  // namespace detail
 
-/// Settles the most frequent cases without enumeration: gates and currents determine all connections, or all
-/// but that of one leg while two others conduct. Returns false if a value is too close to zero or to a rail,
-/// or more legs are open.
+/// Settles the most frequent cases without enumeration: gates and currents determine all connections; or one
+/// leg is open while the two others conduct; or two legs are open and clearly within the rails. Returns false
+/// in all other cases, and if a value is too close to zero or to a rail.
 template <class Real>
 bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;

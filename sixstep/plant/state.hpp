@@ -22,7 +22,7 @@ enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
 
 constexpr bool turns(Motion motion) { return motion != Motion::locked && motion != Motion::stuck; }
 
-/// v for a forward rotation, -v for a backward one; 0 where dry friction has no direction.
+/// v for a forward rotation, -v for a backward rotation; 0 where dry friction has no direction.
 template <class Real>
 constexpr Real against(Motion motion, Real v) {
   // mutant: -v => v

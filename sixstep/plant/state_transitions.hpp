@@ -13,7 +13,7 @@
 namespace sixstep::plant::detail {
 
 /// Call it after a current was set to zero. A single remaining current is then zero too; of two remaining
-/// ones the second is minus the first.
+/// currents the second is minus the first.
 template <class Real>
 void balance(State<Real>& state) {
   PerLeg<Real>& i = state.i;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltages of the three terminals against the negative rail, including floating ones: the inputs of the board's
-// dividers. If all legs float, they are centred between the rails (circuit.hpp).
+// Voltages of the three terminals against the negative rail, including floating terminals: the inputs of the
+// board's dividers. If all legs float, the voltages are centred between the rails (circuit.hpp).
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/plant/plant.hpp"
@@ -45,7 +45,7 @@ void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned 
 
 }  // namespace detail
 
-/// Terminal voltages as series, over the part s of the segment that was expanded last; after it the
+/// Terminal voltages as series, over the part s of the segment that was expanded last; after this part the
 /// connections may differ.
 template <class Real>
 TerminalSeries<Real> terminal_series(const Plant<Real>& plant, Real s) {

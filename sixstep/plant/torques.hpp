@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Torques that act on the rotor, each defined once (model.md (4)). The recurrences, the guards, the energy balance
-// and the figures of merit use them.
+// Torques that act on the rotor, each defined once (model.md (4)). The recurrences, the guards, the energy
+// balance and the figures of merit use them.
 #pragma once
 #include "sixstep/plant/expansion.hpp"
 
@@ -22,7 +22,7 @@ Torques<Real> torques(const Constants<Real>& c, Motion motion) {
 }
 
 /// True if the sum of the torques is linear in the speed, as FlatPair requires (recurrences.hpp). Each
-/// present torque is linear; a new torque that is not must return false here.
+/// present torque is linear; for a new torque that is not linear this function must return false.
 template <class Real>
 constexpr bool is_line_over_speed(const Torques<Real>& all) {
   [[maybe_unused]] const auto& [load, dry, per_speed] = all;

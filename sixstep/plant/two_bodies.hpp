@@ -42,8 +42,8 @@ inline BodyTemperatures after(const TwoBodies& n, const BodyTemperatures& start,
   const double slope_w = n.ww * w + n.wh * v + n.b_w, slope_h = n.hw * w + n.hh * v + n.b_h;
   const double half = (n.ww - n.hh) / 2, root = std::sqrt(half * half + n.wh * n.hw);
   const double mean = (n.ww + n.hh) / 2;
-  // lambda - ww = -half +- root. One of the two has no cancellation; the other follows from their product,
-  // -wh hw.
+  // lambda - ww = -half +- root. One of the two values has no cancellation; the other value follows from
+  // their product, -wh hw.
   const double steep = half > 0 ? -half - root : -half + root, other = -n.wh * n.hw / steep;
   const double up = half > 0 ? other : steep, down = half > 0 ? steep : other;
   const double part_up = (slope_h - slope_w / n.wh * down) / (up - down);

@@ -55,7 +55,7 @@ class View {
   const general::Plant<double>* general = nullptr;
 };
 
-/// Torque of the scenario's load at its own side of the gear, N m, at the fraction s of the segment.
+/// Torque of the scenario's load at the load's side of the gear, N m, at the fraction s of the segment.
 inline double load_torque(const Plant<double>& plant, double) { return plant.constants().load; }
 inline double load_torque(const general::Plant<double>& plant, double s) {
   return series::evaluate(plant.series().load, plant.expansion().degree, s);

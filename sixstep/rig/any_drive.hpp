@@ -20,13 +20,13 @@ namespace sixstep::rig {
 template <class Command>
 struct DriveAnswer {
   Command command{};
-  bool reversed = false;           ///< six-step: sign of the command
+  bool reversed = false;           ///< six-step: the command has a negative sign
   bool moved_on = false;           ///< the tick found a commutation that was already due
   bool holds_commutation = false;  ///< six-step: the command has the duty of a commutation
   sim::Instant next_commutation = sim::Instant::never();  ///< instant of the compare match at which the timer
                                                           ///< commutates
   control::Telemetry<double> told{};
-  FieldTelemetry field{};  ///< values of a field-oriented drive; zeros for any other
+  FieldTelemetry field{};  ///< values of a field-oriented drive; zeros for other drives
 };
 
 /// Properties of a firmware that change only when it is made or retuned.

@@ -15,8 +15,8 @@ struct BoardConfig {
   ModulatorConfig modulator;
   bool commutate_at_sample = false;  ///< false: the drive commutates at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
-  bool sampled_in_middle = false;    ///< samples in the middle of a period; the answer acts from the next
-                                     ///< period's start
+  bool sampled_in_middle = false;    ///< samples in the middle of a period; the command computed from a
+                                     ///< sample acts from the next period's start
   Bases bases{};                     ///< bases of the controller's numbers
   SensorsConfig sensors{};
   FrontEndConfig front_end{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The free-running counter that captures Hall edges: counts(t) = floor(t f), in integers. In floating point,
-// t f can be just below a count that is reached exactly; at 48 MHz this happens for a twelfth of the counts.
+// The free-running counter that captures Hall edges: counts(t) = floor(t f) for time t and frequency f,
+// computed in integers. In floating point, t f can be just below a count that is reached exactly; at 48 MHz
+// this happens for a twelfth of the counts.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -21,7 +22,7 @@ class CaptureClock {
     numerator_ = static_cast<std::uint64_t>(Hz);
   }
 
-  /// Count at an instant. The product ticks x numerator has at most 63 + 53 bits and fits in 128.
+  /// Count at an instant. The product ticks x numerator has at most 63 + 53 bits and fits in 128 bits.
   std::uint32_t counts(const sim::Instant& t) const {
     const Wide passed = static_cast<Wide>(t.ticks) * numerator_;
     const Wide whole = passed / per_count_, missing = per_count_ - passed % per_count_;

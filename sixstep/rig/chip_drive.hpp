@@ -9,7 +9,7 @@
 //
 // The plant cannot compute in advance when the chip acts, and the chip cannot compute when a Hall edge comes.
 // The chip therefore runs ahead of the plant over a time in which no edge is expected, and stops when it
-// acts. If an edge comes in that time, the pins show it at the chip's next stop.
+// acts. If an edge occurs in this time, the pins show the edge at the chip's next stop.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,7 @@ class ChipDrive {
                                control::positive_pair(control::sector_of_hall(instant.pins)));
     if (config_.mode == control::Mode::current) telemetry_.current_reference_A = setpoint;
   }
-  /// Runs the chip from this stop to the next one, at most `quiet_s` seconds.
+  /// Runs the chip from this stop to the next stop, at most `quiet_s` seconds.
   void go_on(double quiet_s) {
     const double cycles =
         std::clamp(quiet_s * static_cast<double>(port_.clock_Hz), least_cycles, most_cycles);
@@ -107,7 +107,7 @@ class ChipDrive {
 
  private:
   /// Bounds of a step, cycles. Near a Hall edge, steps of half a microsecond (of an AVR at 16 MHz) suffice.
-  /// Far from one, steps of a tenth of a period keep the pins up to date.
+  /// Far from an edge, steps of a tenth of a period keep the pins up to date.
   static constexpr double least_cycles = 8, most_cycles = 400;
   /// A chip without a sample for this time has stalled. The time is longer than the shortest watchdog time
   /// plus the restart after the watchdog's reset.

@@ -19,7 +19,7 @@ struct ChipRun {
   std::uint64_t until = 0;              ///< last cycle, counted since the reset
   std::uint16_t counts[chip_inputs]{};  ///< values at the converter's inputs, by channel
   std::uint32_t hall_pins = 0;          ///< H1 H2 H3 as bits 2, 1, 0
-  std::uint32_t asks_for_times = 0;     ///< nonzero: nothing runs, and the answer is a ChipTimes
+  std::uint32_t asks_for_times = 0;     ///< nonzero: the chip does not run, and the answer is a ChipTimes
 };
 
 enum class ChipEvent : std::uint32_t {
@@ -44,8 +44,8 @@ struct InterruptTimes {
   static constexpr int bins = 64;
   std::uint64_t count = 0, sum = 0;
   std::uint32_t least = 0, most = 0;
-  std::uint32_t bin_cycles = 0;  ///< width of each bin; the first begins at 0, the last also holds all larger
-                                 ///< values
+  std::uint32_t bin_cycles = 0;  ///< width of each bin; the first bin begins at 0, the last bin also counts
+                                 ///< all larger values
   std::uint32_t bin[bins]{};
   std::uint32_t unused = 0;
 };
@@ -62,8 +62,8 @@ struct ChipPort {
   void* chip = nullptr;
   CoreTrouble (*run)(void* chip, const ChipRun& run, ChipAnswer& answer) = nullptr;
   std::uint64_t clock_Hz = 0;  ///< frequency of the chip's cycles
-  bool converts = true;        ///< true: its converter samples once a period, and a chip without samples has
-                               ///< stalled
+  bool converts = true;        ///< true: the chip's converter must sample once a period; a chip that does not
+                               ///< sample has stalled
 
   explicit operator bool() const { return run != nullptr; }
 };

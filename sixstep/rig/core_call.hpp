@@ -42,8 +42,8 @@ struct ProductCall {
   control::Setpoint<Scalar> setpoint{};
 };
 
-/// Call of control/field/field_drive.hpp: field_drive_step(). If the angle is decoded, the core itself
-/// computes the directions from it.
+/// Call of control/field/field_drive.hpp: field_drive_step(). If the angle is decoded, the core computes the
+/// directions from the angle.
 template <class Scalar>
 struct FieldCall {
   CoreEntry entry = CoreEntry::tick;

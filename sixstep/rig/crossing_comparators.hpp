@@ -5,8 +5,9 @@
 //
 //   dx/dt = (u - x)/tau:   x_(n+1) = (h/tau) (u_n - x_n)/(n + 1),   h <= tau/2
 //
-// The line of leg k rises where x_k - reference passes offset_k + hysteresis/2, and falls at offset_k -
-// hysteresis/2.
+// u is a terminal's voltage, x the filtered voltage, u_n and x_n the coefficients of their polynomials, tau
+// the time constant of the filter, h the segment's length. The line of leg k rises where x_k - reference
+// exceeds offset_k + hysteresis/2, and falls where it drops below offset_k - hysteresis/2.
 #pragma once
 #include <algorithm>
 
@@ -31,8 +32,8 @@ class Crossings {
   }
 
   bool fitted() const { return config_.has_comparators(); }
-  /// Bound of a segment's length, s: in a longer segment, 16 orders of the lag's series do not reach
-  /// rounding.
+  /// Bound of a segment's length, s. In a longer segment, the 16 terms of the filter's series would not be
+  /// exact to rounding.
   double longest_s() const { return config_.comparators.lag_s / 2; }
   /// Comparators' lines of legs a, b, c as bits 2, 1, 0, as in a Hall code.
   std::uint8_t lines() const { return lines_; }

@@ -112,7 +112,7 @@ class FieldDrive {
     }
     state_.field.command = core_.held(call, state_.field.command, at);
   }
-  /// Assumed angle at the last tick minus the true one, electrical degrees; 0 for an ideal sensor.
+  /// Assumed angle at the last tick minus the true angle, electrical degrees; 0 for an ideal sensor.
   template <class Real>
   double error_deg(const plant::State<Real>& s) const {
     if (!config_.estimator.on && !sensors_.tells_angle()) return 0.0;

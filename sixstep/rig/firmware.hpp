@@ -42,15 +42,15 @@ struct SampleInstant {
 /// Findings of a firmware about a fault.
 struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that turned the drive off
-  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an invalid code; 0: none, or unknown
+  std::uint8_t hall_line = 0;  ///< 1..3: the line that caused an invalid code; 0: none, or unknown
   sim::Instant at{};           ///< tick that latched the faults, or at which the rotor was last lost
   int losses = 0;              ///< how often a sensorless drive lost the rotor, or failed to start it
   control::LockLoss lost = control::LockLoss::none;  ///< reason of the last loss
   bool gave_up = false;                              ///< true: the drive does not start again
   int unseen = 0;                                    ///< how often pulses did not determine the rotor's angle
   double north = 0.0;                                ///< last result of the pulses, relative to its noise
-  double certain = 0.0;                              ///< result, relative to its noise, that would have been
-                                                     ///< enough
+  double certain = 0.0;                              ///< least sufficient result of the pulses, relative to
+                                                     ///< its noise
   ShaftFinding shaft{};                              ///< reason why an encoder or resolver counts as lost
   OwnFinding own{};                                  ///< error in the answer of a user's controller
   CoreTrouble core = CoreTrouble::none;              ///< trouble of a core in parallel to the host

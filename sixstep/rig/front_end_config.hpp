@@ -39,8 +39,8 @@ struct FrontEndReading {
   double dc_link_A = 0.0, bus_V = 0.0;
   plant::PerLeg<double> comparator_V{};  ///< voltages at the comparators, if there are any
   double comparator_bus_V = 0.0;
-  bool currents = false, voltages = false;  ///< true: the values here are lagged ones; false: the plant's own
-                                            ///< values apply
+  bool currents = false, voltages = false;  ///< true: the lagging values in this struct apply; false: the
+                                            ///< plant's values apply
 };
 
 }  // namespace sixstep::rig

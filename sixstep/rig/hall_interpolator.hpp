@@ -3,9 +3,10 @@
 // (control/sensing/hall_angle.hpp). Optionally the drive measures the edge positions while it turns
 // (hall_calibration.hpp). A drive that commutates at samples uses this angle.
 //
-// Hysteresis and delay of the probes are the data sheet's. Until the positions are learned, a speed is taken
-// over SensorsConfig::edges edges (over six the errors of the positions cancel), or over one if those take
-// longer than the window. Afterwards a speed is taken over SensorsConfig::learned_edges.
+// The drive uses the hysteresis and the delay of the probes' data sheet. Until the positions are learned, a
+// speed is averaged over SensorsConfig::edges edges (over six edges the position errors cancel), or over one
+// edge if these edges take longer than the window. Afterwards a speed is averaged over
+// SensorsConfig::learned_edges edges.
 #pragma once
 #include <cmath>
 
@@ -32,7 +33,7 @@ class HallInterpolator {
   const control::HallEdges& edges() const { return config_.edges; }
 
  private:
-  /// Number of edges over which the next edge's speed is taken.
+  /// Number of edges over which the speed is averaged at the next edge.
   std::uint8_t span() const;
   void learn(std::int8_t moved, std::uint32_t now);
 
@@ -62,8 +63,8 @@ HallInterpolator<Scalar>::HallInterpolator(const SensorsConfig& config, const Ba
   config_.timeout_ticks = static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz);
   config_.delay_ticks = static_cast<std::uint32_t>(std::floor(config.hall_delay_s * config.capture_Hz + 0.5));
   config_.edges.half_hysteresis = control::binary_degrees(config.hall_hysteresis_deg / 2);
-  // The margin is -1 unit of the angle, so that a sector is entered only at its edge or when the extrapolated
-  // angle reaches it.
+  // The margin is -1 unit of the angle, so that a sector is entered only at its Hall edge or when the
+  // extrapolated angle reaches this edge.
   config_.margin = ~control::BinaryAngle{0};
   calibration_config_.turns = config.calibration_turns;
   per_sector_ = control::Gain<Scalar>(sector_deg / raw_unit<Scalar>());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmwares that run the loops of control/drive.hpp alone, with ideal measurements (LeanDrive) or those of a board's
-// sensors (SensedDrive).
+// Firmwares that run only the loops of control/drive.hpp, with ideal measurements (LeanDrive) or with the
+// measurements of a board's sensors (SensedDrive).
 #pragma once
 #include "sixstep/control/retune.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -8,7 +8,7 @@
 
 namespace sixstep::rig {
 
-/// The loops alone with ideal measurements.
+/// The loops with ideal measurements.
 template <class Scalar>
 class LeanDrive {
  public:
@@ -70,7 +70,7 @@ class LeanDrive {
   control::Telemetry<Scalar> telemetry_{};
 };
 
-/// The loops alone with the measurements of a board's sensors.
+/// The loops with the measurements of a board's sensors.
 template <class Scalar>
 class SensedDrive {
  public:

@@ -57,7 +57,7 @@ class LegTimer {
   bool steady() const { return next_edge_ == sim::Instant::never(); }
   /// Turn-ons of the first pulse. They give the PWM frequency, even if legs follow the other pulses.
   std::int64_t turn_ons() const { return turn_ons_; }
-  /// Turn-ons before t: without those of a period that begins at t.
+  /// Turn-ons before t, without the turn-ons of a period that begins at t.
   std::int64_t turn_ons_before(const sim::Instant& t) const {
     return began_at(t) ? before_period_ : turn_ons_;
   }
@@ -66,7 +66,8 @@ class LegTimer {
   bool dead_time_at_commutation() const { return config_.dead_time_at_commutation; }
 
  private:
-  /// Commanded switches of all legs in one number: upper ones in bits 0 to 2, lower ones in bits 3 to 5.
+  /// Commanded switches of all legs in one number: upper switches in bits 0 to 2, lower switches in bits 3 to
+  /// 5.
   using Switches = std::uint8_t;
   static constexpr unsigned of_leg = 0b001'001;
   static Switches switch_of(unsigned leg, LegSide side) {
@@ -96,7 +97,7 @@ class LegTimer {
   unsigned chopping_ = 0;                           ///< mask of the pulses with an edge still to come
   sim::Instant wait_end_ = sim::Instant::never();   ///< earliest end of a leg's wait
   sim::Instant next_edge_ = sim::Instant::never();  ///< next edge of pulses and legs
-  plant::Gates gates_{};                            ///< gates that the legs' commands and waits give
+  plant::Gates gates_{};                            ///< gates that result from the legs' commands and waits
   std::int64_t turn_ons_ = 0, before_period_ = 0;
   sim::Instant period_begun_ = sim::Instant::never();
 };

@@ -16,7 +16,7 @@ enum class CoreTrouble : std::uint8_t {
   none,
   silent,   ///< the core did not answer in time
   gone,     ///< the core's program ended
-  differs,  ///< its answer differs from the host's answer
+  differs,  ///< the core's answer differs from the host's answer
   stalled   ///< a chip with its own clock no longer samples
 };
 

@@ -14,7 +14,7 @@ namespace sixstep::rig {
 enum class OwnWrong : std::uint8_t {
   none,
   gave_up,  ///< the controller itself reports a fault
-  duty,     ///< not a number from 0 to 1
+  duty,     ///< a duty outside 0 to 1, or an overlap outside -1 to 1
   leg,      ///< an invalid leg, or source and sink are the same leg
   choice,   ///< an invalid chopping, switch or state
 };

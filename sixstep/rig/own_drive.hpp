@@ -122,7 +122,7 @@ class OwnDrive {
     command.fault = true;
     return command;
   }
-  /// Direction of the magnet: decoded from a sensor's angle; with Hall codes alone the middle of the sector;
+  /// Direction of the magnet: decoded from a sensor's angle; with Hall codes only, the middle of the sector;
   /// without sensors the true direction.
   template <class Real>
   control::Direction<double> magnet_direction(const plant::State<Real>& s, std::uint8_t hall) {

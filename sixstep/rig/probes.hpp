@@ -39,8 +39,8 @@ class SectorProbes {
 template <class Real>
 class MountedProbes {
  public:
-  /// The probes count as mounted() if their placement or delay makes their edges differ from those of the
-  /// sectors.
+  /// The probes count as mounted() if their placement or delay makes their edges differ from the sectors'
+  /// edges.
   MountedProbes(const ProbeGiven& given, const plant::State<Real>& at)
       : delay_ticks_(given.delay_ticks), spaced_60_(given.spaced_60) {
     if (given.placement.as_sectors() && given.delay_ticks == 0) return;

@@ -14,7 +14,7 @@ struct ModulatorConfig {
   double dead_ticks = 0.0;
   bool dead_time_at_commutation = false;
   double timer_ticks = 0.0;          ///< ps per count of the timer; 0: edges are exact
-  double minimum_pulse_ticks = 0.0;  ///< ps; a shorter pulse or gap is left out; 0: none
+  double minimum_pulse_ticks = 0.0;  ///< ps; shorter pulses and gaps are removed; 0: no minimum
 
   /// Rounds a time, ps, to counts of the timer.
   double in_counts(double ticks) const {

@@ -29,18 +29,18 @@ struct SensorsConfig {
   bool calibrated = true;  ///< the offsets were measured, with noise, before the run
   bool measures_bus = false;
   bool rotor_from_hall = false;  ///< speed and position from captured edges
-  bool decodes_hall = false;     ///< the lines are decoded, to find a broken one
+  bool decodes_hall = false;     ///< the lines are decoded, to find a broken line
   std::uint8_t commutation_samples = 0;
-  std::uint8_t edges = 6;  ///< edges over which a speed is taken
+  std::uint8_t edges = 6;  ///< edges over which a speed is averaged
   HallAngleFrom hall_angle = HallAngleFrom::sectors;
   bool commutates_by_angle = false;     ///< commutates at a sample, by the measured angle
-  std::uint8_t learned_edges = 1;       ///< edges over which a speed is taken after their positions are
+  std::uint8_t learned_edges = 1;       ///< edges over which a speed is averaged after the edge positions are
                                         ///< learned
   std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
   double hall_delay_s = 0.0;            ///< delay of the edges according to the data sheet
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;      ///< s; if `edges` edges take longer, a speed is taken over one edge; 0: always
-                              ///< over `edges`
+  double window_s = 0.0;      ///< s; if `edges` edges take longer, a speed is measured over one edge; 0:
+                              ///< always over `edges` edges
   ShaftSensorConfig shaft{};  ///< an encoder or a resolver instead of the Hall probes
   double period_s = 0.0;      ///< period of the control ticks
 
@@ -83,7 +83,8 @@ class Registers {
   std::uint16_t bus_counts(const Sample& s) const {
     return converted(bus_, s.bus_V, {seed_, stream + bus_input, s.number});
   }
-  /// Counts of terminal 0, 1 or 2, whose divider and converter equal those of the bus.
+  /// Counts of terminal 0, 1 or 2. Divider and converter of a terminal are equal to divider and converter of
+  /// the bus.
   std::uint16_t terminal_counts(std::size_t leg, double u_V, std::uint64_t sample) const {
     return converted(bus_, u_V, {seed_, stream + terminals + leg, sample});
   }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Executes the rig's actions at one instant, in the order of model.md 4b: late Hall edge, scenario step, control
-// tick, PWM edge, comparator. Part of rig.hpp.
+// Executes the rig's actions at one instant, in the order of model.md 4b. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
 /// Executes all actions that are due now by their clocks, until none is due: late Hall edge, scenario step,
-/// control tick, PWM edge, comparator. The gates are set at the end, so that no leg depends on the order of
-/// actions at one instant.
+/// control tick, stop of a chip, timed commutation, PWM edge, comparator. The gates are set at the end, so
+/// that no leg depends on the order of actions at one instant.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::act() {
   ticked_ = false;

@@ -40,7 +40,8 @@ void Rig<Real, Firmware, Plant>::show_segment(Real s, const sim::Instant& to) {
     if (front_end_.follows()) show_signals(s, to);
 }
 
-/// Motion of the shaft on which the sensor sits: the motor's, or the load's behind gear and spring.
+/// Motion of the shaft on which the sensor is mounted: the motor's shaft, or the load's shaft behind gear and
+/// spring.
 template <class Real, class Firmware, class Plant>
 ShaftMotion<Real> Rig<Real, Firmware, Plant>::shaft_motion(Real s, const sim::Instant& to) const {
   ShaftMotion<Real> motion{plant_.expansion(), plant_.state().sector, sensor_pole_pairs(), s, now_, to,
@@ -64,7 +65,7 @@ void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
   }
 }
 
-/// Passes the terminal voltages to the firmware: as filtered by the dividers' capacitors, or the plant's own.
+/// Passes the terminal voltages to the firmware: as filtered by the dividers' capacitors, or unfiltered.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_terminals() {
   if constexpr (looks_at_terminals) {

@@ -110,8 +110,8 @@ void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
-/// Replaces the rest of the timeline. Ticks that were skipped because no action was to come are due again if
-/// the new timeline has one.
+/// Replaces the rest of the timeline. Ticks that were skipped because no further action existed are due again
+/// if the new timeline has an action.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<Config>& first,
                                                 Tunings tunings) {
@@ -262,7 +262,7 @@ void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   }
 }
 
-/// Tick of a board that samples in the middle of a period. The answer waits in the timer's buffer until the
+/// Tick of a board that samples in the middle of a period. The command waits in the timer's buffer until the
 /// next period.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_half_tick() {
@@ -294,7 +294,7 @@ sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
   return next;
 }
 
-/// Turns the bridge off at once: neither a delayed command nor one in the timer's buffer remains.
+/// Turns the bridge off at once: no delayed command and no command in the timer's buffer remains.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::let_go() {
   modulator_.turn_off(now_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions of the rig for six-step alone: the pair changes at a Hall edge, and comparators switch the pair's
-// legs. Part of rig.hpp.
+// Actions of the rig that only six-step has: the pair changes at a Hall edge, and comparators switch the
+// pair's legs. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -49,7 +49,7 @@ void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
     modulator_.commutate(now_, control::swapped(answer.pair));
 }
 
-/// Switches pulses whose comparator is beyond its level.
+/// Switches pulses whose comparator's current is beyond the comparator's level.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::compare() {
   const int switched = modulator_.compare(now_, wires_.at_legs(plant_.state().i));
@@ -58,8 +58,9 @@ bool Rig<Real, Firmware, Plant>::compare() {
   return switched > 0;
 }
 
-/// A comparator reached its level. If two legs conduct, both phases carry one current, and two comparators
-/// reach their levels together: the second one must switch too, and rounding must not decide that.
+/// A comparator reached its level. If two legs conduct, both phases carry the same current, and two
+/// comparators reach equal levels at the same instant. The second comparator must then switch too, whatever
+/// the rounding of the current.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::trip(int which) {
   const ArmedComparator other = modulator_.comparator(1 - which);

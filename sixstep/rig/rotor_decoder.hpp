@@ -2,11 +2,11 @@
 // Decodes an encoder or a resolver with the controller's own blocks (control/sensing/): speed, position, and
 // the Hall code of the measured sector. A sensor on the motor's shaft determines the commutation. With a
 // sensor on the load's side the Hall probes commutate; speed and position are multiplied by the gear ratio,
-// so that they are those of the motor's shaft.
+// and are then speed and position of the motor's shaft.
 //
-// If `watched`, two things are checked that an intact sensor cannot show. One is a resolver's sum of squares
-// outside its limits. The other is an encoder's index at which the count is wrong by more than a sector, so
-// that the wrong pair was driven.
+// If `watched`, the decoder detects two states that an intact sensor cannot show:
+// - a resolver's sum of squares is outside its limits,
+// - at an encoder's index the count is wrong by more than a sector, so that the wrong pair was driven.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -135,8 +135,8 @@ void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& 
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
 
-/// Number that the decoder gives a resolver's signal of the expected amplitude; the reserve to 1 is for
-/// larger signals.
+/// The decoder's number for a resolver signal of the expected amplitude; the reserve to 1 is for larger
+/// signals.
 inline constexpr double full_signal = 0.6;
 
 /// Sets the decoder's loop as if it had settled to the shaft's angle before the run.
@@ -164,7 +164,7 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
   period_ticks_ = sim::to_instant(config.period_s).ticks;
 }
 
-/// Sets the limits of the sum of squares. A limit that the number format cannot hold is not checked.
+/// Sets the limits of the sum of squares. A limit that the number format cannot represent is not checked.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_watch(const ShaftSensorConfig& given) {
   constexpr double unit = full_signal * full_signal;
@@ -244,7 +244,7 @@ void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const T
   commutate_at(m, control::electrical_angle(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
 }
 
-/// Finds which winding is lost, from the last peak and the one before.
+/// Finds which winding is lost, from the samples of the last two peaks.
 template <class Scalar>
 void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
                                             const control::ResolverCounts& before, bool positive_peak) {

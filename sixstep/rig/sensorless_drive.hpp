@@ -80,7 +80,8 @@ class SensorlessDrive {
     find_next(instant.at);
     return command();
   }
-  /// Captures an edge of the comparators at the terminals; `lines` are those of legs a, b, c as bits 2, 1, 0.
+  /// Captures an edge of the comparators at the terminals; `lines`: the lines of legs a, b, c as bits 2, 1,
+  /// 0.
   void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
     const std::uint32_t now = sensors_.registers().counter(at);
     control::sensorless_capture(state_.drive.sensorless, lines, now);
@@ -133,7 +134,7 @@ class SensorlessDrive {
   /// True if the core is lost. This ends the run, because no controller remains that could continue.
   bool core_lost() const { return core_.trouble() != CoreTrouble::none; }
   Registers& registers() { return sensors_.registers(); }
-  /// The drive's state about the rotor, and the present source of commutation.
+  /// rotor(): the drive's knowledge of the rotor. source(): the present source of commutation.
   const control::SensorlessState& rotor() const { return state_.drive.sensorless; }
   const control::PositionSourceState& source() const { return state_.drive.source; }
   /// State of the pulses at the start: their results, and whether they are active.

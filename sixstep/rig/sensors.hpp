@@ -27,7 +27,7 @@ class Sensors {
     if (config_.currents == CurrentMeasurement::dc_link)
       control::one_shunt_commutation(shunt_config_, shunt_);
   }
-  /// Replaces the ideal values in `measured` by those that the board's sensors measure.
+  /// Replaces the ideal values in `measured` by the values that the board's sensors measure.
   void sense(control::Measurement<Scalar>& measured, const Sample& sample);
   Registers& registers() { return registers_; }
   ShaftPorts& shaft_ports() { return ports_; }
@@ -46,7 +46,7 @@ class Sensors {
   }
   /// Finding about faults of an encoder or a resolver.
   const ShaftFinding& shaft_found() const { return rotor_.found(); }
-  /// 1..3: the line that made an invalid code; 0: none, or it cannot be determined.
+  /// 1..3: the line that caused an invalid code; 0: none, or the line cannot be determined.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of the shaft on which the sensor sits, within one segment: the rotor's shaft, or the load's behind
-// gear and coupling.
+// Motion of the shaft on which the sensor is mounted, within one segment: the rotor's shaft, or the load's
+// shaft behind gear and coupling.
 #pragma once
 #include <cmath>
 
@@ -10,8 +10,8 @@
 
 namespace sixstep::rig {
 
-/// The load's shaft in the general kernel: theta_load = theta_m/n - twist. `speed` is null if the sensor is
-/// on the rotor's shaft.
+/// The load's shaft in the general kernel. Its angle is theta_load = theta_m/n - twist, with the motor's
+/// angle theta_m and the gear ratio n. `speed` is null if the sensor is on the rotor's shaft.
 template <class Real>
 struct LoadSide {
   const series::Coefficients<Real>* speed = nullptr;

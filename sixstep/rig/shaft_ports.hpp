@@ -2,9 +2,10 @@
 // Peripherals of the board for an encoder or a resolver on the shaft (model.md 10). They work between two
 // samples:
 //
-//   incremental   The timer counts the quarters of lines, captures the time of the last one, and latches its
-//                 count where the index passes. Edges that it misses are not counted. It evaluates the pins
-//                 alone: with A or B stuck, each edge of the other line reverses the step of the edge before.
+//   incremental   The timer counts the quarters of lines, captures the time of the last edge, and latches
+//                 its count where the index passes. Edges that the timer misses are not counted. It evaluates
+//                 only the pins: with A or B stuck, each edge of the other line reverses the step of the edge
+//                 before.
 //   absolute      The code is latched some time before it is read; a track may be stuck.
 //   resolver      Both windings go to converters, sampled at the peaks of the excitation, or to a tracking
 //                 chip.
@@ -18,7 +19,7 @@
 
 namespace sixstep::rig {
 
-/// Converter of both windings. Its range is 1.25 times their amplitude.
+/// Converter of both windings. Its range is 1.25 times the windings' amplitude.
 inline AdcPath resolver_adc(const ShaftSensorConfig& given) {
   return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.resolver.noise_V};
 }
@@ -76,8 +77,8 @@ class ShaftPorts {
   std::uint32_t code_at(const plant::ShaftAngle<double>& at) const {
     return shown(absolute_code(given_, at));
   }
-  /// Voltages of cosine and sine winding, V, without noise. A drive that samples them itself starts the
-  /// excitation at its first sample; a tracking chip has excited the windings since t = 0.
+  /// Voltages of cosine and sine winding, V, without noise. A drive that samples the windings itself starts
+  /// the excitation at its first sample; a tracking chip has excited the windings since t = 0.
   std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
     if (!excited_ && given_.resolver.reading == ResolverReading::sampled) return {};
     return windings_.leave(plant::resolver_V(resolver_, at, t.ticks - excited_ticks_), {});
@@ -92,7 +93,7 @@ class ShaftPorts {
     stuck_high_ &= ~(std::uint32_t{1} << bit);
     stuck_low_ &= ~(std::uint32_t{1} << bit);
   }
-  /// Line 1 to 3 (A, B, Z) keeps one level from now on. If its level changes thereby, that is an edge.
+  /// Line 1 to 3 (A, B, Z) keeps one level from now on. A change to this level counts as an edge.
   void stick_line(int line, bool high, const sim::Instant& now) {
     const std::uint8_t bit = static_cast<std::uint8_t>(8 >> line);
     set_lines(static_cast<std::uint8_t>(high ? lines_high_ | bit : lines_high_ & ~bit),
@@ -103,7 +104,7 @@ class ShaftPorts {
     const std::uint8_t rest = static_cast<std::uint8_t>(~(8 >> line));
     set_lines(lines_high_ & rest, lines_low_ & rest, now);
   }
-  /// A pulse on an intact Z line, so short that only the timer detects it. It rises only if Z is low.
+  /// A pulse on an intact Z line, so short that only the timer detects it. It has no effect while Z is high.
   void pulse_index() {
     if ((pins_in(quarters_) & 1) == 0 && (lines_low_ & 1) == 0) latch_index(counted_);
   }
@@ -183,7 +184,7 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   if (((lines_high_ | lines_low_) & 6) != 0) return count_by_pins(m, from, to, end);
   const int direction = end > quarters_ ? 1 : -1;
   const std::int64_t passed = direction * (end - quarters_);
-  // The first edges that the shaft passes are missed.
+  // The missed edges are the first edges that the shaft passes in this segment.
   const std::int64_t missed = missing_ < passed ? missing_ : passed, not_missed = passed - missed;
   missing_ -= missed;
   counted_ += direction * not_missed;
@@ -202,8 +203,8 @@ void ShaftPorts::capture(const ShaftMotion<Real>& m, Real low, Real high, std::i
   edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(at * m.y.h)));
 }
 
-/// The timer's counting rule: which line changed, and the level of the other one, give the direction. True if
-/// the count changed.
+/// The timer's counting rule: the line that changed and the level of the other line determine the direction.
+/// Returns whether the count changed.
 inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   const auto quarter = [](std::uint8_t pins) {
     return static_cast<int>(control::quarter_of_line((pins & 4) != 0, (pins & 2) != 0));
@@ -233,7 +234,7 @@ void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, s
   if (last != begin) capture(m, from, to, last, way);
 }
 
-/// Sets which lines are stuck. Pins that change thereby are edges; if Z rises, the timer takes it as an
+/// Sets which lines are stuck. Each pin that changes its level counts as an edge; a rising Z counts as an
 /// index.
 inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim::Instant& now) {
   const std::uint8_t before = pins_in(quarters_);
@@ -245,7 +246,7 @@ inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim
 }
 
 /// Latches the count at the index, the border between two turns, if the shaft passed it. Counts after the
-/// border are subtracted, so that the latched count is that of the border's upper side.
+/// border are subtracted, so that the latched count is the count just above the border.
 inline void ShaftPorts::look_for_index(std::int64_t end, std::int64_t not_missed) {
   const auto turn_of = [&](std::int64_t n) { return n >= 0 ? n / parts() : -((-n + parts() - 1) / parts()); };
   const std::int64_t last = turn_of(end), first = turn_of(quarters_);

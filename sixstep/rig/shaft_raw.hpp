@@ -32,8 +32,8 @@ inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<doubl
 
 namespace detail {
 
-/// Visits the quarters of lines that the shaft passes without a reversal. Each is visited with the fraction
-/// of the segment at which it begins.
+/// Visits the quarters of lines that the shaft passes without a reversal. Each quarter is visited with the
+/// fraction of the segment at which the shaft enters it.
 template <class Real, class Visit>
 void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& ports, Real from, Real to,
                               Visit&& visit) {
@@ -51,7 +51,7 @@ void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& port
 
 }  // namespace detail
 
-/// Visits the quarters of lines in the order of time, each as often as the shaft passes it.
+/// Visits the quarters of lines in time order, each as often as the shaft enters it.
 template <class Real, class Visit>
 void for_each_quarter(const ShaftMotion<Real>& m, const ShaftPorts& ports, Visit&& visit) {
   const Real turns = turning_part(m);

@@ -27,7 +27,7 @@ struct Encoder {
 struct AbsoluteEncoder {
   int bits = 14;
   double latency_s = 0.0;  ///< time from the latching of the code to its reading
-  int speed_samples = 8;   ///< samples over which the speed is taken
+  int speed_samples = 8;   ///< samples over which the speed is averaged
 };
 struct Resolver {
   int pole_pairs = 1;
@@ -64,8 +64,8 @@ struct ShaftSensorConfig {
   ShaftSensor kind = ShaftSensor::none;
   bool on_load = false;  ///< behind gear and coupling; the Hall probes commutate then
   double gear = 1.0;     ///< turns of the motor per turn of the load
-  /// Linear sensor: a turn is one period of the magnets, and `lines` are per period. `gear` is 1 over the
-  /// periods per metre. The only index is at 0.
+  /// Linear sensor: a turn is one period of the magnets (two pole pitches), and `lines` are per period.
+  /// `gear` is the length of the period in m, divided by 2 pi. The only index is at 0.
   bool linear = false;
   bool watched = false;  ///< the drive stops if the sensor shows values that an intact sensor cannot show
   Encoder encoder{};

@@ -31,7 +31,7 @@ struct ResolverWatch {
   double silent = 0.0;                               ///< a signal smaller than this is only noise and
                                                      ///< rounding
   int in_a_row = 1;                                  ///< number of consecutive results outside the limits
-                                                     ///< that make the sensor lost
+                                                     ///< after which the sensor counts as lost
 
   bool outside(double square) const {
     return square < least_square || (greatest_square > 0 && square > greatest_square);

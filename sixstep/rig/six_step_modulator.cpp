@@ -16,8 +16,8 @@ unsigned index(control::Leg leg) { return static_cast<unsigned>(leg); }
 
 }  // namespace
 
-/// Returns the leg that a new pair brings in, and passes the state of the leg that leaves to it. Returns
-/// none_late if the pair has the same two legs: at a change of sign each leg keeps its state.
+/// Returns the leg that enters with a new pair, after it has received the state of the leg that leaves.
+/// Returns none_late if the pair has the same two legs: at a change of sign each leg keeps its state.
 int SixStepModulator::hand_over(control::Pair to) {
   const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
   const unsigned before = legs_of(command_.pair), after = legs_of(to);
@@ -77,7 +77,7 @@ void SixStepModulator::turn_off(const Instant& t) {
 }
 
 /// Sets the commands of three legs from the pair (model.md 3). Both legs of the pair follow one pulse; with
-/// hard chopping's second comparator the sink follows its own.
+/// hard chopping's second comparator the sink follows its own pulse.
 void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {

@@ -21,7 +21,7 @@ struct BoardCommand {
   double on_below_A = 0.0, off_above_A = 0.0;
 };
 
-/// Level for which a comparator waits; comparator_weights() gives its current.
+/// Level at which a comparator switches; comparator_weights() gives the compared current.
 struct ArmedComparator {
   bool armed = false;
   bool switches_off = false;  ///< true: switches off when the current rises above the level; false: switches
@@ -65,7 +65,7 @@ class SixStepModulator {
   /// Comparator `which` reached its level: 0 watches the motor current or the source leg, 1 the sink leg.
   void comparator_tripped(const sim::Instant& now, int which);
 
-  /// Level for which comparator `which` now waits.
+  /// The level at which comparator `which` switches next.
   ArmedComparator comparator(int which) const;
   /// Factors of the phase currents in the current of comparator `which`.
   plant::PerLeg<double> comparator_weights(int which) const;

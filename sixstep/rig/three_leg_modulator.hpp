@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three leg commands on the board's timer (model.md 11): each leg has its own pulse. Hall edges have no effect.
+// Three leg commands on the board's timer (model.md 11): each leg has its own pulse. Hall edges have no
+// effect.
 #pragma once
 #include "sixstep/rig/leg_timer.hpp"
 

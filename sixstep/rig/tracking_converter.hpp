@@ -2,16 +2,16 @@
 // A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock. It
 // outputs an angle of a number of bits, and the speed from its integrator (model.md 10).
 //
-//   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 with the sign of the
-//              shorter rotation
+//   detected   tan(phi - theta) from both demodulated windings, with the resolver's angle phi and the loop's
+//              angle theta; beyond 45 degrees 1 with the sign of the shorter rotation
 //   followed   control/sensing/tracking.hpp, per clock of the chip
-//   output     the angle predicted for this clock, not for the next: no lag at constant speed;
-//              at constant acceleration a the output lags by a T^2/K_i
+//   output     the angle predicted for this clock, not for the next clock: no lag at constant speed;
+//              at constant acceleration a the output lags by a T^2/K_i (clock period T, integral gain K_i)
 //
 // The chip itself checks the sum of both squares and keeps its first finding.
 //
 // The demodulator is ideal: the ripple at twice the excitation, which chips filter, is not modelled. A phase
-// that both windings have in common against the excitation cancels.
+// shift relative to the excitation that both windings share cancels.
 #pragma once
 #include "sixstep/base/random.hpp"
 #include "sixstep/control/sensing/resolver.hpp"

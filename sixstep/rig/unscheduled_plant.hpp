@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plant without a board: the functions of a System for sim::run that need no decision, with nothing
-// scheduled. A derived class adds apply(id), the reaction to a located event.
+// The plant without a board, as a System for sim::run in which nothing is scheduled. A derived class adds
+// apply(id), the reaction to a located event.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/sim/instant.hpp"

@@ -51,8 +51,7 @@ struct Wiring {
     }
     return legs;
   }
-  /// The motor's state with its currents ordered by the board's legs; speed, angle and bus are those of the
-  /// motor.
+  /// The motor's state with its currents ordered by the board's legs; speed, angle and bus are unchanged.
   template <class Real>
   plant::State<Real> at_legs(const plant::State<Real>& state) const {
     plant::State<Real> seen = state;

@@ -40,7 +40,8 @@ std::string controller_name(const Contest& c, std::size_t row) {
   return std::string(c.entries[row].who->name);
 }
 
-/// Selects the figures of a row: those of the nominal drive, or the worst of all drives; null if it has none.
+/// Selects the figures of a row: the figures of the nominal drive, or the worst figures of all drives; null
+/// if the row has none.
 using FiguresOf = const ContestValues* (*)(const ContestRow& row);
 const ContestValues* nominal_of(const ContestRow& row) { return &row.values; }
 const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.worst : nullptr; }

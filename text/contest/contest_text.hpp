@@ -29,7 +29,7 @@ std::vector<std::string> contest_notes(const analysis::Contest& contest);
 /// A printed table: column heads, then a row for each controller that runs. "*" marks the least value of a
 /// column.
 struct ContestTable {
-  std::string title;  ///< title above the first table of a pair, which names its drives
+  std::string title;  ///< title above the first table of a pair; it names the drives of the pair
   std::vector<std::vector<std::string>> rows;
 };
 /// Tables of the nominal drive, and of the worst drives if a series was run. Two tables each: during speed

@@ -51,7 +51,7 @@ bool are_alike(double a, double b) {
   return std::fabs(b - a) <= alike * std::fmin(std::fabs(a), std::fabs(b));
 }
 
-/// All rows that may win and whose figure equals the least one within `alike`.
+/// All rows that may win and whose figure equals the least value within `alike`.
 std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double least) {
   std::vector<std::size_t> who;
   for (std::size_t n = 0; n < c.rows.size(); ++n)
@@ -72,8 +72,8 @@ std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   return fmt::format("{} and {}", fmt::join(names, "; "), last);
 }
 
-/// The rows that share a figure: "a; b and c share". If more than four share it and fewer do not, these are
-/// named: "all but d and e share".
+/// The rows that share a figure: "a; b and c share". If more than four rows share the figure and fewer rows
+/// do not, the other rows are named: "all but d and e share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
   std::vector<std::size_t> others;
@@ -125,7 +125,8 @@ std::vector<std::string> winners(const Contest& c) {
   return out;
 }
 
-/// Compares ripples or losses: -1 if the first is clearly less, 1 if the second is, 0 if they are equal.
+/// Compares ripples or losses: -1 if the first is clearly less, 1 if the second is clearly less, 0 if they
+/// are equal.
 int less_of(double a, double b) { return are_alike(a, b) ? 0 : a < b ? -1 : 1; }
 
 const char* answer(int ripple, int loss) {

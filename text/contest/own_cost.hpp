@@ -15,8 +15,8 @@ struct OwnCost {
   CoreCost cost;           ///< cost on the core of the comparison's table
 };
 
-/// Problems: `json` is no such file, or does not contain the comparison's core. The caller adds the Problem's
-/// place.
+/// Problems: `json` is not the text of such a file, or does not contain the comparison's core. The caller
+/// sets the Problem's `where`.
 base::Result<OwnCost> own_cost_of(std::string_view json);
 
 }  // namespace text

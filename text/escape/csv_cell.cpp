@@ -12,7 +12,7 @@ std::string cell_name(std::string_view text) {
   std::string out = visible(text);
   const std::string_view name =
       std::string_view(out).substr(std::min(out.find_first_not_of(' '), out.size()));
-  // Some spreadsheets treat the full-width forms of = + - @ like the usual ones.
+  // Some spreadsheets treat the full-width forms of = + - @ like the usual characters.
   constexpr std::string_view begins[] = {"=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20"};
   if (std::any_of(std::begin(begins), std::end(begins), [&](auto sign) { return name.starts_with(sign); }))
     out.insert(0, 1, '\'');

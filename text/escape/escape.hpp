@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Escapes foreign names and texts for output, with one function per target. A title, a label, a key or a file
-// name may hold any bytes, and none of them may act on the program that displays, reads or runs the output.
-// The program's own numbers and words need no escaping.
+// name may contain any bytes, and none of these bytes may act on the program that displays, reads or runs the
+// output. The program's own numbers and words need no escaping.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace text {
 
-/// Returns the character at `at` and advances `at` to the next one. Each byte that is not UTF-8 becomes
+/// Returns the character at `at` and advances `at` to the next character. Each byte that is not UTF-8 becomes
 /// U+FFFD.
 char32_t next_character(std::string_view text, std::size_t& at);
 
@@ -23,8 +23,8 @@ std::string visible(std::string_view text, Lines lines = Lines::shown);
 /// One word of a command line that a shell reads back: quoted if needed, and visible().
 std::string shell_word(std::string_view word);
 
-/// Returns text or an attribute's value for HTML and XML. It is visible() too, because XML 1.0 cannot hold
-/// every character.
+/// Returns text or an attribute's value for HTML and XML. The text is visible() too, because XML 1.0 does not
+/// allow every character.
 std::string markup_text(std::string_view text, Lines lines = Lines::shown);
 
 /// Returns a file's name as a relative URL, in which no colon begins a scheme and no # or ? ends the name.

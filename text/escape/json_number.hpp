@@ -17,7 +17,7 @@ inline nlohmann::ordered_json or_null(const std::optional<double>& x) {
   return x ? finite(*x) : nlohmann::ordered_json(nullptr);
 }
 
-/// The value of a figure of merit: null for NaN, "never" or "-never" for an infinite one.
+/// The value of a figure of merit: null for NaN, "never" or "-never" for an infinite value.
 inline nlohmann::ordered_json figure_json(double x) {
   if (x != x) return nullptr;
   if (x - x != 0.0) return x > 0 ? "never" : "-never";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints JSON whose strings may hold any bytes: invalid UTF-8 is replaced and raises no exception, and
+// Prints JSON whose strings may contain any bytes: invalid UTF-8 is replaced and raises no exception, and
 // control characters are escaped.
 #pragma once
 #include <nlohmann/json.hpp>

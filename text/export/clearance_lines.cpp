@@ -31,7 +31,7 @@ std::string verdict(const study::Verdict& v) {
   return fmt::format("{}: {} required, {:.6g}{} measured", v.figure, required, v.measured, unit);
 }
 
-/// A flaw of a sensor for the comment, such as "; offset 0.1 A"; empty for 0.
+/// An error of a sensor for the comment, such as "; offset 0.1 A"; empty for 0.
 std::string flaw(std::string_view name, double x, std::string_view unit) {
   return x != 0 ? fmt::format("; {} {:.6g}{}{}", name, x, unit.empty() ? "" : " ", unit) : "";
 }
@@ -139,7 +139,7 @@ std::string heat(const study::Heat& h) {
                      h.ambient_degC);
 }
 
-/// The assumptions of the run. It proves nothing for a board that differs from them.
+/// The assumptions of the run. The run proves nothing for a board that differs from these assumptions.
 std::string assumptions(const ClearanceText& t) {
   const study::Scenario& s = t.scenario;
   std::string text = "// Assumptions of that run:\n";

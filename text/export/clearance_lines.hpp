@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the part of an exported header's comment that describes its run: requirements, measured values and
-// assumptions. If the drive is not cleared, it says why, and why the header was written nevertheless.
+// assumptions. If the drive is not cleared, this part says why, and why the header was written nevertheless.
 #pragma once
 #include <string>
 #include <string_view>

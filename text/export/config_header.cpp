@@ -112,7 +112,7 @@ std::string includes(const ConfigHeader& w, const study::Compiled& c) {
                                       : "drive");
 }
 
-/// The drive in the target's arithmetic, and the product drive around it if the scenario has one.
+/// The drive in the target's arithmetic. Which members are used depends on the scenario's kind of drive.
 template <class Scalar>
 struct Kept {
   control::DriveConfig<Scalar> drive{};
@@ -166,7 +166,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 
-/// The stated operating range; members that are not stated come from the scenario's own range.
+/// The stated operating range; members that are not stated come from the scenario's range.
 design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange own = study::operating_range(w.scenario, c);
   const auto stated = [](double x, double otherwise) { return x > 0 ? x : otherwise; };
@@ -218,7 +218,7 @@ base::Result<std::string> floating_header(const ConfigHeader& w, const study::Co
   return header<Scalar>(w, c, type, kept, {}, {});
 }
 
-/// Bases for the stated range, or those of the run.
+/// Bases for the stated range; without a stated range, the bases of the run.
 template <class Scalar>
 base::Result<design::Bases> chosen_bases(const ConfigHeader& w, const study::Compiled& c,
                                          const design::OperatingRange& range) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a configuration as C++ assignments, one per line, each with its number in SI on the same line. A
-// member with its default value (nothing, off) is omitted; an enumeration is always written.
+// member with its default value (0, off) is omitted; an enumeration is always written.
 #pragma once
 #include <fmt/format.h>
 
@@ -159,8 +159,8 @@ struct EnumText<sixstep::control::VoltageLimit> {
                                                                                     {"circle", circle, ""}};
 };
 
-/// Visits the fields of a configuration (design/fields) twice in parallel: as designed in SI, and as kept in the
-/// target's arithmetic.
+/// Visits the fields of a configuration (design/fields) twice in parallel: as designed in SI, and as kept in
+/// the target's arithmetic.
 template <class Scalar>
 class ConfigText {
  public:
@@ -262,8 +262,8 @@ class ConfigText {
       comment += (comment.empty() ? "" : "; ") + std::string("not used by this drive");
     text_ += comment.empty() ? code + "\n" : fmt::format("{:<72}  // {}\n", code, comment);
   }
-  /// `held` is the value in SI that the format holds. The comment states it if it differs from the designed
-  /// value in six digits.
+  /// `held` is the value that the format represents, in SI. The comment states `held` if it differs from the
+  /// designed value in six digits.
   void number(const Field& f, const std::string& value, double designed, double held, std::string_view unit) {
     std::string comment = fmt::format("{:.9g}", designed);
     if (!unit.empty()) comment += fmt::format(" {}", unit);
@@ -275,7 +275,7 @@ class ConfigText {
 
   sixstep::control::Mode mode_;
   sixstep::design::Bases b_;
-  std::vector<std::string_view> unused_;  ///< beginnings of the fields' paths
+  std::vector<std::string_view> unused_;  ///< beginnings of the paths of fields that the drive does not use
   std::string text_, within_;
 };
 
@@ -297,7 +297,7 @@ std::vector<std::string_view> unused_fields(const Config&) {
   return {};
 }
 
-/// The assignments of a sensorless drive, without those of its loops.
+/// The assignments of a sensorless drive, without the assignments of its loops.
 template <class Scalar>
 std::string sensorless_lines(sixstep::control::Mode mode,
                              const sixstep::control::PulsedDriveConfig<double>& designed,

@@ -16,17 +16,19 @@ namespace text {
 struct CoreCost {
   std::string tick, flash_bytes;
 };
-/// Cost of a reference drive ("speed") on a core ("Cortex-M4F") in an arithmetic ("float"); empty: not counted.
+/// Cost of a reference drive ("speed") on a core ("Cortex-M4F") in an arithmetic ("float"); empty: not
+/// counted.
 std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive, std::string_view arithmetic);
 
-/// Least control period in s of the images (faces/firmware/example/). With a shorter period the STM32F303's
-/// image does not compile. The ATmega2560's image keeps the 100 us of data/scenarios/thesis/avr/ and misses
-/// periods below them, because its tick takes 80 to 104 us. The function returns "the STM32F303's image needs
-/// pwm.sample = \"start\"" for a product drive with another value; else it is empty.
+/// The keys of a product drive's timing that differ from the values of the STM32F303's image, as in "the
+/// STM32F303's image needs pwm.sample = \"start\""; empty if none differs, and for other drives.
 std::string other_than_stm32_image(const study::Scenario& scenario);
 
-/// With a period of stm32_sure_period_s or more, no answer of the STM32F303's image can be late
-/// (docs/howto/compare-a-log.md).
+/// Least control periods in s of the images (faces/firmware/example/).
+/// - STM32F303: with less than stm32_least_period_s the image does not compile; with stm32_sure_period_s or
+///   more none of its commands can be late (docs/howto/compare-a-log.md).
+/// - ATmega2560: the image keeps the 100 us of data/scenarios/thesis/avr/ and misses shorter periods, because
+///   its tick takes 80 to 104 us.
 inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s = 5006 / 72e6,
                         atmega_least_period_s = 100e-6;
 
@@ -34,7 +36,8 @@ inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s 
 /// stop; empty if there are none.
 std::string too_short_for_images(double period_s);
 
-/// Both, for a header's comment and the terminal: conditions of the images, a sentence each without its full stop.
+/// The notes of too_short_for_images() and other_than_stm32_image(), for a header's comment and the terminal:
+/// a sentence each without its full stop.
 std::vector<std::string> notes_for_images(const study::Scenario& scenario);
 
 /// Lines of // comment.

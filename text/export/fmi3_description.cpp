@@ -36,7 +36,7 @@ const char* fmi3_type(FmiKind kind) {
   }
 }
 
-/// As many values as the array has.
+/// The start values, as many as the array has elements.
 std::string fmi3_start(const FmiVariable& v) {
   const std::string one = v.kind == FmiKind::boolean ? "false" : base::written(v.start);
   std::string all = one;
@@ -57,7 +57,7 @@ const char* fmi3_causality(FmiRole role) {
   }
 }
 
-/// What belongs to a variable by its role and kind.
+/// The attributes that a variable has by its role and kind.
 std::string fmi3_attributes(const FmiVariable& v) {
   if (v.kind == FmiKind::clock) return " intervalVariability=\"triggered\"";
   if (v.role == FmiRole::parameter) return " initial=\"exact\" start=\"true\"";

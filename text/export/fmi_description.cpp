@@ -21,7 +21,7 @@ std::uint64_t fmi_hash(std::string_view text, std::uint64_t seed) {
   return hash;
 }
 
-/// A GUID of all that decides what the unit does.
+/// A GUID computed from everything that determines the unit's behaviour.
 std::string fmi_token(const UnitTexts& unit, FmiVersion version, FmiChip chip) {
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", SIXSTEP_VERSION, static_cast<int>(version),
                                       static_cast<int>(chip), unit.scenario, unit.motor, unit.identifier);

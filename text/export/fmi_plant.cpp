@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables of a unit without controller: the importer sets gates, a pair or legs, and reads what a controller measures.
+// Variables of a unit without controller: the importer sets gates, a pair or legs, and reads what a
+// controller measures.
 #include <fmt/format.h>
 
 #include <utility>
@@ -14,7 +15,7 @@ namespace {
 
 using study::ColumnId;
 
-/// First references, as in faces/fmu/plant.h.
+/// First references of the groups of variables, as in faces/fmu/plant.h.
 constexpr unsigned first_gate = 1100, first_of_pair = 1110, first_of_legs = 1120, first_measured = 1200,
                    first_count = 1300;
 
@@ -53,7 +54,8 @@ class PlantVariables {
   void output(FmiKind kind, const char* name, std::string unit, std::string description) {
     add({.name = name, .kind = kind, .unit = std::move(unit), .description = std::move(description)});
   }
-  /// FMI 3: one array; FMI 2: a scalar for each of a, b, c, with its letter in the place of {} in `one`.
+  /// FMI 3: one array. FMI 2: a scalar for each of a, b, c, whose name is `one` with the letter in the place
+  /// of {}.
   void three(FmiRole role, FmiKind kind, const char* array, fmt::format_string<std::string_view&> one,
              const char* unit, const std::string& description) {
     const FmiVariable like{.name = {}, .kind = kind, .role = role, .unit = unit};
@@ -139,7 +141,7 @@ void add_measured(const study::Scenario& s, PlantVariables& plant) {
                "the scenario's reference at the last control tick, in the unit of control.mode");
 }
 
-/// The converters have a count only without the lags that sixstep_convert() refuses.
+/// Adds the counts of the converters, which exist only without the lags that sixstep_convert() refuses.
 void add_counts(const study::Scenario& s, PlantVariables& plant) {
   using enum FmiKind;
   if (s.sensors.current_bandwidth_Hz || s.sensors.current_delay_s > 0 || s.sensors.bus_bandwidth_Hz) return;
@@ -181,7 +183,9 @@ study::Scenario with_stand_in(study::Scenario s, FmiChip chip) {
 bool is_of_plant(ColumnId id, FmiChip chip) {
   using enum ColumnId;
   if (chip == FmiChip::of_scenario) return true;
-  if (chip == FmiChip::gates && id >= encoder_A) return false;  // the board's peripheral is the controller's
+  if (chip == FmiChip::gates && id >= encoder_A)
+    return false;  // the encoder's peripheral belongs to the
+                   // controller
   return !(id >= duty && id <= position_ref) && id < i_d;
 }
 

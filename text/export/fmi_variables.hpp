@@ -15,7 +15,8 @@ namespace text {
 enum class FmiKind { real, integer, boolean, text, clock };
 enum class FmiRole { time, input, output, parameter };
 enum class FmiVersion { fmi2, fmi3 };
-/// What sets the gates: the scenario's controller, or inputs of the unit. Numbers are those of sixstep_chip.
+/// The source of the gates: the scenario's controller, or inputs of the unit. The numbers equal those of
+/// sixstep_chip.
 enum class FmiChip { of_scenario = 0, pair = 1, legs = 2, gates = 3 };
 
 struct FmiVariable {
@@ -27,21 +28,23 @@ struct FmiVariable {
   std::string unit{}, description{};
   double start = 0.0;   ///< start value of an input
   std::string key{};    ///< input: the key of [[at]] that it sets
-  double factor = 1.0;  ///< output: from the rotary motor's unit to this one
-  int count = 1;        ///< FMI 3: an array of so many, whose references follow this one
+  double factor = 1.0;  ///< output: from the rotary motor's unit to `unit`
+  int count = 1;        ///< FMI 3: number of elements of an array; their references follow `reference`
 };
 
-/// First the time, then signals, inputs and the digest. A quantity is an input if [[at]] may change it in this scenario.
-/// Without the scenario's controller: also its inputs and what it measures; FMI 3: phases are arrays.
-/// Problems: those of opening the scenario.
+/// First the time, then signals, inputs and the digest. A quantity is an input if [[at]] may change it in
+/// this scenario. For a unit without the scenario's controller the list also contains the inputs of the
+/// bridge and the quantities that a controller measures. In FMI 3 phases are arrays. Problems: the scenario
+/// cannot be opened.
 base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scenario, FmiChip chip,
                                                      FmiVersion version);
 
-/// The scenario with a controller that stands in for the importer's.
+/// The scenario with a controller that stands in for the importer.
 study::Scenario with_stand_in(study::Scenario scenario, FmiChip chip);
-/// Whether a signal is one of the plant: not what the scenario's controller computes.
+/// Whether the plant determines a signal, not the scenario's controller.
 bool is_of_plant(study::ColumnId id, FmiChip chip);
-/// Inputs for the bridge, measurements and counts of a unit without controller. References: faces/fmu/plant.h.
+/// Inputs for the bridge, measurements and counts of a unit without controller. References:
+/// faces/fmu/plant.h.
 void add_plant(const study::Scenario& scenario, FmiChip chip, FmiVersion version,
                std::vector<FmiVariable>& all);
 

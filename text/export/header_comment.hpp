@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the comment at the top of an exported header: motor, gains and their sources, the calls that the board
-// makes, and the results of the run.
+// Writes the comment at the top of an exported header: motor, gains and their sources, the calls that the
+// board makes, and the results of the run.
 #pragma once
 #include <string>
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_input = 7;
 
-/// The members of a map as the file has them.
+/// The keys of a map as written in the file.
 struct MapFile {
   std::string chip, elf;
   std::vector<std::string> hall{"PK0", "PK1", "PK2"}, upper{"PB5", "PB6", "PB7"}, lower{"PA0", "PA1", "PA2"};

@@ -16,8 +16,7 @@ std::size_t end_of_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-/// A number as written: its sign, its digits without the point, and the power of ten that the last digit
-/// counts.
+/// A number as written: its sign, its digits without the point, and the power of ten of the last digit.
 struct Decimal {
   bool negative = false;
   std::string digits;
@@ -25,7 +24,8 @@ struct Decimal {
   std::size_t size = 0;  ///< length of the number's text
 };
 
-/// The exponent whose letter e is at `at`, and the place after it; 0 and `at` if no digit follows the e.
+/// The exponent whose letter e is at `at`, and the position after the exponent; 0 and `at` if no digit
+/// follows the e.
 std::pair<long, std::size_t> exponent(std::string_view text, std::size_t at) {
   constexpr long far = 1'000'000'000;
   if (at >= text.size() || (text[at] != 'e' && text[at] != 'E')) return {0, at};

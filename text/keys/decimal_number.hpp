@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the text of a decimal number to the nearest double, the same on every platform and in every locale.
+// Converts the text of a decimal number to the nearest double, the same on every platform and in every
+// locale.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -15,11 +16,11 @@ struct DecimalNumber {
 
 /// Reads the longest beginning of the text that is a number: an optional minus, digits with at most one
 /// point, and an optional exponent. The value is rounded once; of two equally near doubles it is the even
-/// one. A number is out of range if it would be infinite, or if it would be 0 although it has a digit other
-/// than 0.
+/// double. A number is out of range if it would be infinite, or if it would be 0 although it has a digit
+/// other than 0.
 DecimalNumber decimal_number(std::string_view text);
 
-/// The number if the whole text is one; else empty.
+/// The number if the whole text is a number; else empty.
 std::optional<double> number_alone(std::string_view text);
 
 }  // namespace text

@@ -26,7 +26,8 @@ bool is_unit_piece(std::string_view piece) {
   return std::find(unit_pieces.begin(), unit_pieces.end(), piece) != unit_pieces.end();
 }
 
-/// Both readings of a suffix: "_rad_s" as rad/s and "_kg_m2" as kg m2, because a key does not distinguish them.
+/// Both readings of a suffix: "_rad_s" as rad/s and "_kg_m2" as kg m2, because a key does not distinguish
+/// them.
 std::array<std::string, 2> readings(std::string_view suffix) {
   std::array<std::string, 2> units;
   if (suffix.starts_with('_')) suffix.remove_prefix(1);

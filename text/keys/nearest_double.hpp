@@ -6,7 +6,7 @@
 
 namespace text {
 
-/// The double nearest to digits * 10^power. Of two equally near doubles it is the even one. 0 or infinity
+/// The double nearest to digits * 10^power. Of two equally near doubles it is the even double. 0 or infinity
 /// outside the range of double.
 double nearest_double(std::string digits, long power);
 

@@ -20,7 +20,8 @@ struct SheetWords {
 constexpr std::string_view terminal = "with frame = \"terminal\"", phase = "with frame = \"phase\"",
                            which = "with the frame that it means";
 
-// Words that mean a key. The table is needed because similar letters do not help: "rth1" resembles no key.
+// Words that mean a key. The table is needed because a comparison of letters does not find them: "rth1"
+// resembles no key.
 constexpr SheetWords sheet_words[] = {
     {"numberofpolepairs polepairnumber polepaircount noofpolepairs motorpolepairs pp p", "pole_pairs"},
     {"numberofpoles polenumber polecount noofpoles motorpoles magnetpoles magnets simotorpoles", "poles"},

@@ -10,10 +10,10 @@
 
 namespace text {
 
-/// The cure for a word that a sheet of Faulhaber, Portescap, Nanotec, T-Motor or maxon uses, or VESC, ODrive
-/// or SimpleFOC. It names the key of `known` to write, with the frame that such a sheet means. If a motor
-/// file has no key for the value, it names the value's place. Empty if the word is unknown, or if `known` are
-/// not the keys of a motor.
+/// The cure for a word from a sheet of Faulhaber, Portescap, Nanotec, T-Motor or maxon, or from the settings
+/// of VESC, ODrive or SimpleFOC. It names the key of `known` to write, with the frame that such a sheet
+/// means. If a motor file has no key for the value, the cure says where the value belongs. Empty if the word
+/// is unknown, or if `known` are not the keys of a motor.
 std::optional<std::string> by_meaning(std::string_view key, std::span<const std::string> known);
 
 }  // namespace text

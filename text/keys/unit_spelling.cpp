@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normalises spellings of units: every symbol and name that sheets use becomes the one in the table.
+// Normalises spellings of units: every symbol and name that sheets use becomes the symbol in the table of
+// units.
 #include <cctype>
 
 #include "text/keys/units.hpp"
@@ -11,7 +12,7 @@ struct Spelled {
   std::string_view as, means;
 };
 
-/// Symbols that are replaced at any position. Longer ones come first.
+/// Symbols that are replaced at any position. Longer symbols come first.
 constexpr Spelled unit_signs[] = {
     {"µ", "u"},      {"μ", "u"},     {"Ω", "ohm"},    {"Ω", "ohm"},    {"°C", "degC"},  {"ºC", "degC"},
     {"℃", "degC"},   {"°F", "degF"}, {"°", "deg"},    {"⁻", "-"},      {"¹", "1"},      {"²", "2"},

@@ -193,7 +193,7 @@ bool add_joined(std::string_view token, int sign, Unit& product) {
 }
 
 /// Reads a product: factor {(space | * | /) factor}. A factor is a list of powers joined by hyphens, or a
-/// product in brackets. '/' divides by the next factor alone.
+/// product in brackets. '/' divides only by the next factor.
 class Product {
  public:
   explicit Product(std::string_view text) : rest_(text) {}

@@ -62,14 +62,14 @@ int weights_in(const Unit& from, const Unit& to) {
   return 0;
 }
 
-/// The power of standard_gravity between the two units.
+/// The power of standard_gravity in the conversion between the two units.
 int gravity_between(const Unit& from, const Unit& to) {
   const int power = weights_in(from, to);
   return power != 0 ? power : -weights_in(to, from);
 }
 
-/// The power of the electrical angle that must be converted to the mechanical angle; 0 if this does not give
-/// the wanted kind of unit.
+/// The power of the electrical angle that must be converted to the mechanical angle; 0 if this conversion
+/// does not result in the wanted kind of unit.
 int electrical_in(const Unit& from, const Unit& to) {
   const int power = from.power(Base::electrical_rad);
   const bool fits = to.power(Base::electrical_rad) == 0 &&

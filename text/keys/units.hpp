@@ -32,14 +32,14 @@ struct Unit {
   Dimension dimension{};
   int ten = 0;
   double factor = 1.0;
-  bool by_the_clock = false;  ///< contains minutes or hours, apart from those of rpm
+  bool by_the_clock = false;  ///< contains minutes or hours, apart from the minute of rpm
 
   int power(Base base) const { return dimension[static_cast<std::size_t>(base)]; }
   int& power(Base base) { return dimension[static_cast<std::size_t>(base)]; }
 };
 
-/// The unit of a text such as "mNm/A", "kg m2", "oz-in", "Nm/(rad/s)", "mV/min-1", "%". The text "" gives the
-/// number 1. Empty if the text is no unit.
+/// The unit of a text such as "mNm/A", "kg m2", "oz-in", "Nm/(rad/s)", "mV/min-1", "%". The text "" means the
+/// unit of a pure number. Empty if the text is no unit.
 std::optional<Unit> unit_of(std::string_view text);
 
 /// The unit in the table's spelling: without symbols that few keyboards have, with spaces in products, and

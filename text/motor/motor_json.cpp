@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Visits a sheet; values that it does not give are left out.
+/// Visits a sheet; values that the sheet does not give are omitted.
 class SheetJson final : public base::Visitor {
  public:
   Json object = Json::object();

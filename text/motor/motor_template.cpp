@@ -15,8 +15,8 @@
 namespace text {
 namespace {
 
-/// The entry in another spelling, with the spelling's unit. A linear motor's spelling is already that of the
-/// key.
+/// The entry in another spelling, with the spelling's unit. For a linear motor the key already has its
+/// spelling.
 KeyEntry as_spelled(const KeyEntry& entry, std::string_view key) {
   for (const base::Spelling& spelling : entry.about.also)
     if (spelling.key == key) return spelled(entry, spelling);
@@ -33,7 +33,7 @@ std::string empty_value(const KeyEntry& entry) {
   return fmt::format("{{ value = nan, frame = \"{}\", source = \"data sheet\" }}", entry.about.frame);
 }
 
-/// Writes the line of a key. The comment above it states what is different on such a sheet.
+/// Writes the line of a key. The comment above the line states what is different on such a sheet.
 std::string line(const MotorStyle& style, const KeyEntry& given, std::string_view key, bool needed) {
   const KeyEntry entry = as_spelled(given, key);
   const bool choice = frames_of(entry.about.frame).size() > 1;

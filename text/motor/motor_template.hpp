@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes an empty motor file to be filled in from a printed sheet, in the words of one line of business.
+// Writes an empty motor file to be filled in from a printed sheet, in the words of one industry.
 #pragma once
 #include <string>
 #include <string_view>

@@ -29,7 +29,7 @@ std::string trimmed(std::string row) {
   return visible(row) + "\n";
 }
 
-/// Visits a sheet and writes one row per value that it gives.
+/// Visits a sheet and writes one row per value that the sheet gives.
 class SheetRows final : public base::Visitor {
  public:
   const std::string& text() const { return text_; }
@@ -65,7 +65,7 @@ class SheetRows final : public base::Visitor {
   void row(std::string_view key, const std::optional<T>& member, const base::About& about) {
     if (member) row(key, *member, about);
   }
-  /// A word's first choice is that of nearly every motor, and is not printed.
+  /// The first choice of connection, rotor and kind applies to nearly every motor and is not printed.
   void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
     if ((key != "connection" && key != "rotor" && key != "kind") || member.chosen() != 0)
       add(key, member.word(), "", "", "");

@@ -87,14 +87,14 @@ std::string in_keys_unit(const std::string& written, const std::string& unit) {
   return x ? base::written(*x) : written;
 }
 
-/// Converts an axis to its key's own unit. An unknown key is reported elsewhere, where it is set.
+/// Converts an axis to its key's unit. An unknown key is reported later, when the key is set.
 void in_keys_unit(analysis::Axis& axis) {
   const base::Result<std::string> unit = unit_of_key(axis.key);
   if (!unit) return;
   for (std::string& value : axis.values) value = in_keys_unit(value, *unit);
 }
 
-/// A value in one spelling: a number with the shortest digits, a word without quotes. A whole number stays
+/// A value in a unique spelling: a number with the fewest digits, a word without quotes. A whole number stays
 /// unchanged, because it may have more digits than a double.
 std::string one_spelling(const std::string& value) {
   const std::string word(analysis::bare(value));

@@ -34,8 +34,8 @@ base::Result<analysis::Axis> axis_of(std::string_view text);
 /// unknown key.
 base::Result<std::string> unit_of_key(const std::string& key);
 
-/// The plan as one line of JSON, by which two plans are compared. A number of runs is left out if no single run
-/// depends on it.
+/// The plan as one line of JSON, by which two plans are compared. The number of runs is omitted if no single
+/// run depends on it.
 std::string plan_identity(const analysis::Plan& plan);
 
 }  // namespace text

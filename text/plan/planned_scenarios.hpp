@@ -13,12 +13,12 @@ namespace text {
 /// The input that all runs of a plan share.
 struct PlannedText {
   std::string name, text;  ///< name and text of the scenario, for read_scenario_text()
-  ReadOptions options;     ///< the point's values follow its overrides
+  ReadOptions options;     ///< the values of a point are applied after the overrides
   bool sheet_tolerances = false;
 };
 
-/// Reads the scenarios of a plan's runs. Several threads may call it at the same time. A file is searched
-/// once; all drives of a point use one reading.
+/// Reads the scenarios of a plan's runs. Several threads may call it at the same time. Each file is searched
+/// only once, and the scenario of a point is read once for all its drives.
 class PlannedScenarios {
  public:
   PlannedScenarios(PlannedText of, analysis::Plan plan);

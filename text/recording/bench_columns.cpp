@@ -75,8 +75,8 @@ Columns from_the_first(const Three& found) {
 }
 
 Columns in_turn(const Three& found) {
-  // The sequence begins after the missing column, or at the first one: a b, b c or c a. Each voltage lags the
-  // one before by 120 degrees.
+  // The sequence begins after the missing column, or at the first column: a b, b c or c a. Each voltage lags
+  // the previous voltage by 120 degrees.
   const auto gap =
       static_cast<std::size_t>(std::find(found.begin(), found.end(), std::nullopt) - found.begin());
   const std::size_t before = std::min(gap, found.size() - 1);

@@ -27,14 +27,14 @@ const std::vector<std::string_view>& names_of_hall_codes();
 
 Meaning meaning_of(const RecordedColumn& column);
 
-/// The existing ones of three columns. Problem: two columns have the same name.
+/// Three columns, each empty if it does not exist. Problem: two columns have the same name.
 using Three = std::array<std::optional<Picked>, 3>;
 base::Result<Three> three_of(const Recording& recording, const ThreeNames& names);
 
-/// The columns before the first missing one, for readers that need the first two.
+/// The columns before the first missing column, for readers that need the first two.
 Columns from_the_first(const Three& found);
-/// The columns in cyclic order, beginning after a missing one: c a if b is missing. For readers that accept
-/// any two of the three.
+/// The columns in cyclic order, beginning after a missing column: c a if b is missing. For readers that
+/// accept any two of the three.
 Columns in_turn(const Three& found);
 
 /// The voltages to use, and between which points they are, if known.
@@ -53,7 +53,7 @@ struct BenchUse {
   bool voltages_are_asked = false;      ///< the request names the voltages by their headings
   Meaning voltages = Meaning::unknown;  ///< meaning of the voltages in use; `unknown` if none are in use
 };
-/// The reason why a column that holds numbers was not used.
+/// The reason why a column with numbers was not used.
 std::string why_not_used(const RecordedColumn& column, const BenchUse& use);
 
 /// Whether the column has a unit that is not a unit of voltage.

@@ -29,8 +29,8 @@ std::optional<analysis::EmfBetween> between_in(const Columns& columns) {
   return {};
 }
 
-/// The voltages that the options name, else those that the headings identify. A log of Hall lines needs the
-/// first two of three voltages, a back-EMF any of them.
+/// The voltages that the options name, else the voltages that the headings identify. `taken` selects them: a
+/// log of Hall lines needs the first two of three voltages, a back-EMF any of them.
 base::Result<Voltages> voltages_of(const Recording& r, const BenchColumns& wanted,
                                    Columns (*taken)(const Three&)) {
   if (!wanted.voltages.empty()) {
@@ -57,7 +57,7 @@ bool is_other_time(const RecordedColumn& column, const RecordedColumn* time) {
   return same_heading || is_of_kind(column, "s");
 }
 
-/// Refuses channels that were sampled at different instants, because these cannot be in one row.
+/// Refuses channels that were sampled at different instants, because their values cannot be in one row.
 base::Problems check_other_times(const Recording& r, const RecordedColumn* time) {
   for (const RecordedColumn& column : r.columns) {
     if (!is_other_time(column, time)) continue;
@@ -76,7 +76,7 @@ bool is_among(const Columns& columns, const RecordedColumn& column) {
   return std::any_of(columns.begin(), columns.end(), [&](const Picked& p) { return p.column == &column; });
 }
 
-/// Notes each unused column with the reason. If the options name the columns, it notes nothing.
+/// Notes each unused column with the reason. Called only if the options do not name the columns.
 void note_rest(const Recording& r, const Columns& used, const RecordedColumn* time, const BenchUse& use,
                Notes& notes) {
   std::vector<NotUsed> rest;
@@ -108,7 +108,7 @@ Columns whatever_is_a_voltage(const Recording& r, const RecordedColumn* time, No
   return out;
 }
 
-/// The two voltage levels of a line, or the reason why it has none.
+/// The two voltage levels of a line.
 struct Levels {
   double low = 0.0, high = 1.0;
 };
@@ -168,7 +168,7 @@ base::Result<Codes> codes_of(const Recording& r, const Columns& lines) {
   return out;
 }
 
-/// The columns that the options name, else those that the headings identify. Three columns that a logic
+/// The columns that the options name, else the columns that the headings identify. Three columns that a logic
 /// analyzer heads "logic" are Hall lines.
 base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wanted, Notes& notes) {
   if (!wanted.hall.empty()) return columns_called(r, wanted.hall);

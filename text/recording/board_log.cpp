@@ -49,8 +49,8 @@ Found column_of(const RecordedColumn& recorded) {
   return found;
 }
 
-/// Problems of headings such as "i_m_A [mA]": the trace's own name contains a unit, and a different one
-/// follows. It is unknown which unit applies.
+/// Problems of headings such as "i_m_A [mA]": the trace's name contains a unit, and a different unit follows.
+/// It is unknown which unit applies.
 base::Problems said_twice(const Recording& r) {
   base::Problems found;
   for (const RecordedColumn& recorded : r.columns)

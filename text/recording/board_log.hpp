@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a recording of a running drive as a trace: the log of a board, the log of another maker's drive, or an
-// oscilloscope's record. Headings are those of a trace's columns with units of the same kind ("t [us]", "i_m
-// [mA]", "speed [rad/s]"); otherwise formulas name the columns.
+// Reads a recording of a running drive as a trace: the log of a board, the log of another maker's drive, or
+// an oscilloscope's record. Headings are those of a trace's columns with units of the same kind ("t [us]",
+// "i_m [mA]", "speed [rad/s]"); otherwise formulas name the columns.
 #pragma once
 #include <optional>
 #include <string>

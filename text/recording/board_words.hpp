@@ -7,8 +7,8 @@ namespace text {
 
 Notes what_the_board_says(const Recording& recording);
 
-/// Whether what_the_board_says() evaluates this column, so that no note is needed that a simulation does not
-/// have it.
+/// Whether what_the_board_says() evaluates this column. Then no note says that a simulation does not have the
+/// column.
 bool is_the_boards_word(const RecordedColumn& column);
 
 }  // namespace text

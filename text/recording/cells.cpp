@@ -34,8 +34,8 @@ std::optional<double> moved(std::string_view number, int ten) {
   return x.kind == DecimalNumber::Kind::number ? std::optional(x.value) : std::nullopt;
 }
 
-/// The place after the quotes of the cell that begins at `at`, if quotes enclose the whole cell. The search
-/// for the cell's separator begins there.
+/// The position of the closing quote of the cell that begins at `at`, if quotes enclose the whole cell; else
+/// `at`. The search for the cell's separator begins at this position.
 std::size_t behind_quotes(std::string_view line, std::size_t at, char separator) {
   const std::size_t open = line.find_first_not_of(' ', at);
   if (open == std::string_view::npos || line[open] != '"') return at;

@@ -14,8 +14,8 @@ std::string_view bare_cell(std::string_view text);
 /// including its commas.
 std::vector<std::string_view> cells_of_line(std::string_view line, char separator);
 
-/// The number times 10^ten if the whole cell is one, rounded once. A comma is a decimal point in two cases:
-/// between cells separated by ';', tab or blanks, and within quotes if commas separate the cells.
+/// The number times 10^ten if the whole cell is a number, rounded once. A comma is a decimal point in two
+/// cases: between cells separated by ';', tab or blanks, and within quotes if commas separate the cells.
 std::optional<double> number_in(std::string_view cell, int ten = 0);
 
 /// The separator of a row: ';', tab, ',' or a blank. A row is a line whose first cell is a number. Empty for

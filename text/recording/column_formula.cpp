@@ -49,8 +49,8 @@ void take_before(std::string_view& rest, ColumnFormula& out) {
   }
 }
 
-/// The place of a * or / without a constant at either end: in "erpm*", in "*erpm", and in "erpm**2" after its
-/// 2 has been removed.
+/// The position of a * or / without a constant at either end: in "erpm*", in "*erpm", and in "erpm**2" after
+/// its 2 has been removed.
 std::optional<std::size_t> operator_without_constant(std::string_view text, std::string_view column) {
   if (column.empty()) return {};
   const auto place = static_cast<std::size_t>(column.data() - text.data());

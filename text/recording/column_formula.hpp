@@ -12,7 +12,7 @@ namespace text {
 
 struct ColumnFormula {
   std::string name;    ///< left side: time, or a column of a trace
-  std::string column;  ///< heading or place of the column in the recording
+  std::string column;  ///< heading of the column in the recording, or its position ("column 3")
   double factor = 1.0;
   bool scaled = false;  ///< true: the formula has constants, and the unit in the heading is ignored
 };

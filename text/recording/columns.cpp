@@ -13,7 +13,7 @@
 namespace text {
 namespace {
 
-/// The places of columns in words: "column 2 or column 4".
+/// The positions of columns in words: "column 2 or column 4".
 std::string places_of(const Recording& r, const std::vector<const RecordedColumn*>& columns) {
   std::string out;
   for (std::size_t n = 0; n < columns.size(); ++n)

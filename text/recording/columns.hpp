@@ -13,8 +13,8 @@
 
 namespace text {
 
-/// A column and the unit of its values. This is the heading's unit, unless its letter is part of the name
-/// that was found.
+/// A column and the unit of its values. The unit is the heading's unit, unless the unit's letter is part of
+/// the name that was found.
 struct Picked {
   const RecordedColumn* column = nullptr;
   std::string unit;
@@ -30,13 +30,13 @@ inline base::Result<Picked> find_column(const Recording& recording,
   return find_column(recording, std::span(names.begin(), names.size()));
 }
 
-/// The columns with these headings; "column 3" means a place. If a heading is given as often as it occurs, it
-/// means each of its columns in turn. The Problem lists the headings.
+/// The columns with these headings; "column 3" means a position. If a heading is given as often as it occurs,
+/// it means each of its columns in turn. The Problem lists the headings.
 base::Result<std::vector<Picked>> columns_called(const Recording& recording,
                                                  const std::vector<std::string>& headings);
 
-/// The column's values in the wanted unit; unchanged if the column has no unit. Problems, with lines: an unknown
-/// unit or one of another kind, cells that are not numbers, numbers that no instrument shows.
+/// The column's values in the wanted unit; unchanged if the column has no unit. Problems, with lines: an
+/// unknown unit or a unit of another kind, cells that are not numbers, numbers that no instrument shows.
 base::Result<std::vector<double>> values_of(const Recording& recording, const Picked& picked,
                                             const Wanted& wanted);
 

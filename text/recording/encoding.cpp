@@ -20,8 +20,8 @@ void add_utf8(std::string& out, std::uint32_t c) {
   }
 }
 
-/// The characters that CP1252 has for the bytes 0x80 to 0x9F; 0xFFFD if it has none. All other bytes equal
-/// their code points.
+/// The characters that CP1252 has for the bytes 0x80 to 0x9F; 0xFFFD for a byte without a character. All
+/// other bytes equal their code points.
 constexpr std::uint16_t above_ascii[32] = {0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                            0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD,
                                            0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,

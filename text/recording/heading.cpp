@@ -53,7 +53,7 @@ bool is_number_of_a_place(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// A heading whose word is in a place that can only be a unit.
+/// A heading whose word is in a position in which only a unit is possible.
 Heading with_word(std::string_view name, std::string_view word) {
   Heading out{std::string(bare_cell(name)), unit_in_words(word), {}, false};
   word = bare_cell(word);

@@ -15,7 +15,7 @@ struct RowClock {
 };
 
 /// Reads a line such as "Samplerate: 20 kHz", "Sample Interval,4e-06,s" or "Delta_X       1E-4"; empty for
-/// other lines. `separator` is that of the rows' cells.
+/// other lines. `separator`: the separator of the rows' cells.
 std::optional<RowClock> clock_in(std::string_view line, char separator);
 
 /// Reads Rigol's two lines above the rows: names, "X,CH1,Start,Increment", and values,

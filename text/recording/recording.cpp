@@ -39,7 +39,7 @@ bool begins_with_number(std::string_view line) {
   return first != std::string_view::npos && std::isdigit(static_cast<unsigned char>(line[first])) != 0;
 }
 
-/// The offset at which the board's last start begins: that of the last line of words that follows rows.
+/// The offset at which the board's last start begins: the offset of the last line of words that follows rows.
 std::size_t last_start(std::string_view text) {
   std::size_t from = 0;
   bool in_rows = false;
@@ -65,7 +65,7 @@ WholeRows from_last_start(std::string_view text) {
   WholeRows out;
   const std::size_t end = text.rfind('\n');
   const bool cut = end != std::string_view::npos && end + 1 < text.size();
-  // The last row of a cut log is removed, unless it is the only one.
+  // The last row of a cut log is removed, unless it is the only row.
   if (cut && begins_with_number(text.substr(text.rfind('\n', end - 1) + 1))) {
     text = text.substr(0, end + 1);
     out.notes.push_back(

@@ -25,12 +25,12 @@ struct BadCell {
 struct RecordedColumn {
   std::string heading;         ///< heading as in the file
   std::string name;            ///< unique, without its unit; "column 2" without a heading
-  std::string bare;            ///< bare_name() of `name`; two columns may have the same
+  std::string bare;            ///< bare_name() of `name`; two columns may have the same bare name
   std::string unit;            ///< unit in the spelling of units.hpp; empty: none
   std::string odd_unit;        ///< the word in the place of the unit if that word is no unit
   bool letter = false;         ///< whether the unit may be a part of the name, see Heading
   std::vector<double> values;  ///< values in the unit without its power of ten: in V for mV
-  std::vector<BadCell> bad;    ///< the first few bad cells; an unused column may hold anything
+  std::vector<BadCell> bad;    ///< the first few bad cells; an unused column may contain anything
   std::size_t bad_cells = 0;   ///< number of bad cells
   bool filled = false;         ///< whether some cell is not empty
 
@@ -54,8 +54,9 @@ struct Recording {
   std::vector<RecordedColumn> columns;
   std::optional<RowClock> clock;  ///< interval and start of the rows, from the preamble
   bool has_headings = false;
-  std::vector<std::pair<std::size_t, std::size_t>> lines{};  ///< index of a row and its line in the file,
-                                                             ///< wherever lines are skipped
+  std::vector<std::pair<std::size_t, std::size_t>> lines{};  ///< index of a row and its line in the file, for
+                                                             ///< the first row and for each row after skipped
+                                                             ///< lines
   std::vector<Remark> remarks{};                             ///< remarks below the first row
   Notes notes;
 

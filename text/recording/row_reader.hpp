@@ -11,7 +11,7 @@
 
 namespace text {
 
-/// The place of the rows in a table that has other cells next to them.
+/// The position of the rows in a table that has other cells next to the rows.
 struct RowsBeside {
   char separator = 0;
   std::size_t cells = 0;  ///< number of cells before the row's own first cell

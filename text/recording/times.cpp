@@ -201,8 +201,8 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
     if (t[n] < t[n - 1]) return does_not_rise(n);
     if (t[n] == t[n - 1]) out.left_out.push_back(n - 1);
   }
-  // Largest fraction of repeated times. Sometimes two events have the same time; a time with too few digits
-  // repeats everywhere.
+  // At most one time in `one_in` may be a repetition. Sometimes two events have the same time; a time with
+  // too few digits repeats everywhere.
   constexpr std::size_t one_in = 10;
   if (out.left_out.size() * one_in > t.size()) return does_not_rise(out.left_out[0] + 1);
   if (!out.left_out.empty())

@@ -22,7 +22,8 @@ struct Times {
 /// Finds the times. `notes` lists the assumptions. Problems: no time, a time that does not rise, a
 /// contradiction to the preamble.
 /// - With an interval: the interval, which must not contradict a column of time or the preamble's rate.
-/// - Without it: the column of time, whose unit the preamble's rate may determine; else the preamble's rate.
+/// - Without an interval: the column of time, whose unit the preamble's rate may determine; else the
+///   preamble's rate.
 /// - If a time occurs twice, because a simulator writes an event as two rows, the later row is used.
 base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes);
 
@@ -34,7 +35,7 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
 base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t_s,
                                       const RecordedColumn& column, double interval_s, Notes& notes);
 
-/// The values without those of the left-out rows.
+/// The values without the values of the left-out rows.
 template <class Value>
 std::vector<Value> without_rows(std::vector<Value> values, const std::vector<std::size_t>& left_out) {
   std::size_t to = 0, next = 0;

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double degrees_per_rad = 180 / sixstep::base::pi;
 
-/// Level and phase of a line without an answer.
+/// Level and phase of a spectral line without a response.
 constexpr double no_level = std::numeric_limits<double>::quiet_NaN();
 double dB(double gain) { return gain > 0.0 ? 20 * std::log10(gain) : no_level; }
 double degrees(const LoopPoint& p) { return p.gain > 0.0 ? p.phase_rad * degrees_per_rad : no_level; }
@@ -47,8 +47,8 @@ std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   return Designed{dB(L->size()), s.designed_phase_rad[k] * degrees_per_rad};
 }
 
-/// Limits above which two loops differ. Margins are read between a quarter and four times the crossover's
-/// gain.
+/// Deviations in gain and phase above which two loops differ. Only points whose gain is at most
+/// near_crossover_dB away from 1 are compared, because the margins depend on them.
 constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 
 /// Fraction of samples without current that commutation alone can cause.
@@ -74,7 +74,7 @@ std::string why_beside(const BodeStudy& s) {
   return "the response repeats in each period of the multisine and is not linear: commutation, dead time, discontinuous current or a limit";
 }
 
-/// Compares measured and designed loop. A coherence near 1 shows that the answers repeat, but not that the
+/// Compares measured and designed loop. A coherence near 1 shows that the responses repeat, but not that the
 /// loop is linear.
 std::string beside_the_designed(const BodeStudy& s) {
   double most_dB = 0.0, deg = 0.0, Hz = 0.0;

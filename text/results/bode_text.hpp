@@ -10,9 +10,11 @@
 
 namespace text {
 
-/// Operating point, one line per frequency, and the measured and designed margins. `name` is the scenario's.
+/// Operating point, one line per frequency, and the measured and designed margins. `name` is the scenario's
+/// name.
 std::string bode_text(std::string_view name, const analysis::BodeStudy& study);
-/// Frequencies in Hz, gains in dB, phases in degrees. The designed columns exist only if there is a linear loop.
+/// Frequencies in Hz, gains in dB, phases in degrees. The designed columns exist only if there is a linear
+/// loop.
 std::string bode_csv(const analysis::BodeStudy& study);
 /// JSON in full precision. The same study gives the same bytes.
 std::string bode_json(std::string_view name, const analysis::BodeStudy& study);

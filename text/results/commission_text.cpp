@@ -56,8 +56,8 @@ std::string numbers(const CommissionStudy& s) {
          "Resistance is that of a phase and its leg: a switch, and a diode in dead time. Inductance is a phase's along the magnet. Angles are electrical.\n";
 }
 
-/// Explains crossed phases: the chip names a phase by its leg, so that they change the probes' numbers and
-/// perhaps the direction.
+/// Explains crossed phases: the chip names a phase by its leg, so that crossed phases change the probes'
+/// numbers and perhaps the direction.
 std::string crossed_phases(const sixstep::rig::Wiring& wires) {
   using sixstep::rig::WireOrder;
   if (wires.phases == WireOrder::abc) return "";

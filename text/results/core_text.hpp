@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the results of a run on a core: whether each answer equals the host's, or the duration of a chip's
-// interrupts.
+// Prints the results of a run on a core: whether each answer equals the host's answer, or the duration of a
+// chip's interrupts.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@
 namespace text {
 
 /// Sentences on the core: "on the Cortex-M4F: 1200 calls, each answered as by the host, to the bit". A chip
-/// has a sentence for each interrupt. It has another one if an interrupt exceeded its period, or if a fault
-/// stopped it. Empty if only the host ran the drive.
+/// has a sentence for each interrupt. It has another sentence if an interrupt exceeded its period, or if a
+/// fault stopped the chip. Empty if only the host ran the drive.
 std::vector<std::string> core_texts(const study::Outcome& outcome);
 
 /// The reasons of lines such as "# fault: over-current" on a chip's serial line, in their order, each once.

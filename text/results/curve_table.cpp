@@ -156,7 +156,7 @@ void add_standstill(Table& table, const analysis::OperatingPoint& turning) {
   table.add("just turning", turning);
 }
 
-/// Every k-th point of the curve, and always the last one.
+/// Every k-th point of the curve, always the last point, and the marked points.
 std::string points(const analysis::CurveRequest& request, const analysis::Curve& curve) {
   Table table(request, curve);
   const std::size_t count = curve.points.size(), step = (count + shown_points - 2) / (shown_points - 1);
@@ -210,7 +210,7 @@ std::string against(double here, double sheet) {
   return fmt::format("{:+.1f} %", per_cent * (here / sheet - 1));
 }
 
-/// The curve's speed drop, because the sheet's gradient is only that of the ideal line.
+/// The curve's speed drop. The sheet's gradient is only the gradient of the ideal line.
 std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
   const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
@@ -222,8 +222,8 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
   return text + " and leaves out the time that commutation takes.\n";
 }
 
-/// The comparison with the sheet's nominal point, if the curve has that point's voltage. It is made at the
-/// point's torque, because the load determines the torque, and the motor the speed.
+/// The comparison with the sheet's nominal point, if the curve has that point's voltage. The values are
+/// compared at the point's torque, because the load determines the torque, and the motor the speed.
 std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::NominalPoint& n = *curve.nominal;
   std::string text =

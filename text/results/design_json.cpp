@@ -43,7 +43,7 @@ Json limits(const DriveDesign& d) {
           {"longest_period_s", d.longest_period_s}};
 }
 
-/// The speed sensor: the delay of its speed, and the fastest loop with each way of sensing.
+/// The speed sensor: the delay of the measured speed, and the fastest settling with each number of edges.
 Json sensing(const DriveDesign& d) {
   Json limits = Json::array();
   for (const auto& l : d.limits)

@@ -22,10 +22,10 @@ std::string figures_text(const design::DriveDesign& design);
 /// The derivation of the speed sensor's delay, and the fastest settling time with each way of sensing.
 std::string sensing_text(const design::DriveDesign& design);
 
-/// The design of a drive without a rotor position sensor; empty for a drive that has one.
+/// The design of a drive without a rotor position sensor; empty for a drive with a sensor.
 std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& steps);
 
-/// Limits of the design: ripple, voltage that is left, braking, period.
+/// Limits of the design: ripple, remaining voltage, braking, period.
 std::string limits_text(const design::DriveDesign& design, const design::Sheet& sheet);
 
 }  // namespace text

@@ -64,7 +64,7 @@ std::string simulated_text(const analysis::DesignStudy& s) {
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& told : s.outcome.comparisons) {
     const study::ComparisonResult c = as_shown(told, s.scenario);
-    // A value "without" limits or commutation is that of another drive, and only a bound.
+    // A value "without" limits or commutation belongs to another drive, and is only a bound.
     const bool same = c.source.find("without") == std::string::npos;
     rows.add({c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit),
               same ? deviation_text(c) : "", c.source});
@@ -146,8 +146,8 @@ std::string band_reason(const analysis::DesignStudy& s) {
   return wide ? "; 10 %, because a speed from Hall edges is coarse" : "";
 }
 
-/// "with little phase margin (30.5 deg, 24 deg at worst), ": the least of all loops, if it is below that of a sound
-/// loop.
+/// "with little phase margin (30.5 deg, 24 deg at worst), ": the least phase margin of all loops, if it is
+/// below the margin of a sound loop.
 std::string margin_words(const analysis::DesignStudy& s) {
   constexpr double tenth_of_a_degree = 0.1;
   double nominal = HUGE_VAL, worst = HUGE_VAL;

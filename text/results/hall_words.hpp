@@ -20,7 +20,7 @@ char leg_word(sixstep::control::Leg leg);
 /// A wiring in words: "probes 120 degrees apart, probes 2 3 1 at H1 H2 H3, H2 inverted".
 std::string wires_words(const analysis::HallWires& wires);
 /// The moves of the wires after which every probe is at its own pin: "from H1 to H3, from H2 to H1". Empty if
-/// every probe already is.
+/// every probe is already at its pin.
 std::string moves_words(sixstep::rig::WireOrder probes);
 /// The lines of a scenario's [sensors], each with a line end.
 std::string sensor_lines(const analysis::HallIdentity& found);

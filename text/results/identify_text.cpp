@@ -62,9 +62,10 @@ std::string spacing_words(const HallIdentity& f) {
   return fmt::format("probes 60 degrees apart, the middle one at H{0}, or 120 degrees, H{0} inverted", pin);
 }
 
-/// The same log without inverted lines. An inverted line equals the line shifted by half a turn. If all three
-/// lines are inverted, this equals another order and an offset that differs by 60 degrees. A scenario and an
-/// assembly may have such an offset, although no edge is then at its nearest place.
+/// Explains the same log without inverted lines. An inverted line equals the line shifted by half a turn.
+/// Three inverted lines therefore equal lines in another order with an offset that differs by 60 degrees. A
+/// scenario and an assembly may have such an offset, although each edge is then farther from its nominal
+/// angle.
 std::string none_inverted_words(const IdentifiedPlace& p) {
   analysis::HallWires wires = p.wires.front();
   if (wires.inverted != 0b111) return "";

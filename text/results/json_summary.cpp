@@ -148,7 +148,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
   summary["devices"] = devices(outcome);
   summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);
   summary["events"] = events(outcome);
-  // A title may hold invalid UTF-8. It is replaced, because it must not throw.
+  // A title may contain invalid UTF-8. The bytes are replaced, because the conversion must not throw.
   return visible(summary.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes verdicts in JUnit's XML, which build servers read: one suite per experiment, one case per requirement.
+// Writes verdicts in JUnit's XML, which build servers read: one suite per experiment, one case per
+// requirement.
 #pragma once
 #include <span>
 #include <string>

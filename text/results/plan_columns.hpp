@@ -10,7 +10,8 @@
 
 namespace text {
 
-/// Columns that every plan's table has: these precede its own columns; others follow them.
+/// Columns that every plan's table has. columns_before precede the plan's own columns; columns_behind follow
+/// them.
 inline constexpr std::string_view columns_before[] = {"run", "end", "passed"};
 inline constexpr std::string_view columns_behind[] = {"problem", "digest"};
 

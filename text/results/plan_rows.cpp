@@ -52,7 +52,7 @@ Json columns_json(const PlanStory& s) {
 
 Json interval(const analysis::Estimated& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
 
-/// A list per figure, with an entry per key; null for a figure without indices.
+/// The sensitivity indices: a list per figure, with an entry per key; null for a figure without indices.
 Json indices_json(const PlanStory& s) {
   Json all = Json::array();
   for (std::size_t f = 0; f < s.columns.figures.size(); ++f) {

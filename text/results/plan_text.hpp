@@ -20,7 +20,8 @@ struct DriveSpread {
 
 /// The spreads of the columns' keys.
 std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario, const analysis::PlanColumns& columns);
-/// "each drive: KEY +-10 %, .." and what is not drawn, each with its reason; empty where drives do not differ.
+/// "each drive: KEY +-10 %, .." and what is not drawn, each with its reason; empty where drives do not
+/// differ.
 std::string drawn_text(const std::vector<DriveSpread>& spread, const std::string& not_drawn);
 
 inline constexpr const char* too_few_points =
@@ -37,14 +38,16 @@ struct PlanStory {
   std::string not_drawn = {};            ///< tolerances that drives do not have, with reasons
 };
 
-/// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them (Sampling::saltelli).
+/// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them
+/// (Sampling::saltelli).
 std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story, std::size_t figure);
 
 /// Up to this number of points the table is printed; for more, the statistics.
 inline constexpr std::size_t most_points_shown = 60;
 
 /// The table, in one of three forms:
-/// - one line per point with its figures; for several drives the median, and the number of drives that hold;
+/// - one line per point with its figures; for several drives the median, and the number of drives that meet
+///   the requirements;
 /// - the statistics of all runs;
 /// - the Sobol indices, if the plan is sampled for them.
 std::string plan_table(const PlanStory& story);

@@ -38,7 +38,7 @@ Prefix prefix_for(double x, std::string_view unit) {
 }
 
 std::string prefixed(double x, Prefix prefix, int digits) {
-  // Without this, 800 with two digits would become 8e+02.
+  // Prints 800 with two digits as 800, not as 8e+02.
   const double value = x * prefix.times, size = std::fabs(value);
   if (size >= 100.0 && size < 1e6 && size >= std::pow(10.0, digits) - 0.5)
     return fmt::format("{:.0f}", value);
@@ -86,7 +86,7 @@ std::string csv_cell(double x) {
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit) {
   double largest = 0.0;
   for (const double y : yardsticks) largest = std::max(largest, std::abs(y));
-  // If all yardsticks are zero, the prefix is that of x.
+  // If all yardsticks are zero, the prefix of x is used.
   Prefix shared = prefix_for(largest > 0.0 ? largest : x, unit);
   if (largest == 0.0 && x == 0.0) shared = no_prefix;
   const double ratio = std::abs(largest > 0.0 ? x / largest : 1.0);
@@ -95,7 +95,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
 
   ComparedTexts texts;
   for (int digits = few_digits; digits <= all_digits; ++digits) {
-    // If x is less than a thousandth of all yardsticks, only its magnitude matters, and it gets its own
+    // If x is less than a thousandth of all yardsticks, only its magnitude matters, and x has a separate
     // prefix.
     const bool tiny = !alike && ratio < 1e-3;
     const std::string x_text = prefixed(x, own, tiny ? 2 : digits);
@@ -111,7 +111,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
     if (!std::isfinite(x)) texts.x = without_number(x, unit);
     if (told_apart) return texts;
   }
-  // Multiplication by the prefix may round the last bit away, by which the numbers differ. Without prefix the
+  // Multiplication by the prefix may round away the last bit, in which the numbers differ. Without prefix the
   // difference is visible.
   return {[&] {
             std::vector<std::string> plain;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints numbers for users: engineering prefixes and few digits, but enough to distinguish a missed limit
-// from a met one. Files for programs (CSV, JSON) have full precision and do not use this.
+// from a met limit. Files for programs (CSV, JSON) have full precision and do not use these functions.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -17,7 +17,7 @@ std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
 /// A number with `digits` digits after the point; "-" if it is not finite.
 std::string fixed_text(double x, int digits);
-/// A number in full precision; empty for NaN, "never" for an infinite one.
+/// A number in full precision; empty for NaN, "never" for an infinite number.
 std::string csv_cell(double x);
 
 /// A number of things: "1 run", "2 runs".

@@ -37,7 +37,7 @@ std::string margin_text(const analysis::SpreadFigure& f) {
                      f.least_margin < 0.0 ? "beyond" : "within", f.column.min && f.column.max ? "s" : "");
 }
 
-/// The number of digits with which the standard deviation still has two.
+/// The number of digits of a value with which the standard deviation still has two digits.
 int digits_of(const analysis::Statistics& s) {
   const std::optional<double> deviation = s.standard_deviation();
   if (!deviation || !(*deviation > 0.0)) return spread_digits;
@@ -78,7 +78,7 @@ std::string aligned(std::vector<SeriesRow> rows) {
   return text;
 }
 
-/// The word for a number of a plan: in a series of drives it is a drive, otherwise a run at a point.
+/// The word for one run of a plan: "drive" in a series of drives, otherwise "run".
 const char* one_of(const analysis::Plan& plan) { return plan.axes.empty() ? "drive" : "run"; }
 
 std::string casualties(const std::vector<analysis::Casualty>& which, const char* what,

@@ -18,11 +18,12 @@ std::string series_table(const std::string& name, const analysis::Series& series
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan);
 /// The first part of casualties_text(): the number of stopped or refused runs, and the reason of the first.
 std::string stopped_text(const analysis::Series& series, const analysis::Plan& plan);
-/// Each remark with the runs that have it, one line each. Numbers in a remark are those of its first run.
+/// Each remark with the runs that have it, one line each. Numbers in a remark come from the first of these
+/// runs.
 std::string remarks_text(const analysis::Series& series, const analysis::Plan& plan);
 /// The last line: "1000 drives, seed 1: all hold every requirement".
 std::string series_sum(const analysis::Series& series, const analysis::Plan& plan);
-/// The options that repeat run `number` alone: "--only 12".
+/// The options that repeat only run `number`: "--only 12".
 std::string repeats_text(const analysis::Plan& plan, std::size_t number);
 
 }  // namespace text

@@ -84,7 +84,7 @@ Json measured(const analysis::WiringMeasured& m) {
           {"runs", runs}};
 }
 
-/// The new place of each wire: {"a": "b", "b": "a"}; wires that stay are left out.
+/// The new position of each wire: {"a": "b", "b": "a"}; wires that stay are omitted.
 Json moves(const analysis::Moves& m, const std::string_view (&names)[3]) {
   Json out = Json::object();
   for (std::size_t n = 0; n < 3; ++n)

@@ -20,8 +20,8 @@ using analysis::WiringDoes;
 
 using Names = std::string_view[3];
 
-/// The places whose wires change, in cyclic order: each wire moves to the next place, and the last one to the
-/// first.
+/// The positions whose wires change, in cyclic order: each wire moves to the next position, and the last wire
+/// to the first position.
 std::vector<std::size_t> round(const analysis::Moves& moves) {
   std::vector<std::size_t> out;
   for (std::size_t place = 0; place < 3 && out.empty(); ++place)
@@ -107,8 +107,8 @@ std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
   if (does == WiringDoes::forward) return "runs as it should";
   if (does == WiringDoes::backward) return "runs as well as forward";
   const auto times = [](double x) { return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0); };
-  // A correct wiring takes no current if the sheet has no friction. Any other wiring then takes some thousand
-  // times more, and the ratio says nothing.
+  // A correct wiring draws almost no current if the sheet has no friction. Any other wiring then draws some
+  // thousand times as much, and the ratio is not meaningful.
   const double ratio = here.phase_rms_A / well.phase_rms_A;
   const std::string current =
       ratio < 100 ? times(ratio) + " times the current" : "more than 100 times the current";

@@ -174,7 +174,7 @@ std::string document(const std::vector<KeyEntry>& keys, const char* title) {
                  {"title", title},
                  {"$comment", "written by sixstep schema, version " SIXSTEP_VERSION}};
   Json root = table("", {keys});
-  // If the file extends another one, no key is required, because the other file may have it.
+  // If the file extends another file, no key is required, because the other file may have the key.
   if (root["properties"].contains("extends") && root.contains("required")) {
     root["if"] = {{"required", Json::array({"extends"})}};
     root["else"] = {{"required", root["required"]}};

@@ -31,7 +31,8 @@ void refuse(const std::string& path, const std::string& instead, Complaints& com
     if (complaints.document().find(place)) complaints.other_motion(place, instead);
 }
 
-/// The number to write: the nearest one that reading, which divides by the factor, converts back to `own`.
+/// The number to write: the nearest number that becomes `own` again when it is read and divided by the
+/// factor.
 double written_as(double own, double factor) {
   if (factor == 1.0) return own;
   double x = own * factor;
@@ -60,7 +61,7 @@ std::vector<TwoNames> all_two_names() {
   return names;
 }
 
-/// The first entry with that name; null if there is none.
+/// The first entry with the name `key`; null if there is none.
 const TwoNames* find(const std::vector<TwoNames>& names, std::string TwoNames::*which,
                      const std::string& key) {
   const auto found =

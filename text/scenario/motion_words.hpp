@@ -10,11 +10,11 @@
 namespace text {
 
 /// Reports every key of the document that belongs to the other kind of motor, with the key to write instead.
-/// `keys`: all keys of this kind of file. The document says itself which kind of motor it has.
+/// `keys`: all keys of this kind of file. The document states which kind of motor it has.
 void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complaints);
 
-/// Converts the keys that [[spread]] names, and their widths, from a linear motor's names to the library's.
-/// Reports keys of the other kind of motor.
+/// Converts the keys that [[spread]] names, and their widths, from a linear motor's names and units to the
+/// library's names and units. Reports keys of the other kind of motor.
 void read_spread_keys(study::Scenario& scenario, Complaints& complaints);
 
 /// Converts the numbers whose unit follows from a mode or a figure to a linear motor's units: position in mm,

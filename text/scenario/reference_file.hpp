@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a reference from a table of numbers: time in seconds in the first column, the reference in another. A
-// back-EMF's shape is read in the same way: the electrical angle in degrees, then the value.
+// Reads a reference from a table of numbers: time in seconds in the first column, the reference in another
+// column. A back-EMF's shape is read in the same way: the electrical angle in degrees, then the value.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,8 +18,8 @@ struct ReferenceRows {
 /// Reads the rows. `text` is the file's content, `name` its name in messages; it is read like every recording
 /// (text/recording/). The first column is the time, rising from 0 on. `column` is the heading of the values;
 /// without it the table has two columns. A heading may contain a unit, "time [ms]" or "speed_rpm". The unit
-/// of the time is a unit of time; that of the values is of the same kind as `unit`, to which the values are
-/// converted.
+/// of the first column is a unit of time. The unit of the values is of the same kind as `unit`, to which the
+/// values are converted.
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column, const std::string& unit);
 

@@ -44,7 +44,7 @@ class Family {
     std::string path, file;
   };
 
-  /// Leaves out a value of another type, because the scenario's description reports it.
+  /// Omits a value of another type, because the scenario's description reports such a value.
   static std::vector<Named> named(const Document& document) {
     std::vector<Named> all;
     const toml::node* node = document.find("extends");
@@ -75,7 +75,7 @@ class Family {
   }
 
   const Resolve& resolve_;
-  std::vector<std::string> chain_;  ///< the files being read, each named by the preceding one
+  std::vector<std::string> chain_;  ///< the files being read, each named by the preceding file
   std::size_t files_ = 1;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a scenario file together with those that it extends as one document.
+// Reads a scenario file together with the files that it extends as one document.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@
 namespace text {
 
 /// Reads the document. `extends` names one file or a list, each relative to the file that names it; these
-/// files may extend others. Problems: files that extend each other in a circle, more than 64 files.
+/// files may extend further files. Problems: files that extend each other in a circle, more than 64 files.
 base::Result<Document> read_family(const std::string& name, std::string text, const Resolve& resolve);
 
 }  // namespace text

@@ -62,7 +62,7 @@ void run_checks(const Document& document, const std::optional<SheetSource>& sour
   append(of_other_files, of_motor.in_order());
 }
 
-/// The rows of a csv reference, from the file that it names.
+/// Reads the rows of a csv reference from the file that the reference names.
 void read_rows(const Document& document, const std::string& path, sixstep::control::Mode mode,
                const Resolve& resolve, study::Reference& r, Complaints& complaints,
                base::Problems& of_other_files) {

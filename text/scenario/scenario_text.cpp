@@ -30,7 +30,8 @@ std::string toml(const std::vector<T>& list) {
   return out + "]";
 }
 
-/// A number with as many digits after the point as in its file, because these define its tolerance.
+/// A number with as many digits after the point as in its file, because the digits define the number's
+/// tolerance.
 std::string with_last_digit(const sixstep::base::Quantity& q) {
   std::string text = toml(q.value);
   if (!q.last_digit || text.find_first_not_of("-.0123456789") != std::string::npos) return text;
@@ -54,7 +55,7 @@ std::string toml(const sixstep::base::Quantity& q) {
   return out + " }";
 }
 
-/// A number for another spelling. Reading converts it back to the same double, if any number does.
+/// A number for another spelling. Reading converts it back to the same double, if such a number exists.
 double spelled_as(double own, const sixstep::base::Spelling& spelling) {
   using sixstep::base::in_own_unit;
   double x = sixstep::base::as_spelled(own, spelling);
@@ -76,7 +77,7 @@ class TableText final : public sixstep::base::Visitor {
 
   /// The rows that differ from `usual`, below the table's heading; then the inner tables.
   std::string text(const TableText& usual, const std::string& path, Heading heading) const;
-  /// All rows, each with `path`; then those of the inner tables and lists.
+  /// All rows, each with `path`; then the rows of the inner tables and lists.
   void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const;
 
  private:
@@ -91,7 +92,7 @@ class TableText final : public sixstep::base::Visitor {
         return rows_.push_back({std::string(linear->key), toml(spelled_as(member, *linear)), about.required});
     rows_.push_back({std::string(key), toml(member), about.required});
   }
-  /// For the values of a linear motor's sheet, its file has other keys too.
+  /// A linear motor's file also has other keys for the quantities of the sheet.
   void add_row(std::string_view key, const sixstep::base::Quantity& member,
                const sixstep::base::About& about) {
     const auto* const linear = linear_motor_ ? sixstep::base::linear_spelling(about) : nullptr;
@@ -219,8 +220,8 @@ class KeysGiven final : public sixstep::base::Visitor {
   }
 };
 
-/// The motor's own sheet, without overrides. If the run's sheet lacks a key of it, an override with the same
-/// meaning has replaced that key; then all keys are written.
+/// The motor's own sheet, without overrides. If the run's sheet lacks a key of the motor's sheet, an override
+/// with the same meaning has replaced the key; then all keys are written.
 design::Sheet usual_sheet(const study::Scenario& s) {
   if (!s.motor_sheet) return s.sheet;
   design::Sheet own = *s.motor_sheet, used = s.sheet;
@@ -236,7 +237,7 @@ design::Sheet usual_sheet(const study::Scenario& s) {
 
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments) {
   study::Scenario copy = scenario, usual;
-  // Values read from other files are written out, so that the text does not depend on its place.
+  // Values read from other files are written out, so that the text does not depend on the folder of its file.
   copy.extends.clear();
   const auto detach = [](study::Reference& r) {
     r.file.clear();

@@ -18,7 +18,7 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
 /// A motor's file with all values of the sheet. It reads back as the same sheet, and names no other file.
 std::string sheet_text(const design::Sheet& sheet);
 
-/// One key as the file has it.
+/// One key as written in the file.
 struct WrittenValue {
   std::string path;  ///< "pwm.period_s"; in lists "require[0].metric"
   std::string text;  ///< as TOML

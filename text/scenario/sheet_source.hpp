@@ -15,8 +15,8 @@ namespace text {
 struct SheetSource {
   Document document;
   design::Sheet sheet;
-  base::Problems problems{};  ///< with places in the file; if there are any, `sheet` has the values that
-                              ///< could be read
+  base::Problems problems{};  ///< with places in the file; if there are problems, `sheet` contains the values
+                              ///< that could be read
 };
 
 SheetSource sheet_of(Document document, const Resolve& resolve);
@@ -31,8 +31,8 @@ std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& 
 void read_shape(const Document& document, const std::string& path, const Resolve& resolve,
                 design::Sheet& sheet, Complaints& complaints, base::Problems& of_other_files);
 
-/// The pole pairs that the table gives by any of its keys, else those of `sheet`. Mistakes in these keys are
-/// reported elsewhere.
+/// The pole pairs that the table gives by any of its keys, else the pole pairs of `sheet`. Mistakes in these
+/// keys are reported elsewhere.
 std::optional<int> pole_pairs_in(const Document& document, const std::string& table,
                                  const design::Sheet& sheet);
 
@@ -50,7 +50,7 @@ base::Problem as_written(const Document& document, const std::string& table, bas
 /// about:
 /// - the same key,
 /// - another key that the problem names,
-/// - a misspelt key, while the problem is about a missing one.
+/// - a misspelt key, while the problem is about a missing key.
 bool follows(const base::Problem& problem, const std::string& table, const Complaints& complaints);
 
 }  // namespace text

@@ -28,7 +28,7 @@ struct Wanted {
   bool open = false;  ///< whether the line is active even if it only repeats the default
 };
 
-/// Keys that a first scenario shows in addition to those that it sets.
+/// Keys that a first scenario shows in addition to the keys that it sets.
 std::vector<Wanted> wanted_keys(Mode mode) {
   std::vector<Wanted> keys = {{"title", true},
                               {"supply.voltage_V", true},
@@ -157,7 +157,7 @@ class Starter {
     return own + inner;
   }
 
-  /// Whether the scenario has any value in that table.
+  /// Whether the scenario has any value in the table `at`.
   bool says(const std::string& at) const {
     return std::any_of(values_.begin(), values_.end(),
                        [&](const WrittenValue& value) { return value.path.starts_with(at + "."); });

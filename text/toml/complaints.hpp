@@ -17,7 +17,7 @@ class Complaints {
  public:
   explicit Complaints(const Document& document) : document_(document) {}
 
-  /// Whether the document's motor is linear. Units that follow from other keys are then those of a linear
+  /// Whether the document's motor is linear. Units that follow from other keys are then the units of a linear
   /// motor.
   bool linear_motor() const { return linear_motor_; }
   void set_linear_motor(bool linear) { linear_motor_ = linear; }
@@ -32,8 +32,8 @@ class Complaints {
   void key(const toml::key& key, const toml::node& node, std::string_view path, base::Problem problem);
   /// Reports a missing key at the place of its table.
   void missing(std::string_view path, base::Problem problem);
-  /// Reports the problem of a later check, whose `where` is a path. Its place is that of the value, else that
-  /// of the nearest table.
+  /// Reports the problem of a later check, whose `where` is a path. Its place is the place of the value; if
+  /// the file has no such value, the place of the nearest table.
   void later(base::Problem problem);
 
   /// Reports a key or a word at `path` that only the other kind of motor has.
@@ -55,7 +55,7 @@ class Complaints {
 
   const Document& document() const { return document_; }
   bool empty() const { return found_.empty(); }
-  /// Whether the largest number of reported mistakes is reached. Further ones are only counted, because a
+  /// Whether the largest number of reported mistakes is reached. Further mistakes are only counted, because a
   /// longer list does not help.
   bool full() const { return found_.size() >= most_told; }
   base::Problems in_order() const;

@@ -55,7 +55,7 @@ void put(toml::array& array, std::size_t index, toml::node& value) {
   value.visit([&](auto& node) { array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(index), node); });
 }
 
-/// Puts the tables of `first` before those of the list.
+/// Puts the tables of `first` before the tables of the list.
 void put_first(toml::array& list, toml::array& first) {
   toml::array own = std::move(list);
   list = {};
@@ -76,8 +76,8 @@ struct Dropped {
 
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped);
 
-/// Joins a table with the base's. If the base wrote its table in braces, this replaces the tables of weaker
-/// bases: the mark prevents them from adding keys.
+/// Joins a table with the base's table. A base's table in braces replaces the tables of weaker bases: the
+/// mark is_inline prevents weaker bases from adding keys.
 void join(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   fill(over, base, dropped);
   if (base.is_inline()) over.is_inline(true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds a TOML file with its text, so that every complaint can quote the text and give its place. If the file
+// Stores a TOML file with its text, so that every message can quote the text and state its place. If the file
 // extends other files, each value keeps the place in its own file.
 #pragma once
 #include <span>
@@ -24,7 +24,7 @@ class Document {
   /// `name` is the file's name in messages.
   static base::Result<Document> parse(std::string name, std::string text);
 
-  /// Puts this file over the bases, the strongest base last.
+  /// Adds the values of the bases that this file does not replace. The strongest base is the last.
   /// - A value of this file replaces the same value of a base.
   /// - A table under a [heading] is joined with the base's table key by key, in whatever form the base has
   ///   it.
@@ -71,12 +71,12 @@ class Document {
   };
   Document(std::string name, std::string text, toml::table root);
   const Setting* setting_of(std::string_view path) const;
-  /// The last setting of a value that comes from --set, or of a table whose keys all do; null for other
-  /// nodes.
+  /// The last setting of a value that comes from --set, or of a table whose keys all come from --set; null
+  /// for other nodes.
   const Setting* only_setting_in(const toml::node& node, const std::string& path) const;
   std::string_view slice(const toml::source_region& region) const;
 
-  std::vector<File> files_;  ///< this file, then those that it extends
+  std::vector<File> files_;  ///< this file, then the files that it extends
   toml::table root_;
   std::vector<Setting> settings_;
 };

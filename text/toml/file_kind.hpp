@@ -11,7 +11,7 @@ namespace text {
 
 enum class FileKind { scenario, motor };
 
-/// A Problem if the file has keys of the other kind and none of its own; else empty.
+/// A Problem if the file has keys of the other kind and no key of the wanted kind; else empty.
 std::optional<base::Problem> taken_for(FileKind wanted, const Document& document);
 
 }  // namespace text

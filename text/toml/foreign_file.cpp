@@ -84,7 +84,7 @@ base::Problem foreign_problem(const std::string& name, std::string_view kind, co
                                       "; add the inertia and the other values that the style firmware lists"};
 }
 
-/// Reads BLDCMotor(pole pairs, phase resistance, KV, phase inductance), of which the last three may be
+/// Reads BLDCMotor(pole pairs, phase resistance, KV, phase inductance); the last three arguments may be
 /// missing.
 std::optional<base::Problem> simple_foc(const std::string& name, std::string_view text) {
   constexpr ForeignNumber order[] = {{"", "pole_pairs"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises another program's parameter file in the place of a TOML file: names the program and the equivalent
-// lines.
+// Recognises another program's parameter file in the place of a TOML file: names the program and the
+// equivalent lines.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace text {
 
-/// A Problem for a VESC motor configuration, an ODrive or moteus configuration, a SimpleFOC sketch or a MATLAB
-/// pmsm struct; else empty.
+/// A Problem for a VESC motor configuration, an ODrive or moteus configuration, a SimpleFOC sketch or a
+/// MATLAB pmsm struct; else empty.
 std::optional<base::Problem> foreign_file(const std::string& name, std::string_view text);
 
 }  // namespace text

@@ -8,8 +8,8 @@
 namespace text {
 namespace {
 
-/// The place after the string that begins at `at`, or the end of the text. If the string is not closed on its
-/// line, it is the end of the line; the parser will report the open string.
+/// The position after the string that begins at `at`, or the end of the text. If the string is not closed on
+/// its line, the position is the end of the line; the parser will report the open string.
 std::size_t behind_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool whole = text.substr(at, 3) == std::string(3, quote);

@@ -11,7 +11,7 @@ struct Cure {
   std::string_view cure;
 };
 
-/// The cures in order; the first one that matches applies.
+/// The cures in order; the first cure whose `met` occurs in the message applies.
 constexpr std::array<Cure, 11> syntax_cures = {{
     {"invalid utf-8", "save the file as text in UTF-8"},
     {"parsing string", "close the quote on the same line"},

@@ -67,8 +67,8 @@ class TableReader final : public base::Visitor {
   Wanted wanted_in(const std::string& unit, const base::About& about) const;
   void frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                      base::Quantity& quantity);
-  /// Finds which of a quantity's keys the table holds, and marks all of them as known. A table that holds two
-  /// of them is a mistake.
+  /// Finds which of a quantity's keys the table contains, and marks all of them as known. A table that
+  /// contains two of these keys is a mistake.
   std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
   void parts(const toml::table& table, const std::string& path, const base::About& about,
              const base::Spelling& spelling, base::Quantity& out);
@@ -76,15 +76,15 @@ class TableReader final : public base::Visitor {
                 base::Quantity& out);
   std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
                                    int ten) const;
-  /// The word that this motor has in place of one that only the other kind of motor has; empty if `word` is
-  /// valid for this motor.
+  /// The word that this motor has in place of a word that only the other kind of motor has; empty if `word`
+  /// is valid for this motor.
   std::string_view of_other_motion(const base::WordMember& words, const base::WordMember::Word& word) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
   /// A number in the allowed range, which replaces a refused number.
   static double within(const base::About& about);
-  /// The unit in which a key's number is written, and this unit's size in the key's own unit. They differ for
-  /// a linear motor and for another spelling.
+  /// The unit in which a key's number is written, and the factor between this unit and the key's unit. Both
+  /// units differ for a linear motor and for another spelling.
   struct WrittenIn {
     std::string unit;
     double factor = 1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a number in its unit: the key's own, the unit of its control mode or of another key, or a linear
+// Reads a number in its unit: the key's unit, the unit of its control mode or of another key, or a linear
 // motor's unit.
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@ std::optional<std::string> word_at(const Document& document, const std::string& 
   return node ? node->value<std::string>() : std::nullopt;
 }
 
-/// The control mode of the table at `path`. In an [[at]] it is the mode after the last event up to this one
-/// that changes the mode.
+/// The control mode of the table at `path`. In an [[at]] it is the mode after the last event that changes the
+/// mode, up to and including this event.
 std::optional<std::string> mode_at(const Document& document, const std::string& path) {
   std::optional<std::string> mode = word_at(document, "control.mode");
   if (!path.starts_with("at[")) return mode;
@@ -46,7 +46,7 @@ std::optional<std::string> mode_at(const Document& document, const std::string& 
   return mode;
 }
 
-/// The unit of a reference in its control mode; empty if the mode has none or is unknown.
+/// The unit of a reference in its control mode; empty if the mode has no unit or is unknown.
 std::string mode_unit(const Document& document, const std::string& path) {
   const std::optional<std::string> word = mode_at(document, path);
   for (const auto& choice : study::mode_choices)
@@ -68,7 +68,7 @@ std::optional<std::string> unit_at(std::string_view path) {
 }  // namespace
 
 /// The unit of a key: an empty text for a plain number; no value if the unit follows from a control mode that
-/// has none.
+/// has no unit.
 std::optional<TableReader::WrittenIn> TableReader::unit_of_key(const base::About& about) const {
   const auto moving = [this](std::string_view unit) {
     const base::LinearUnit row =

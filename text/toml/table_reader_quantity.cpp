@@ -140,8 +140,8 @@ void TableReader::read(std::string_view key, base::Quantity& member, const base:
   member = std::move(read);
 }
 
-/// Sets the frame that follows from the unit: Nm/Arms determines it, and so does Vrms/krpm if only one frame
-/// of the key is an rms one. A given frame must agree.
+/// Sets the frame that follows from the unit: Nm/Arms determines the frame, and so does Vrms/krpm if only one
+/// frame of the key is an rms frame. A given frame must agree.
 void TableReader::frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                                 base::Quantity& quantity) {
   const toml::value<std::string>* text = node.as_string();

@@ -9,11 +9,11 @@
 #define TOML_HEADER_ONLY 0
 #define TOML_ENABLE_FORMATTERS 0
 // The parser's assertions fail for some files ("[# no name"), which the parser then refuses anyway. Without
-// NDEBUG a failed assertion would end the program, and with it clang would compile the assertions as
+// NDEBUG a failed assertion would end the program; with NDEBUG clang would compile the assertions as
 // assumptions.
 #undef TOML_ASSERT
 #define TOML_ASSERT(expr) static_assert(true)
-// The parser's tables of white space mark characters as unreachable that a file may hold ("valueÖ = 1";
+// The parser's tables of white space mark characters as unreachable that a file may contain ("valueÖ = 1";
 // version 3.3 and before). Here such a character counts as no white space.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_ASSERT_ASSUME

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents and torque of a machine with saliency or saturation: the flux along the magnet's axis (d) and the
-// flux across it (q) have their own laws (model.md 7), lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q
-// i_q. The equations are solved in the stator's two axes. The current of the newest order enters its flux
-// linearly, multiplied by the incremental inductance, so that each order is a linear equation for that
-// current.
+// Currents and torque of a machine with saliency or saturation: the flux lambda_d along the magnet's axis and
+// the flux lambda_q across it have their own laws (model.md 7), lambda_d = L_d i_d (1 - i_d/(2 I_sat)),
+// lambda_q = L_q i_q. The equations are solved in the stator's two axes. The newest coefficients of the
+// currents enter the fluxes linearly, multiplied by the incremental inductances, so that each order is a
+// linear equation for these coefficients.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -94,7 +94,7 @@ class AxesTerms {
     beta_[n] = beta_of(n);
   }
 
-  /// The changes of the fluxes of order n, without the part that the currents of order n cause.
+  /// The coefficients of order n of the fluxes, without the part that the currents of order n cause.
   Changes without_newest(int n) const {
     Changes to;
     for (int j = 1; j <= n; ++j) {

@@ -42,8 +42,8 @@ struct Constants {
   ShapeTable<Real> shape;
   std::size_t rotations = 0;
   Real pole_pairs = 1;
-  // Shaft. inv_J and B include the load's side if the shaft is rigid; if it is elastic, they are the motor's
-  // alone.
+  // Shaft. inv_J and B include the load's side if the shaft is rigid; if it is elastic, they belong to the
+  // motor only.
   Real inv_J = 0, B = 0, coulomb = 0, breakaway = 0, gear = 1, inv_gear = 1;
   Real J_1 = 0, B_1 = 0, efficiency = 1;
   bool elastic = false, dry_friction = false, locked = false, imposed = false;
@@ -120,7 +120,7 @@ template <class Real>
 struct Series {
   using Coefficients = series::Coefficients<Real>;
   PerLeg<Coefficients>
-      pole;  ///< u_k against the negative rail; with fewer than two legs connected, e_k for those that float
+      pole;  ///< u_k against the negative rail; with fewer than two legs connected, e_k for floating legs
   PerLeg<Coefficients> emf;
   Coefficients loop, source, load_w, twist;
   Coefficients load, cogging;       ///< torque of the load at its side, cogging torque at the motor
@@ -128,7 +128,7 @@ struct Series {
   Coefficients forward, backward;   ///< motor torque that the breakaway torque opposes at rest, forward and
                                     ///< backward
   Coefficients turn_cos, turn_sin;  ///< cos and sin of the load's angle, for gravity
-  Coefficients open;                ///< open voltage V_0 of the source
+  Coefficients open;                ///< open-circuit voltage V_0 of the source
   Coefficients capacitor, capacitor_A, charge, slow, phase, mains_cos, mains_sin;
   Coefficients d, q;  ///< currents along and across the magnet's axis, if the two axes have their own laws
   std::array<Coefficients, most_rotations> cos, sin;

@@ -10,8 +10,8 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// cos and sin of m theta_e at the rotor's position. The sector is turned by exact sixths of a turn, and the
-/// angle within the sector is added separately.
+/// cos and sin of order * theta_e at the rotor's position. The sectors are exact sixths of a turn; the angle
+/// within the sector is added separately.
 template <class Real>
 void rotation_at(int order, const State<Real>& s, int sector, Real& cos, Real& sin) {
   Real turn_cos, turn_sin;
@@ -75,7 +75,8 @@ void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   if (!c.elastic) z.load_w[n] = c.inv_gear * y.w[n];
 }
 
-/// False for a plain star on a stiff bus, with a trapezoid and a rigid shaft: only currents and speed change then.
+/// False for a plain star on a stiff bus, with a trapezoid and a rigid shaft: only currents and speed change
+/// then.
 template <class Real>
 bool moves_more(const Constants<Real>& c) {
   return c.inv_C > 0 || c.inv_L_b > 0 || c.has_loop || c.elastic || c.mains_peak > 0 || c.rotations > 0 ||
@@ -99,8 +100,7 @@ template <class Real>
   return size;
 }
 
-/// Size of term n of all states together, relative to their rounding level; 1 is that level. `more`: result of
-/// moves_more().
+/// Size of term n of all states together, relative to their rounding level. `more`: result of moves_more().
 template <class Real>
 [[gnu::always_inline]] inline Real size_of(const Constants<Real>& c, const Expansion<Real>& y,
                                            const Series<Real>& z, int n, bool more) {
@@ -122,7 +122,7 @@ void for_each_series(const Constants<Real>& c, Expansion<Real>& y, Series<Real>&
   for (std::size_t r = 0; r < c.rotations; ++r) visit(z.cos[r]), visit(z.sin[r]);
 }
 
-/// Halves the length until both of the last terms are below rounding (plant/expand.hpp).
+/// Halves the length until the last two terms are below rounding (plant/expand.hpp).
 template <class Real>
 void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   int halvings = 0;
@@ -141,8 +141,8 @@ void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   y.h *= half;
 }
 
-/// Bounds of the changes. By x_(n+1) = p h w_n/(n + 1), the terms of x after its first are at most half of p
-/// h times the change of the speed.
+/// Bounds of the changes. By x_(n+1) = p h w_n/(n + 1), with angle x, speed w, pole pairs p and length h, the
+/// terms of x after the first are at most p h/2 times the change of the speed.
 template <class Real>
 [[gnu::always_inline]] inline void note_reach(const Constants<Real>& c, const Mode& mode,
                                               Expansion<Real>& y) {
@@ -199,12 +199,12 @@ void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m,
             Expansion<Real>& y, Series<Real>& z) {
   detail::grow(c, s, m, mode, wanted, y, z);
 }
-/// The version for double is compiled once for any x86-64 and once for those with AVX (plant/expand.hpp);
-/// both give the same bits.
+/// The version for double is compiled once for any x86-64 processor and once for processors with AVX
+/// (plant/expand.hpp); the results are the same to the bit.
 void expand(const Constants<double>& c, const State<double>& s, const More<double>& m, Mode& mode,
             double wanted, Expansion<double>& y, Series<double>& z);
 
-/// `wanted`, s, or half of the fastest time constant if that is less.
+/// `wanted`, s, or half of the fastest time constant if this is less.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& s, Real wanted) {
   const Real rate = c.steady_rate + c.turning_rate * plant::detail::abs(s.w);

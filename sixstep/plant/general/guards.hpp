@@ -142,8 +142,8 @@ void saturation_guards(const Constants<Real>& c, const Expansion<Real>& y, const
 
 }  // namespace detail
 
-/// Guards of conduction, motion and supply. `dead`: legs whose wire is broken; `breaking`: legs whose wire opens at
-/// the next zero of their current.
+/// Guards of conduction, motion and supply. `dead`: legs whose wire is broken; `breaking`: legs whose wire
+/// opens at the next zero of their current.
 template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, unsigned dead,
                  unsigned breaking, const Expansion<Real>& y, const Series<Real>& z, Real slack,

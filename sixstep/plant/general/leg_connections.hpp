@@ -5,8 +5,8 @@
 
 namespace sixstep::plant::general {
 
-/// Connections that a leg without current may take with its gates: one for a beginning positive current, one
-/// for a beginning negative current.
+/// Connections that a leg without current can take with its gates, if a positive or a negative current
+/// begins.
 struct LegConnections {
   Connection positive = Connection::low_diode, negative = Connection::high_diode;
 };

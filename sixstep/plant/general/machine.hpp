@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of the general kernel (model.md 7 to 9): windings with different phases, delta, saliency, saturation,
-// back-EMF by harmonics or as a table, cogging, gear and elastic shaft with a load of its own, IGBTs, a battery,
-// mains or a source with an inductance, a brake chopper. SI units. A member with its default value has no effect.
+// Parameters of the general kernel (model.md 7 to 9): windings with different phases, delta, saliency,
+// saturation, back-EMF by harmonics or as a table, cogging, gear and elastic shaft with a load of its own,
+// IGBTs, a battery, mains or a source with an inductance, a brake chopper. SI units. A member with its
+// default value has no effect.
 #pragma once
 #include <vector>
 
@@ -46,7 +47,7 @@ struct Machine {
   double M_H = 0.0;          ///< delta: mutual inductance between branches
   double L_d_H = 0.0, L_q_H = 0.0;  ///< star: both replace L_H if both are given
   double saturation_A = 0.0;        ///< I_sat: lambda_d = L_d i_d (1 - i_d/(2 I_sat)); 0: none
-  double pole_pairs = 1;            ///< for a linear motor pi/tau
+  double pole_pairs = 1;            ///< for a linear motor pi/tau, with the pole pitch tau in m
   Shape shape{};
   std::vector<Cogging> cogging{};
 
@@ -70,10 +71,11 @@ struct Load {
 };
 
 struct Shaft {
-  double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< motor's side alone
+  double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< motor's side only
   double coulomb_Nm = 0.0, static_Nm = 0.0;
   double gear = 1.0;        ///< motor turns per load turn
-  double efficiency = 1.0;  ///< gear, in (0, 1]: torque of the driven side over the lossless one
+  double efficiency = 1.0;  ///< gear, in (0, 1]: torque of the driven side divided by its torque without
+                            ///< losses
   double load_J_kg_m2 = 0.0, load_B_Nm_s = 0.0;
   double stiffness_Nm = 0.0;  ///< N m/rad at the load's side; 0: rigid
   double damping_Nm_s = 0.0;
@@ -93,11 +95,11 @@ struct Devices {
   double V_f_V = 0.0, r_d_ohm = 0.0;  ///< constant drop and resistance of the diodes
 };
 
-/// Law of the source's open voltage V_0 over time and charge (model.md 9).
+/// Law of the source's open-circuit voltage V_0 over time and charge (model.md 9).
 enum class Source : std::uint8_t { steady, battery, single_phase, three_phase };
 
-/// A point of the open-circuit voltage over the charge: piecewise linear between points; the outer lines continue
-/// beyond the ends.
+/// A point of the open-circuit voltage over the charge: piecewise linear between points; the outermost lines
+/// continue beyond the ends.
 struct ChargePoint {
   double charge = 0.0;  ///< relative to the whole charge, rising
   double voltage_V = 0.0;

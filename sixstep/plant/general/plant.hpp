@@ -29,13 +29,14 @@ class Plant {
     stale_ = true;
     return true;
   }
-  /// Sets the load torque at the load's side, which then grows by `rate` per second.
+  /// Sets the load torque at the load's side. From then on it grows by rate_Nm_s per second.
   void set_load(double torque_Nm, double rate_Nm_s = 0.0) {
     more_.load.set(static_cast<Real>(torque_Nm));
     constants_.load_rate = static_cast<Real>(rate_Nm_s);
     stale_ = true;
   }
-  /// Sets the speed that a dynamometer imposes at the load's side, which then grows by `rate` per second.
+  /// Sets the speed that a dynamometer imposes at the load's side. From then on it grows by rate_rad_s2 per
+  /// second.
   void set_speed(double speed_rad_s, double rate_rad_s2);
   void set_locked(bool locked);
   /// Requires a steady source.
@@ -57,8 +58,8 @@ class Plant {
     breaking_ |= 1U << k;
     stale_ = true;
   }
-  /// The upper or lower switch of leg k fails: permanently on (`shorted`), or permanently off while its diode still
-  /// works. The gates change with the next set_gates().
+  /// The upper or lower switch of leg k fails: permanently on (`shorted`), or permanently off while its diode
+  /// still works. The gates change with the next set_gates().
   void fail_switch(int k, bool high, bool shorted) {
     Gates& gates = shorted ? failed_.shorted : failed_.open;
     (high ? gates.high : gates.low).set(static_cast<std::size_t>(k));

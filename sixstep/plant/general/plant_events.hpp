@@ -117,8 +117,8 @@ bool Plant<Real>::pass_edge(bool ahead) {
       [&](std::size_t sector) { return sectors[sector].size(); });
 }
 
-/// Events that change a part of the mode that settle() does not determine, and the event that a source leaves
-/// its limit.
+/// Events that change a part of the mode that settle() does not determine, and the event that a source
+/// reaches or leaves its limit.
 template <class Real>
 void Plant<Real>::mode_event(int id) {
   switch (id) {

@@ -7,7 +7,7 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// Highest open voltage of the source over all charges and the whole mains period, V.
+/// Highest open-circuit voltage of the source over all charges and the whole mains period, V.
 template <class Real = double>
 Real highest_open_voltage(const Supply& s) {
   if (s.source == Source::steady) return s.V_0_V;
@@ -153,8 +153,9 @@ void Plant<Real>::set_source(const Supply& supply) {
   }
 }
 
-/// Computes the pole terms with the channels' present temperatures. High by transistor: U_s - V_ce - r_ce i;
-/// low by transistor, i < 0: V_ce - r_ce i (model.md 2).
+/// Computes the pole terms with the channels' present temperatures. An IGBT's transistor has the constant
+/// drop V_ce and the resistance r_ce. High by transistor: U_s - V_ce - r_ce i; low by transistor, i < 0: V_ce
+/// - r_ce i (model.md 2).
 template <class Real>
 void Plant<Real>::set_bridge() {
   Constants<Real>& c = constants_;

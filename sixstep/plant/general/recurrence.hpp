@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One order of the general plant's Taylor recurrence (model.md 7 to 9): voltages from currents, currents from
-// flux linkages, torques from both, then shaft and supply. The loops are not unrolled, because this kernel
-// runs only where the lean one does not suffice.
+// flux linkages, torques from both, then shaft and supply. The loops are not unrolled, because this kernel is
+// used only where the lean kernel does not suffice.
 #pragma once
 #include "sixstep/plant/general/axes_terms.hpp"
 #include "sixstep/plant/general/shaft_terms.hpp"
@@ -46,8 +46,9 @@ class Recurrence {
     if (has_axes_) axes_.begin();
   }
 
-  /// Computes terms n + 1 of all states from terms n, and terms n of the quantities that follow from the states. The
-  /// shaft is a separate object, so that no reference points to the members here and they can stay in registers.
+  /// Computes terms n + 1 of all states from terms n, and terms n of the quantities that follow from the
+  /// states. The shaft is a separate object, so that no reference points to the members here and they can
+  /// stay in registers.
   template <class Shaft>
   [[gnu::always_inline]] void take_order(int n, Shaft& shaft) {
     const Real f = y_.h / Real(n + 1);
@@ -72,8 +73,8 @@ class Recurrence {
     return sum;
   }
 
-  /// Advances the rotations cos and sin m theta by one order; their products with the speed are the parts of
-  /// the back-EMF.
+  /// Advances cos(m theta) and sin(m theta) of each rotation's order m by one order of the recurrence; their
+  /// products with the speed are the parts of the back-EMF.
   [[gnu::always_inline]] void turn(int n, Real f) {
     if (is_linear_) wx_ = later_product(y_.x, y_.w, n);
     for (std::size_t r = 0; r < rotations_; ++r) {
@@ -170,7 +171,7 @@ class Recurrence {
   bool is_linear_, has_axes_, has_loop_;
   bool ramp_carries_ = false;  ///< a leg on a ramp of its back-EMF is connected, or the winding has a loop
   int connected_ = 0;
-  std::array<int, 3> leg_{};       ///< the connected legs, then the floating ones
+  std::array<int, 3> leg_{};       ///< the connected legs, then the floating legs
   PerLeg<PoleTerms<Real>> terms_;  ///< terms of the connected legs, in the order of leg_
   PerLeg<Real> R_;                 ///< resistances in the order of leg_
   Real part_ = 0, change_ = 0;     ///< 1/number of connected legs; 1/L if a current can flow, else 0

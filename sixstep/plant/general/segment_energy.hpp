@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates the energies of the general plant's bridge, winding and shaft over one segment
 // (plant/segment_energy.hpp), and computes the energy stored at an instant in fields, masses and elastic
-// shaft. Cogging torque takes and returns energy; that energy is computed separately.
+// shaft. The energy that the cogging torque takes and returns is computed separately.
 #pragma once
 #include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"
@@ -87,7 +87,7 @@ Real cogging_energy(const Plant<Real>& plant, Real to) {
   return given;
 }
 
-/// Magnetic energy (1/2) i^T L i of the phases, and that of the loop, at the fraction s of the segment, J.
+/// Magnetic energy (1/2) i^T L i of the phases and of the loop, at the fraction s of the segment, J.
 template <class Real>
 Real field_energy(const Plant<Real>& plant, Real s) {
   const auto& c = plant.constants();

@@ -26,7 +26,8 @@ using plant::detail::both;
 using plant::detail::judge;
 using plant::detail::Judgement;
 
-/// Connections that gates and currents determine. Returns a mask of the legs that they leave open.
+/// Writes the connections that gates and currents determine. Returns a mask of the open legs, whose
+/// connections they do not determine.
 template <class Real>
 unsigned named_legs(const Question<Real>& q, Legs& legs) {
   unsigned open = 0;
@@ -119,7 +120,7 @@ bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<
   return ok;
 }
 
-/// True if the mode is consistent. `expanded` becomes true if y and z then hold the mode's whole expansion.
+/// True if the mode is consistent. `expanded` becomes true if y and z contain the mode's whole expansion.
 template <class Real>
 bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const std::int8_t through_sign = mode.through_sign;
@@ -130,7 +131,7 @@ bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Rea
   if (expanded) expand(q.constants, q.state, q.more, mode, q.h, y, z);
   const bool holds = expanded ? holds_in_series(q, mode, y, z) : all == Judgement::holds;
   if (!holds)
-    mode.through_sign = through_sign;  // a refused candidate must not change the sign for the next one
+    mode.through_sign = through_sign;  // a refused candidate must not change the sign for the next candidate
   return holds;
 }
 
@@ -155,7 +156,7 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   return false;
 }
 
-/// A source that takes back its largest current feeds again when the bus is below it.
+/// A source that takes back its largest current I_sink feeds again when the bus is below V_0 + R_b I_sink.
 template <class Real>
 bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const Constants<Real>& c = q.constants;
@@ -172,10 +173,10 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Seri
 
 }  // namespace detail
 
-/// Settles the mode without trials, which nearly always suffices. One of two conditions must hold: gates and
-/// currents determine all connections and each open leg is clearly inside its window; or two legs conduct and
-/// the third, open one is clearly outside its window. Returns false if trials are necessary; `mode` may have
-/// been changed.
+/// Settles the mode without trials, which nearly always suffices. A leg's window lies between the two
+/// voltages at which it would begin to conduct. One of two conditions must hold: each leg whose connection
+/// gates and currents do not determine is clearly inside its window; or two legs conduct and the third leg is
+/// clearly outside its window. Returns false if trials are necessary; `mode` may have been changed.
 template <class Real>
 bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
   const Constants<Real>& c = q.constants;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terms of the shaft (model.md 7): the load's torque at its own side, the torque through gear and coupling,
-// and the motion of both sides. If the load's speed is imposed, the load's torque is the remainder of the
-// balance.
+// Terms of the shaft (model.md 7): the load's torque at the load's side, the torque through gear and
+// coupling, and the motion of both sides. If the load's speed is imposed, the load's torque is the remainder
+// of the balance.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/plant/torques.hpp"
@@ -9,7 +9,7 @@
 namespace sixstep::plant::general {
 
 /// Factor from the lossless torque through a gear to the torque at the motor's side: the driven side has less
-/// torque than the driving one.
+/// torque than the driving side.
 template <class Real>
 constexpr Real gear_factor(Real efficiency, bool motor_drives) {
   return motor_drives ? 1 / efficiency : efficiency;
@@ -23,7 +23,8 @@ class ShaftTerms {
   ShaftTerms(const Constants<Real>& c, Mode& mode, Real load, Expansion<Real>& y, Series<Real>& z)
       : c_(c), mode_(mode), load_(load), y_(y), z_(z), plain_(is_plain(c)), turns_(turns(mode.motion)) {}
 
-  /// Computes terms n of the torques and n + 1 of speeds and angles; y.torque[n] and z.cogging[n] must be set.
+  /// Computes terms n of the torques and n + 1 of speeds and angles; y.torque[n] and z.cogging[n] must be
+  /// set.
   [[gnu::always_inline]] void take_order(int n, Real f) {
     if (!plain_) return take_any_order(n, f);
     const Real w = y_.w[n], load = steps(n);
@@ -83,8 +84,8 @@ class ShaftTerms {
     }
     return load;
   }
-  /// Torques that the breakaway torque opposes, for motion forward and backward. `through`: torque through the
-  /// gear at the load's side, before the gear's losses.
+  /// Torques that the breakaway torque opposes, for motion forward and backward. `through`: torque through
+  /// the gear at the load's side, before the gear's losses.
   void push(int n, Real drive, Real through) {
     z_.forward[n] = drive - c_.inv_gear * through;
     z_.backward[n] = z_.forward[n];
@@ -104,8 +105,8 @@ class ShaftTerms {
     turn(n, f, c_.inv_J, sum);
   }
 
-  /// Rigid shaft: the gear transmits J_2 dw_2/dt + B_2 w_2 + T_load. Its losses do not change the sign of
-  /// this torque.
+  /// Rigid shaft: the gear transmits J_2 dw_2/dt + B_2 w_2 + T_load, with inertia J_2, friction B_2 and speed
+  /// w_2 of the load's side. The gear's losses do not change the sign of this torque.
   void move_through_losses(int n, Real f, Real drive, Real dry) {
     const Real at_load = c_.load_B * z_.load_w[n] + z_.load[n];
     const Real at_motor = drive - dry - c_.B_1 * y_.w[n];
@@ -121,8 +122,8 @@ class ShaftTerms {
     turn(n, f, 1 / (c_.J_1 + k * own * c_.inv_gear), at_motor - k * c_.inv_gear * at_load);
     z_.through[n] = f > 0 ? own * y_.w[n + 1] / f + at_load : at_load;
   }
-  /// Torque through the gear, J_2 dw_2/dt + B_2 w_2 + T_load, from a sum `sign_of` with the same sign. If J_2
-  /// is most of the inertia, the torque is a small part of that sum, down to its noise.
+  /// Torque through the gear, J_2 dw_2/dt + B_2 w_2 + T_load, from a sum `sign_of` with the same sign. The
+  /// torque can be a small part of the sum, down to the sum's noise, if J_2 is most of the inertia.
   Real handed_on(Real sign_of, Real own, bool forward) const {
     const Real k = gear_factor(c_.efficiency, (sign_of > 0) == forward);
     return sign_of / (1 + k * own * c_.inv_gear / c_.J_1);

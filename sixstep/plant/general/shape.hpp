@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes of the back-EMF of a, b, c and of the delta's loop as sums of few functions of the angle: 1 and x
 // (the angle since the sector's start) piece by piece, and cos m theta and sin m theta for each order m. The
-// product of speed and function then serves all shapes. A delta is replaced by the star with the same
-// terminal behaviour: e_a = (e_ab - e_ca)/3; the sum of all e drives the loop (model.md (9)).
+// product of the speed and one function is then used for all shapes. A delta is replaced by the star with the
+// same terminal behaviour: e_a = (e_ab - e_ca)/3; the sum of all e drives the loop (model.md (9)).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -28,8 +28,8 @@ struct Piece {
   PerWay<Real> now{}, rise{};
 };
 
-/// cos(m theta_e) and sin(m theta_e): their coefficients in the EMF per speed of each way, and in the cogging
-/// torque.
+/// Coefficients of cos(m theta_e) and sin(m theta_e), with m = `order`, in the EMF per speed of each way and
+/// in the cogging torque.
 template <class Real>
 struct Rotation {
   int order = 1;
@@ -77,7 +77,8 @@ inline std::vector<ShapePoint> corners(double flat_deg) {
   return points;
 }
 
-/// Value and slope per degree of a periodic line of points, at an angle between two points and up to the next one.
+/// Value and slope (per degree) of the periodic polyline through the points, at one angle. At a point, the
+/// slope is that of the segment after it.
 struct Line {
   double value = 0.0, slope = 0.0;
 };
@@ -141,7 +142,8 @@ void add_lines(const Machine& m, const std::vector<ShapePoint>& points, ShapeTab
   }
 }
 
-/// c cos(n (theta - later - 60)) = c [cos n theta cos n(later + 60) + sin n theta sin n(later + 60)]
+/// Adds a harmonic of order n and size c, by c cos(n (theta - later - 60)) = c [cos n theta cos n(later + 60)
+/// + sin n theta sin n(later + 60)] with later = seen_later_deg().
 template <class Real>
 void add_harmonic(const Machine& m, const Harmonic& h, ShapeTable<Real>& table) {
   PerLeg<Real> cos{}, sin{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terms of the supply (model.md 9): the source's open voltage, its current, the capacitor with its
+// Terms of the supply (model.md 9): the source's open-circuit voltage, its current, the capacitor with its
 // resistance, and the brake resistor. The bus voltage of an order is computed before the winding's terms,
 // because the current makes the voltage of a capacitor with a resistance jump. The supply's terms of the next
 // order are computed after the winding's terms.

@@ -62,7 +62,8 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
                    "give it, or supply.capacitance_F"});
 }
 
-/// Without a current loop nothing can hold a current or a torque within bounds.
+/// Refuses limits of current or torque if the speed loop's output is a duty: without a current loop the drive
+/// cannot apply them.
 void check_speed_output(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   if (c.speed.output != SpeedOutput::duty) return;
@@ -129,8 +130,8 @@ void check_control(const Scenario& s, base::Problems& out) {
                    "remove d1, d0, kp, ki, ki_per_s, settle_s and damping, or set type = \"pi\""});
 }
 
-/// The speed controller's full output is a torque. If the sheet gives a nominal current, the default is 2.5
-/// times its torque.
+/// Requires the torque of the speed controller's full output. If the sheet has a nominal current, the default
+/// is 2.5 times the torque at this current.
 void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const bool speed = s.control.mode == control::Mode::speed || s.control.mode == control::Mode::position;
   const bool asks_torque = speed && s.control.speed.output == SpeedOutput::current;

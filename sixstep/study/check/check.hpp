@@ -6,13 +6,14 @@
 
 namespace sixstep::study {
 
-/// Returns what is wrong with the scenario beyond the range of single values: contradictory gains, a motor
-/// sheet that lacks a needed quantity, steps out of order, an RC bus without R. `where` is the key's path:
+/// Returns the problems of the scenario. If a number is out of its key's range, these are the numbers out of
+/// range. Otherwise they are contradictions: contradictory gains, a motor sheet that lacks a needed quantity,
+/// steps out of order, a bus capacitor without a source resistance. `where` is the key's path:
 /// "control.current.d1".
 base::Problems check(const Scenario& scenario);
 
-/// Returns a problem for each named column that the mode does not have, because a file would hold no number
-/// there. A program may record such columns.
+/// Returns a problem for each named column that the mode does not have, because a file would contain no
+/// number in this column. A program may record such columns.
 base::Problems check_columns(const Scenario& scenario);
 
 }  // namespace sixstep::study

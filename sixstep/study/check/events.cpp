@@ -35,7 +35,7 @@ bool changes_nothing(const At& at) {
          at.motor.broken_wire == Wire::none && at.sensors.broken_divider == Wire::none;
 }
 
-/// Whether a reference continues from the present one. This is impossible if the unit changes.
+/// Whether a reference starts at the value of the present reference. This is impossible if the unit changes.
 bool goes_on(const Reference& r) {
   const bool moves = r.shape == Shape::ramp || r.shape == Shape::trapezoid;
   return (moves && !r.start) || (r.shape == Shape::steps && !r.times_s.empty() && r.times_s.front() > 0);
@@ -72,7 +72,7 @@ void check_mode(const Event& e) {
           "give control.slew beside it");
 }
 
-/// Refuses changes of the chip without effect, and dead times that are not allowed.
+/// Refuses changes of the controller's settings that have no effect, and dead times that are not allowed.
 void check_chip(const Event& e) {
   if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
     e.say(".control.current.band_A", written(*e.at.control.current.band_A),
@@ -86,7 +86,8 @@ void check_chip(const Event& e) {
     check_dead_time(e.where + ".bridge.dead_time_s", *e.at.bridge.dead_time_s, e.s.pwm, e.out);
 }
 
-/// Refuses a drift without an amplifier between bridge and converter.
+/// Refuses a drift of the current amplifiers on a board without amplifiers, and an offset beyond the
+/// converter's range.
 void check_drift(const Event& e) {
   const Sensors& sensors = e.s.sensors;
   if (!drifts(e.at)) return;

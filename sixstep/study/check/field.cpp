@@ -95,7 +95,8 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
                    "set drive = \"lean\" or \"product\""});
 }
 
-/// Requires sensors that give the angle of the motor's own shaft between two samples.
+/// Requires a measurement of the phase currents, and a sensor that gives the angle of the motor's shaft at
+/// every sample.
 void check_sensing(const Scenario& s, base::Problems& out) {
   const Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link)

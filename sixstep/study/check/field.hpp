@@ -8,8 +8,8 @@ namespace sixstep::study {
 /// Checks the keys that the field-oriented drive does not support, and the keys that only this drive has.
 void check_field(const Scenario& scenario, base::Problems& out);
 
-/// Checks the keys that the finite control set does not support, and the keys that only the finite control set
-/// has.
+/// Checks the keys that the finite control set does not support, and the keys that only the finite control
+/// set has.
 void check_finite_set(const Scenario& scenario, base::Problems& out);
 
 /// Refuses figures of commutation: a drive that commands three legs has no driven pair.

@@ -31,8 +31,8 @@ void check_energies(const Bridge& b, base::Problems& out) {
        {"bridge.gate_source_charge_C", b.gate_source_charge_C},
        {"bridge.gate_drain_charge_C", b.gate_drain_charge_C}}};
   const auto given = std::ranges::count_if(gate, [](const auto& key) { return key.second > 0; });
-  // During a switching, first the voltage changes and then the current, each with its own charge. Without one
-  // of the charges the loss would be too small.
+  // When a switch turns on or off, voltage and current change one after the other, each with its gate charge.
+  // Without one of the charges the computed loss would be too small.
   if (given == 1 || given == 2)
     for (const auto& [key, value] : gate)
       if (!(value > 0))

@@ -63,7 +63,8 @@ void check_band(const Asked& a) {
              "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min");
 }
 
-/// Checks which signal a metric can have. If the file names no signal, it is the motor current.
+/// Checks that the metric can be measured of the signal. If the file names no signal, the signal is the motor
+/// current.
 void check_signal(const Asked& a) {
   const Signal signal = a.m.signal;
   const bool given = signal != Signal::current;
@@ -97,7 +98,7 @@ void check_signal(const Asked& a) {
   }
 }
 
-/// Requires a field-oriented drive for its own signals.
+/// Requires a field-oriented drive for signals that only this drive has.
 void check_drive(const Asked& a) {
   if (!is_of_field(a.m.signal)) return;
   if (a.s.control.drive != FirmwareKind::field)
@@ -153,7 +154,7 @@ void check_level(const Asked& a) {
              "remove it and set from_s and to_s");
 }
 
-/// Requires a reference with constant levels, because they separate the steps. A moving reference has no
+/// Requires a reference with constant levels, because the levels define the steps. A moving reference has no
 /// levels.
 void check_levels_of_reference(const Asked& a) {
   const bool takes_levels = fact_of(a.m.metric).over != TakenOver::window;

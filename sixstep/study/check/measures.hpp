@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks which figure can be taken of which signal, in which mode and over which window.
+// Checks which figure can be measured of which signal, in which mode and over which window.
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

@@ -12,7 +12,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// Upper limit of reported entries of one list.
+/// Largest number of reported entries of one list.
 constexpr std::size_t most_told = 5;
 
 /// Checks each number against its allowed range.
@@ -55,7 +55,8 @@ class Numbers final : public base::Visitor {
     reference_unit_ = at_start;
   }
 
-  /// The range of a number; a reference has its mode's unit.
+  /// The allowed range of a number. The range of a reference depends on the control mode, which sets the
+  /// reference's unit.
   base::Range range_of(const base::About& about) const {
     return about.mode_unit == "*" ? base::allowed(about.range, reference_unit_) : base::allowed(about);
   }

@@ -6,8 +6,8 @@
 
 namespace sixstep::study {
 
-/// Returns what keeps a loaded controller from being run, judged by its own description. Called for a file,
-/// before any scenario exists.
+/// Returns the reasons why a loaded controller cannot run, judged by its description (sixstep_controller).
+/// Called for a file, before any scenario exists.
 base::Problems check_controller(const sixstep_controller& controller);
 
 void check_own(const Scenario& scenario, base::Problems& out);

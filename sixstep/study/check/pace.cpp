@@ -57,7 +57,8 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
                    "check its unit, or set load.locked = true to hold the rotor"});
 }
 
-/// Time constant of a battery's recovery: C_1 discharges through R_1, and through R_b into the bus.
+/// Time constant of a battery's recovery: the recovery capacitor C_1 discharges through its resistor R_1, and
+/// through the source's resistance R_b into the bus.
 void check_recovery(const Supply& from, base::Problems& out) {
   if (!(from.battery_recovery_ohm > 0 && from.battery_recovery_F > 0 && from.resistance_ohm > 0))
     return;  // check_supply() reports the missing value
@@ -161,7 +162,8 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
        "lower it: it is the speed of the shaft in rad/s");
 }
 
-/// At worst the whole bus voltage drives the current from one limit of the band to the other.
+/// Checks the time in which the current crosses the hysteresis band. At worst the whole bus voltage drives
+/// it.
 void check_band(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event) return;
@@ -179,7 +181,7 @@ void check_timer(const Scenario& s, base::Problems& out) {
                    "give the timer's clock in Hz, 16e6 for 16 MHz; 0 rounds nothing"});
 }
 
-/// Longer pulses would allow no duty except 0 and 1.
+/// A minimum pulse longer than half a period would allow no duty except 0 and 1.
 void check_minimum_pulse(const Scenario& s, base::Problems& out) {
   if (s.pwm.minimum_pulse_s > s.pwm.period_s / 2)
     out.push_back({"pwm.minimum_pulse_s", written(s.pwm.minimum_pulse_s),

@@ -5,7 +5,8 @@
 
 namespace sixstep::study {
 
-/// Refuses keys that contradict [control.position.profile], and an arithmetic without room for it.
+/// Refuses keys that contradict [control.position.profile], and fixed-point arithmetics, which have too few
+/// digits for the profile's increments.
 void check_position(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

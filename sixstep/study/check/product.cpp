@@ -109,7 +109,8 @@ void check_advance(const Scenario& s, base::Problems& out) {
                    "lower it or raise the limit"});
 }
 
-/// If a sector is shorter than the stable samples, it passes undetected, and the next code looks like a jump.
+/// If a sector is shorter than hall_stable_samples samples, the drive does not detect it, and the next Hall
+/// code looks like a jump of two sectors.
 void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const std::optional<double>& fastest = s.protection.over_speed_rad_s;
   const double stands_s = s.sensors.hall_stable_samples * s.pwm.period_s;
@@ -201,8 +202,8 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already", "remove it");
 }
 
-/// Refuses loops that compute no duty of their own, and chopping that leaves no switch on to hold the
-/// current.
+/// Refuses duty_step and overlap for a hysteresis, which sets no duty, for a deadbeat loop, whose prediction
+/// does not include them, and for hard chopping, which turns off both switches of the pair.
 void check_commutation_step(const Scenario& s, base::Problems& out) {
   if (s.control.current.commutation == CurrentCommutation::plain) return;
   const std::string word(base::word(current_commutation_choices, s.control.current.commutation));

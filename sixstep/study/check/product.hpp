@@ -8,18 +8,18 @@
 
 namespace sixstep::study {
 
-/// Finds what [protection] and [sensors] lack for the product drive, or the keys of the product drive that the
-/// lean drive ignores. `motor` is empty if its sheet is wrong.
+/// For the product drive: finds missing and wrong keys of [protection] and [sensors]. For all other drives:
+/// finds keys that only the product drive reads. `motor` is empty if its sheet has problems.
 void check_product(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
                    base::Problems& out);
 
-/// The largest current that a speed loop requests from the current loop, A: its full torque over K_t
-/// (field-oriented drive: over the torque per ampere of q-axis current), or control.current.limit_A if that is
-/// less. Empty without such a pair of loops, and for a salient rotor in a field-oriented drive, whose torque is
-/// not proportional to its current.
+/// The largest current that a speed loop requests from the current loop, A: its full torque divided by K_t
+/// (field-oriented drive: by the torque per ampere of q-axis current), or control.current.limit_A if this is
+/// less. Empty without such a cascade, and for a salient rotor in a field-oriented drive, because its torque
+/// is not proportional to the current.
 std::optional<double> current_limit_A(const Scenario& scenario, const design::MotorModel& motor);
 
-/// Refuses extras that contradict the loops to which they would be added.
+/// Refuses options of the current loop, of its limits and of the chopping that contradict each other.
 void check_extras(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -18,7 +18,8 @@ namespace {
 
 using base::written;
 
-/// Upper limit of the number of levels. A run with this number of levels needs 144 MB of memory.
+/// Largest number of half periods of a square wave in a run. A run with this number of levels needs 144 MB of
+/// memory.
 constexpr double most_half_periods = 2e6;
 
 /// One reference, its place in the file, and how long it applies.
@@ -125,7 +126,7 @@ void check_shape(const Place& p) {
   }
 }
 
-/// The key whose value is the reference's largest; a problem names this key.
+/// The key that sets the reference's largest value; a problem names this key.
 const char* value_key(const Reference& r) {
   switch (r.shape) {
     case Shape::constant:
@@ -173,8 +174,8 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
         {table + "." + value_key, std::to_string(values.size()) + " entries",
          std::string("must be as many as ") + times_key + ", which has " + std::to_string(times.size()),
          "give one value per time"});
-  constexpr std::size_t most_told = 5;  // bound of the messages: a list in falling order would give one for
-                                        // each entry
+  constexpr std::size_t most_told = 5;  // limits the messages: a list in falling order would cause one
+                                        // message per entry
   for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {
     if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
       out.push_back({table + "." + times_key, written(times[n]), "must rise from entry to entry, from 0 on",

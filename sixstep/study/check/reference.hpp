@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_references() finds what is wrong with a scenario's references beyond the range of single values.
+// check_references() finds problems of a scenario's references that the ranges of single values do not
+// exclude.
 #pragma once
 #include <string>
 #include <vector>

@@ -11,7 +11,7 @@
 
 namespace sixstep::study {
 
-/// If the given unit belongs to another mode, that mode was probably meant.
+/// If the given unit belongs to another mode, the user probably meant that mode.
 inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const base::Motion& motion) {
   const auto own = [&](control::Mode of) { return std::string(motion.unit(reference_unit(of)).linear); };
   const std::string in_mode = "give the reference in \"" + own(mode) + "\"";

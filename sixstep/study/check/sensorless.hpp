@@ -5,7 +5,8 @@
 
 namespace sixstep::study {
 
-/// Checks the keys that a drive without a rotor sensor does not support, and the keys that only this drive has.
+/// Checks the keys that a drive without a rotor sensor does not support, and the keys that only this drive
+/// has.
 void check_sensorless(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

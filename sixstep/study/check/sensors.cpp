@@ -28,8 +28,8 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
-/// The converter samples the current at one instant of the preceding period, so that the delay must be
-/// shorter than a period.
+/// The converter shows the current as it was current_delay_s before the sample. This instant must lie in the
+/// preceding period, so that the delay must be shorter than a period.
 void check_front_end(const Scenario& s, base::Problems& out) {
   if (s.sensors.current_delay_s >= s.pwm.period_s)
     out.push_back({"sensors.current_delay_s", base::written(s.sensors.current_delay_s),
@@ -58,7 +58,7 @@ void check_hall(const Scenario& s, base::Problems& out) {
                    "lengthen duration_s or break the line earlier"});
 }
 
-/// Least distance between neighbouring Hall edges, after the hysteresis: edges must come one after the other.
+/// Least distance between neighbouring Hall edges, after the hysteresis, so that the edges keep their order.
 constexpr double least_gap_deg = 1.0;
 constexpr double most_glitches = 1e5;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_sensors() finds what is wrong with a scenario's sensors beyond the range of single values.
+// check_sensors() finds problems of a scenario's sensors that the ranges of single values do not exclude.
 #pragma once
 #include <optional>
 

@@ -48,7 +48,7 @@ void check_torques(const Scenario& s, base::Problems& out) {
                    "give load.times_s and load.torques_Nm, or remove it"});
 }
 
-/// Refuses other laws of a load whose speed is imposed.
+/// Refuses load torques, inertia and the like for a load whose speed a dynamometer imposes.
 void check_dynamometer(const Scenario& s, base::Problems& out) {
   const Load& l = s.load;
   if (l.dynamometer_times_s.empty() && l.dynamometer_rad_s.empty()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the keys of [load] together with the start.
+// Checks the keys of [load] together with [initial].
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

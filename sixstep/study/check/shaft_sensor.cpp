@@ -133,7 +133,8 @@ void check_encoder(const Scenario& s, base::Problems& out) {
                    "lower one of them"});
 }
 
-/// Refuses all sensors except a scale with lines for a linear motor, because they need a turning shaft.
+/// For a linear motor: refuses an absolute encoder, a resolver, and an encoder at the load, because they need
+/// a turning shaft.
 void check_linear(const Scenario& s, const std::string& word, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.sensors.rotor != RotorSensing::encoder)

@@ -42,7 +42,8 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
                    "lower it, or the capacitor's resistance"});
 }
 
-/// Controllers are designed for voltage_V: a value far from the source's voltage is a forgotten default.
+/// Controllers are designed for voltage_V. A value far from the source's voltage is probably the default,
+/// which the user forgot to change.
 void check_nominal(const Supply& s, base::Problems& out) {
   const double open_V = highest_open_V(s);
   if (!(open_V > 0) || (s.voltage_V > open_V / 2 && s.voltage_V < open_V * 2)) return;

@@ -10,8 +10,8 @@
 
 namespace sixstep::study {
 
-/// The numbers and switches of a described table, in its order. Choices of words are left out: they are never
-/// reported as unused.
+/// The numbers and switches of a described table, in the table's order. Keys whose value is one of several
+/// words are omitted: they are never reported as unused.
 class NumbersAndSwitches final : public base::Visitor {
  public:
   struct Entry {

@@ -24,7 +24,7 @@ bool is_bus_unread(const Scenario& s) {
          std::none_of(s.at.begin(), s.at.end(), [&](const At& at) { return retunes(at); });
 }
 
-/// Adds the keys of a shaft sensor that is not the chosen one.
+/// Adds the keys of a shaft sensor other than the chosen sensor.
 template <class Sensor>
 void of_other_sensor(RotorSensing kind, const Sensor& given, RotorSensing chosen, Unused& out) {
   if (kind == chosen) return;

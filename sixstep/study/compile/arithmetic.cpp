@@ -24,8 +24,8 @@ namespace {
 
 using control::Mode;
 
-/// The bases of the drive's numbers, each the value of 1.0. A given full scale is the value of the largest
-/// number, from which its base follows.
+/// The bases of the drive's numbers. A base is the physical value that the number 1.0 represents. A full
+/// scale of the scenario is the physical value of the format's largest number; the base follows from it.
 template <class Scalar>
 design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   constexpr int before_the_point =
@@ -48,7 +48,8 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
   return bases;
 }
 
-/// Renames problems: the proof names the drive's quantities, but a user's file has the scenario's keys.
+/// Renames problems: the proof of the scaling names the drive's quantities, but a user's file has the
+/// scenario's keys.
 base::Problems under_the_key(const Scenario& s, const base::Problems& problems) {
   const std::string word(base::word(arithmetic_choices, s.control.arithmetic));
   base::Problems out;
@@ -63,13 +64,14 @@ std::string shortest(double x, base::Towards towards) {
   return base::written(base::shortened(x, 4, towards));
 }
 
-/// Speed from captured edges (hall_speed.hpp): (pi/3)/p f_timer k is a wide number with the format's digits.
+/// Checks the speed from captured edges (hall_speed.hpp): the factor (pi/3)/p f_timer k must fit into the
+/// format's wide integer. p: pole pairs, f_timer: capture_Hz, k: sectors over which the speed is averaged.
 template <class Scalar>
 base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::Bases& b) {
   if (s.sensors.rotor != RotorSensing::hall) return {};
   using Wide = typename Scalar::WideInt;
   const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
-  // A continuous angle is counted in electrical turns, whatever edges the speed uses.
+  // With an angle between the edges the speed is measured over six sectors, whatever speed_edges is.
   const int sectors = s.sensors.hall_angle == rig::HallAngleFrom::sectors ? c.board.sensors.edges : 6;
   const double digits = ratio * sectors / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
   const double most = static_cast<double>(control::detail::greatest<Wide>);

@@ -10,15 +10,16 @@
 
 namespace sixstep::study {
 
-/// The largest magnitudes that the loops can meet in this scenario:
+/// The largest magnitudes of the loops' quantities in this scenario:
 /// - current: twice the largest reference or limit, at most (bus + opposing back-EMF)/R. The factor 2 leaves
 ///   room for the overshoot of a reversal, whose error would otherwise saturate (scenario "7.3.1 turning"
 ///   shows it).
-/// - speed: what the bus reaches without load and loss, U/K_t, and the speed at the start.
+/// - speed: the speed U/K_t that the bus voltage U reaches without load and loss, and the speed at the start.
 /// - position: the largest reference and the position at the start.
 /// - bus: the source's voltage, and the bus voltage at the start.
 ///
-/// The product drive's range is that of its converters, and a speed above its over-speed threshold.
+/// For the product drive the ranges are those of its converters, and the speed is above its over-speed
+/// threshold.
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
 /// The smallest allowed range: what this scenario requests or starts with (largest reference, limits, source,
@@ -35,8 +36,9 @@ struct DriveIn {
   rig::Bases bases;
 };
 
-/// Problems name the quantity that the format cannot hold, under the key control.arithmetic.
-/// Instantiated for float, double, Q15, Q31 and the formats with one bit before the point.
+/// The drive in the chip's arithmetic. Problems name the quantity that the format cannot represent, under the
+/// key control.arithmetic. Instantiated for float, double, Q15, Q31 and the formats with one bit before the
+/// point.
 template <class Scalar>
 base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled& compiled);
 
@@ -58,7 +60,8 @@ struct SensorlessIn {
 template <class Scalar>
 base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The field-oriented drive as drive_in(), but in floating point only: no scaling of it is proved yet.
+/// The field-oriented drive as drive_in(), but in floating point only: its scaling to fixed point is not
+/// proved yet.
 template <class Scalar>
 struct FieldIn {
   control::SensorlessFieldConfig<Scalar> config;

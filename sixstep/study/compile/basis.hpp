@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quantities on which a compiled scenario's parts are designed. Also declares the parts that have a file
-// of their own.
+// The quantities for which a compiled scenario's parts are designed, and the declarations of the parts that
+// have a file of their own.
 #pragma once
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
@@ -15,10 +15,11 @@ struct Basis {
   double bus_V;
 };
 
-/// Returns the problems with the prefix of the event after which the scenario has them: "at[0].control...".
+/// Returns problems that the scenario has after the event `at`, with the event's prefix: "at[0].control...".
 base::Problems told_of_event(const Scenario& scenario, const At& at, base::Problems problems);
 
-/// Settling time with which the current loop is designed: the scenario's, else the thesis's (chapter 6).
+/// Settling time for which the current loop is designed, s: the scenario's value, else the value of the
+/// thesis (chapter 6).
 double current_settling_s(const Scenario& scenario);
 
 /// Sets drive.extras (drive_extras.hpp) if the scenario requests any; the loops of `drive` must be set
@@ -28,12 +29,11 @@ void add_extras(const Scenario& scenario, const Basis& basis, control::DriveConf
 /// Sets the position loop's profile, if the scenario has one; the loops and limits of `tuned` must be set
 /// already.
 void add_position_profile(const Scenario& scenario, const Basis& basis, Tuned& tuned);
-/// Refuses a motion that the designed drive cannot make.
+/// Refuses a profile that the designed drive cannot follow.
 base::Problems check_position_profile(const Scenario& scenario, const Basis& basis,
                                       const control::DriveConfig<double>& drive);
 
-/// The worst case in which control/limits.hpp must keep the limits, over the range of supply, start and
-/// limits.
+/// The worst case of supply, start and limits in which control/limits.hpp must keep the limits.
 design::LimitSetting limit_setting(const Scenario& scenario, const Basis& basis,
                                    const control::DriveConfig<double>& drive);
 /// Refuses limits that no drive can keep, and currents beyond the converter's range.
@@ -72,8 +72,8 @@ base::Problems add_estimator(const Scenario& scenario, const Basis& basis,
                              const design::FieldMachine& machine, const control::DriveConfig<double>& drive,
                              double loop_rad_s, FieldAround& out);
 
-/// Calls the design function of the user's controller with the nominal motor, the board and the loops of `drive`.
-/// Problems: those that the controller reports.
+/// Calls the design function of the user's controller with the nominal motor, the board and the loops of
+/// `drive`. Problems: the controller's design function returned an error.
 base::Result<rig::OwnConfig> own_designed(const Scenario& scenario, const Basis& basis,
                                           const control::DriveConfig<double>& drive);
 

@@ -17,7 +17,8 @@
 
 namespace sixstep::study {
 
-/// The [control.full_scale] from which these bases follow, equal to the last bit. Empty for floating point.
+/// The values of [control.full_scale] from which `bases` follow, exact to the last bit. Empty for floating
+/// point.
 template <class Scalar>
 FullScale full_scale_of(const rig::Bases& bases) {
   if constexpr (std::is_arithmetic_v<Scalar>) {
@@ -92,7 +93,8 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
 
 }  // namespace detail
 
-/// Problems name what the format cannot hold. `s` is the scenario from which `c` was compiled.
+/// Problems name the quantities that the format cannot represent. `s` is the scenario from which `c` was
+/// compiled.
 template <class Firmware>
 base::Result<Chip<Firmware>> chip_of(const Scenario& s, const Compiled& c) {
   const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;

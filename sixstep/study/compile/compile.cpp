@@ -186,7 +186,7 @@ base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   return {};
 }
 
-/// Adds the configurations after each event. Sensors stay as laid out at the start.
+/// Adds the configuration after each event. The sensors keep their configuration of the start.
 base::Problems add_later_actions(const Scenario& s, const Basis& basis, Compiled& out) {
   const std::vector<const At*> order = in_order(s);
   out.later.reserve(order.size());

@@ -46,7 +46,7 @@ struct Compiled {
   plant::Start start;
   rig::BoardConfig board;
   rig::Wiring wiring;      ///< wiring at the start; straight with the lean kernel
-  rig::ProbeGiven probes;  ///< places of the Hall edges; at the sector edges with the lean kernel
+  rig::ProbeGiven probes;  ///< positions of the Hall edges; with the lean kernel they are the sector edges
   rig::Timeline timeline;
   control::DriveConfig<double> drive;
   std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
@@ -61,27 +61,28 @@ struct Compiled {
   std::vector<design::DerivationStep> estimator_steps;   ///< derivation of the field-oriented drive's
                                                          ///< estimator
   std::vector<Tuned> later;             ///< configurations for the timeline's retune actions, by their number
-  double setpoint_range = 1.0;          ///< full scale of a chip's potentiometer, +- (setpoint_range.hpp)
-  std::optional<GeneralPlant> general;  ///< replaces motor, shaft, devices and supply
+  double setpoint_range = 1.0;          ///< setpoint at the ends of a chip's potentiometer, with both signs
+                                        ///< (setpoint_range.hpp)
+  std::optional<GeneralPlant> general;  ///< replaces motor, shaft, devices, supply and start
   sim::Instant end;
 };
 
-/// Duty above which a shunt in the DC link measures: the middle of the period lies in the on-time, and the
+/// Duty above which a shunt in the DC link shows the current: the sample instant lies in the on-time, and the
 /// amplifier has settled. With complementary chopping the on-time begins later by one dead time.
 double least_visible_duty(const Scenario& scenario);
 /// The same duty, increased by the delay of the reading after the pulse's start and by the modulator's
 /// shortest pulse.
 double least_shown_duty(const Scenario& scenario);
 /// Current in A that flows at the duty least_shown_duty() with the rotor at rest, through two phases (2 R)
-/// and the bridge's conducting devices. The shunt does not show smaller currents. 0 where that duty drives no
-/// current forwards, as with hard chopping below one half.
+/// and the bridge's conducting devices. The shunt does not show smaller currents. 0 if this duty drives no
+/// positive current, as with hard chopping below one half.
 double unseen_at_rest_A(const Scenario& scenario, double R_ohm);
 
 /// Turns a scenario into the parts of a run. Requires that check() found nothing.
 base::Result<Compiled> compile(const Scenario& scenario);
 
-/// A loop's gains per sample, as its keys give them; empty if the pole placement designs them. Problems: gains
-/// given in more than one way, or incompletely.
+/// A loop's gains per sample, as its keys give them; empty if the pole placement designs them. Problems:
+/// gains given in more than one way, or incompletely.
 struct GivenGains {
   std::optional<design::PiGains> gains;
   std::string origin;

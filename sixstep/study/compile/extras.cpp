@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the extras that a scenario requests inside the drive's loops.
+// Adds the optional functions of the drive's loops that a scenario requests (drive_extras.hpp).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,15 +12,16 @@ namespace {
 
 using control::Mode;
 
-/// The largest current reference in A if no limit acts: the initial bound of the window.
+/// The largest current reference, A, if [control.limits] gives no lower bound.
 double unlimited_current(const Scenario& s, const control::DriveConfig<double>& drive) {
   return s.control.mode == Mode::current ? std::max(drive.current_limit_A, largest_reference(s))
                                          : drive.current_limit_A;
 }
 
-/// Adds limits.hpp. Default gains: the bus approaches its limit as exp(-g t/C) with a time constant of ten
-/// periods, which is slow against the sampling. The speed approaches its limit with the time constant J/(K_t
-/// K), set equal to the current loop's settling time.
+/// Adds limits.hpp. Default gains: with the gain g in A/V and the bus capacitance C, the bus approaches its
+/// limit as exp(-g t/C), with a time constant of ten periods, which is slow compared with the sampling. With
+/// the gain K in A s/rad, the inertia J and the torque constant K_t, the speed approaches its limit with the
+/// time constant J/(K_t K), which is set equal to the current loop's settling time.
 void add_limits(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
   const Limits& wanted = s.control.limits;
   const Regeneration& regeneration = s.control.regeneration;
@@ -45,7 +46,8 @@ void add_limits(const Scenario& s, const Basis& basis, control::DriveConfig<doub
   if (drive.current_at_full_torque_A > 0) extras.torque_fraction_per_A = 1 / drive.current_at_full_torque_A;
 }
 
-/// Adds smooth_chopping.hpp. Its lower level is above half of the largest ripple, U T/(4 L_tt)/2.
+/// Adds smooth_chopping.hpp. The default of its lower threshold is half of the largest ripple, U T/(4 L_tt),
+/// with the bus voltage U, the period T and the inductance L_tt between two terminals.
 void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveExtras<double>& extras) {
   if (!s.control.smooth_chopping.on) return;
   const double half_ripple_A = basis.bus_V * s.pwm.period_s / (8 * 2 * basis.motor.machine.L_H);
@@ -55,7 +57,7 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
                      .complementary_below_A = below};
 }
 
-/// Widest flat top of the trapezoidal back-EMF. With a wider one the flanks are too short for a chip to
+/// Widest flat top of the trapezoidal back-EMF. With a wider flat top the flanks are too short for a chip to
 /// sample them as ramps.
 constexpr double widest_flat_deg = 175.0;
 

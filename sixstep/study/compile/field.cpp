@@ -11,8 +11,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Periods from a sample to the middle of the period in which its answer acts. A sample in the middle of a
-/// period waits half a period more.
+/// Periods from a sample to the middle of the period in which the output computed from it acts. For a sample
+/// in the middle of a period this is half a period more.
 double periods_to_answer(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1.0 : 0.5);
 }
@@ -28,7 +28,7 @@ struct AxisLoop {
   std::vector<design::DerivationStep> steps;
 };
 
-/// Gains as given, placed by settle_s and damping, or by cancellation.
+/// Gains as given, by pole placement from settle_s and damping, or by cancellation of the winding's pole.
 base::Result<AxisLoop> axis_loop(const Scenario& s, const char* name, double R_ohm, double L_H) {
   const CurrentLoop& loop = s.control.current;
   AxisLoop out;
@@ -61,7 +61,7 @@ base::Result<AxisLoop> axis_loop(const Scenario& s, const char* name, double R_o
   return out;
 }
 
-/// A round rotor has the same loop in both axes.
+/// A round rotor has the same gains in both axes; they are listed once.
 base::Problems add_axes(const Scenario& s, const design::FieldMachine& machine, FieldAround& out) {
   const bool round = machine.L_d_H == machine.L_q_H;
   auto d = axis_loop(s, round ? "current" : "current d", machine.R_ohm, machine.L_d_H);

@@ -12,8 +12,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// A current that drive and motor withstand, A: a cascade's own limit, else the sheet's nominal current, else
-/// a tenth of the current that the bus drives through the rotor at rest.
+/// A current that drive and motor withstand, A: a cascade's current limit, else the sheet's nominal current,
+/// else a tenth of the current that the bus drives through the windings with the rotor at rest.
 double current_that_is_safe_A(const Basis& basis, const control::DriveConfig<double>& drive, double R_ohm) {
   constexpr double by_root_3 = 0.57735026918962576;
   if (drive.current_limit_A > 0) return drive.current_limit_A;

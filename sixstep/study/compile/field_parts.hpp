@@ -10,8 +10,8 @@ inline const design::Sheet& designed_sheet(const Scenario& s) {
   return s.designed_for ? s.designed_for->sheet : s.sheet;
 }
 
-/// Delay in whole periods from sample to answer, for the winding's discrete model. Half a period counts as
-/// one.
+/// Delay in whole periods from a sample to the output computed from it, for the winding's discrete model.
+/// Half a period counts as one period.
 inline int waits_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1 : 0);
 }

@@ -21,7 +21,8 @@ inline plant::PerLeg<double> per_terminal(const std::vector<double>& given) {
 }
 
 /// An ideal measurement has no amplifier and no divider. Terminals that the drive measures have dividers like
-/// the bus's, even if the bus itself is not measured. Comparators exist only if the drive commutates by them.
+/// the divider of the bus, even if the bus itself is not measured. Comparators exist only if the drive
+/// commutates by them.
 inline rig::FrontEndConfig front_end_of(const Sensors& s, bool looks_at_terminals, bool follows_comparators) {
   rig::FrontEndConfig to;
   if (s.currents != rig::CurrentMeasurement::ideal) {

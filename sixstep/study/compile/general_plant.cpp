@@ -179,7 +179,7 @@ general::HeatGiven heat_of(const Scenario& s, const Compiled& c) {
   return to;
 }
 
-/// The default bus voltage at the start; with a battery, its open-circuit voltage.
+/// The default bus voltage at the start: usual_V, or the open-circuit voltage of a battery.
 double start_bus_V(const Scenario& s, double usual_V) {
   if (s.initial.bus_V || s.supply.source != SourceKind::battery) return usual_V;
   return open_circuit_V(s.supply, s.supply.battery_charge);

@@ -54,8 +54,8 @@ void check_shunt(const Scenario& s, base::Problems& out) {
   refuse("control.regeneration.limit_V", s.control.regeneration.limit_V);
 }
 
-/// Refuses a limit that the current passes within one PWM period: a full pulse is then too much, and no pulse
-/// too little.
+/// Refuses a limit that the current exceeds within one PWM period with full voltage: the drive, which decides
+/// once per period, cannot keep such a limit.
 void check_current(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
   const Limits& wanted = s.control.limits;
   if (!wanted.current_A && !wanted.torque_Nm) return;
@@ -76,8 +76,9 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
            (narrowed ? ", or remove the limit" : " or raise the limit")});
 }
 
-/// Mechanical angle in rad by which a measured speed is late: the k sectors over which it is averaged, the
-/// present sector, and the filter's delay of the edges. A sensorless drive averages over six crossings.
+/// Mechanical angle in rad that the rotor turns while a measured speed is delayed: the sectors over which the
+/// speed is averaged, the present sector, and the filter's delay of the edges. A sensorless drive averages
+/// over six crossings.
 double late_rad(const Scenario& s, const plant::Machine& machine, double speed_rad_s) {
   const bool crossings = s.control.drive == FirmwareKind::sensorless;
   if (crossings) return 7 * base::pi / 3 / machine.pole_pairs;

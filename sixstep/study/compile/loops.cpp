@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs the loops of a scenario's controller: gains as given, or placed for motor and load.
+// Designs the loops of a scenario's controller: gains as given, or by pole placement for motor and load.
 #include "sixstep/study/compile/loops.hpp"
 
 #include "sixstep/base/written.hpp"
@@ -35,12 +35,14 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
-/// Smooth chopping alternates between two chopping patterns that give the pair the same voltage.
+/// The chopping for which the current loop is designed. Smooth chopping alternates between two kinds of
+/// chopping that apply the same voltage to the pair.
 control::Chopping loop_chopping(const Scenario& s) {
   return s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
 }
 
-/// Periods from a sample to the beginning of its answer (rig/board_config.hpp).
+/// Control periods from a sample to the instant at which the output computed from it takes effect
+/// (rig/board_config.hpp).
 double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }
@@ -81,9 +83,10 @@ base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& ou
   return {};
 }
 
-/// The effect of the speed controller's output on the speed. The output is a torque, which acts at once, or a
-/// duty of the bus voltage on the winding. The winding's inductance is neglected because it is fast (thesis
-/// 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
+/// The speed's response to the speed controller's output: torque at full output, and viscous friction. The
+/// output is a torque, which acts at once, or a duty d of the bus voltage U. For a duty the winding's
+/// inductance is neglected, because its time constant is short (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R
+/// - B w, with inertia J, speed w, torque constant K_t, resistance R and friction B.
 struct SpeedPlant {
   double full_Nm, B_Nm_s;
 };
@@ -111,8 +114,8 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
   }
   out.drive.current_at_full_torque_A = torque_limit / torque_per_A(s, basis);
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
-  // The PI gets the current limit as its own bound. A bound after the PI that the PI does not include would
-  // cause integral windup.
+  // The PI's output limit includes the current limit. A limit after the PI, unknown to the PI, would cause
+  // integral windup.
   if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
     out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
   return add_speed_law(s, basis, plant.full_Nm / J, plant.B_Nm_s / J, out);
@@ -162,7 +165,8 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);
   add_position_profile(s, basis, out);
-  // Limits are judged for the designed drive. A drive of a series that deviates from it is run in any case.
+  // Limits are checked for the drive as designed. A drive of a series with deviating values is simulated
+  // without this check.
   if (!s.designed_for) {
     base::Problems problems = check_limits(s, basis, out.drive);
     base::append(problems, check_position_profile(s, basis, out.drive));

@@ -5,8 +5,8 @@
 
 namespace sixstep::study {
 
-/// The controller of a scenario, without the changes of its events: loops, extras, and limits that the drive
-/// can keep.
+/// The controller of a scenario, without the changes of its events: loops and optional functions. Problems:
+/// limits that the drive cannot keep.
 base::Result<Tuned> tuned(const Scenario& scenario, const Basis& basis);
 
 /// The winding on which the current controller's voltage acts. With smooth chopping it is the winding of a

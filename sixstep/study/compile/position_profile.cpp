@@ -2,8 +2,8 @@
 // Designs the position loop's profile and its feed-forward (control/profiled_position.hpp). Values that a
 // scenario does not give follow from the drive:
 // - Acceleration: four fifths of the torque limit; a fifth is reserved for unknown loads.
-// - Speed: nine tenths of the speed that the bus reaches at this torque, or of the loop's limit; a tenth is
-//   reserved to catch up.
+// - Speed: nine tenths of the speed that the bus voltage allows at this torque, or of the loop's speed limit
+//   if that is lower; a tenth is reserved to catch up.
 // - Jerk: the acceleration rises within the settling time of the speed loop.
 #include <algorithm>
 #include <numbers>
@@ -30,8 +30,8 @@ double most_torque_Nm(const Scenario& s, const Basis& basis, const control::Driv
   return most_A * torque_per_A(s, basis);
 }
 
-/// The speed in rad/s that the bus still reaches at this torque: with a driven pair, or with three legs
-/// within their voltage circle.
+/// The highest speed in rad/s at which the bus voltage still allows this torque: with a driven pair, or with
+/// three legs within their voltage circle.
 double reached_rad_s(const Scenario& s, const Basis& basis, double torque_Nm) {
   const double per_A = torque_per_A(s, basis), i = torque_Nm / per_A, R_ohm = basis.motor.machine.R_ohm;
   const bool field = s.control.drive == FirmwareKind::field;
@@ -57,7 +57,7 @@ control::JerkProfileLimits profile_limits(const Scenario& s, const Basis& basis,
 }
 
 /// Feed-forward gains relative to the full torque. If the speed loop's output is a duty, they are relative to
-/// the bus voltage, for the torque's current and the back-EMF.
+/// the bus voltage and include the voltage for the torque's current and the back-EMF.
 control::MotionFeedForwardConfig<double> told_ahead(const Scenario& s, const Basis& basis,
                                                     const control::DriveConfig<double>& drive) {
   if (!s.control.position.profile.feed_forward) return {};

@@ -12,8 +12,7 @@ namespace {
 
 /// Margin above the largest setpoint, because the converter's counts end at the potentiometer's ends.
 constexpr double room = 1.02;
-/// Number of points at which a moving setpoint is read. Between two of them a sine rises by less than the
-/// margin.
+/// Number of points at which a moving setpoint is evaluated.
 constexpr int looks = 256;
 
 double largest(const rig::Action& action, double until_s) {

@@ -14,9 +14,9 @@ namespace sixstep::study {
 
 namespace {
 
-/// Limits of the signals that the drive, or the converter chip, computes from the windings. The drive's
-/// signal is half the difference of two samples, each rounded to a count; a converter chip's signal is one
-/// sample.
+/// Limits of the resolver's signals. The drive or the converter chip computes these signals from the
+/// windings' voltages. The drive's signal is half the difference of two samples, each rounded to a count; a
+/// converter chip's signal is one sample.
 rig::ResolverWatch watch_of(const rig::ShaftSensorConfig& given) {
   const plant::Resolver r = rig::windings_of(given.resolver);
   const bool sampled = given.resolver.reading == rig::ResolverReading::sampled;

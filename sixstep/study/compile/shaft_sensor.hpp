@@ -9,7 +9,8 @@ namespace sixstep::study {
 /// Control periods between two peaks of a resolver's excitation: half an excitation period, rounded.
 int samples_per_peak(const Scenario& scenario);
 
-/// Step period in s of the loop that tracks a resolver: between peaks, or the clock of a converter chip.
+/// Step period in s of the loop that tracks a resolver: the time between two peaks, or the clock period of a
+/// converter chip.
 double tracking_period_s(const Scenario& scenario);
 
 /// Copies the settings for speed and position between Hall edges.

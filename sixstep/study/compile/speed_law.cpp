@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs a speed controller that is not a PI, for the settling time that a PI would have.
+// Designs a speed controller that is not a PI, for the same settling time as a PI.
 #include "sixstep/design/loops/speed_laws.hpp"
 
 #include "sixstep/study/compile/basis.hpp"
@@ -9,8 +9,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Mean delay of the speed controller's output, in samples: by the current loop, or by the winding if the
-/// output is a duty.
+/// Mean delay between the speed controller's output and the torque, in samples. The current loop causes it,
+/// or the winding if the output is a duty.
 double lag_periods(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
   const double R_ohm = 2 * basis.motor.machine.R_ohm, L_H = 2 * basis.motor.machine.L_H;
   const double late = s.pwm.delay_periods + (s.pwm.sample == SampleAt::middle ? 0.5 : 0.0);

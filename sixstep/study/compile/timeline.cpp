@@ -18,8 +18,8 @@ using rig::ActionKind;
 /// The number of the stuck line or track, positive if the level is high and negative if it is low.
 double stuck_line(int line, bool high) { return high ? line : -1.0 * line; }
 
-/// The number of a word after `same`: the other words have the order of the enumeration without `same`, each
-/// one higher.
+/// The value of a word in the enumeration without `same`. In the enumeration with `same` each value is one
+/// higher.
 template <class Word>
 constexpr double behind_same(Word word) {
   return static_cast<double>(static_cast<int>(word) - 1);
@@ -88,8 +88,8 @@ void add_event(const At& at, rig::Timeline& timeline) {
   if (at.request == DriveRequest::clear) add(ActionKind::clear_request, 1.0);
 }
 
-/// Adds each event's configuration at the first control sample at or after it, before the setpoint of that
-/// instant.
+/// Adds each event's configuration at the first control sample at or after the event, before the setpoint of
+/// the same instant.
 void add_tunings(const Scenario& s, rig::Timeline& timeline) {
   double number = 0.0;
   for (const At* at : in_order(s))
@@ -122,7 +122,7 @@ void add_missed_edges(const Scenario& s, rig::Timeline& timeline) {
   }
 }
 
-/// Adds glitches as a Poisson process: the times between them and their lines are drawn.
+/// Adds glitches as a Poisson process: the times between glitches and the lines are drawn at random.
 void add_glitches(const Scenario& s, rig::Timeline& timeline) {
   if (!(s.sensors.hall_glitches_Hz > 0)) return;
   const auto seed = static_cast<std::uint64_t>(s.sensors.seed);

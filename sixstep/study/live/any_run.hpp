@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run that can stop and continue. It can be advanced, sampled at the present instant, given another future,
-// and copied. The kernel and the kind of drive are chosen once, when the run is made; after that each slice
-// costs one virtual call.
+// A run that can stop and continue. It can be advanced, sampled at the present instant, continued with a
+// changed scenario, and copied. The kernel and the kind of drive are chosen once, when the run is made; after
+// that each slice costs one virtual call.
 #pragma once
 #include <memory>
 
@@ -26,9 +26,9 @@ class AnyRun {
   /// Samples the present instant. Actions due at this instant are executed in a copy, so that *this stays
   /// unchanged.
   virtual void look(Slice& slice) const = 0;
-  /// Replaces the run's future by that of `scenario`, whose past must be this run's.
+  /// Continues the run with `scenario`, which must equal the run's scenario up to the present instant.
   virtual base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline) = 0;
-  /// Writes the results of the run up to the present instant.
+  /// Writes the results of the run up to the present instant to `out`.
   virtual base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const = 0;
   /// Full scale of the controller's arithmetic, for the whole run.
   virtual FullScale full_scale() const = 0;
@@ -37,7 +37,7 @@ class AnyRun {
   AnyRun(const AnyRun&) = default;
 };
 
-/// Makes the scenario's run at t = 0. Problems: the arithmetic cannot hold the drive.
+/// Makes the scenario's run at t = 0. Problems: the drive's numbers do not fit into the arithmetic.
 base::Result<std::unique_ptr<AnyRun>> made_by(const Scenario& scenario, const Compiled& compiled,
                                               rig::Timeline timeline);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A firmware's chip behind the interface of any_drive.hpp. Included only by the files named chip_*.
+// Makes a firmware's chip that the rig calls through the interface of any_drive.hpp. Included only by the
+// files named chip_*.
 #pragma once
 #include "sixstep/rig/drive_of.hpp"
 #include "sixstep/study/compile/chip.hpp"

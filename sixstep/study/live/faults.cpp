@@ -53,7 +53,8 @@ void note_unseen(const rig::Diagnosis& found, Outcome& out) {
       "saturation_current_A)");
 }
 
-/// A sensorless drive that lost its rotor: a note if the drive started again, a fault if it stopped.
+/// Reports that a sensorless drive lost the rotor's position: a note if the drive started again, a fault if
+/// it stopped.
 void note_losses(const rig::Diagnosis& found, Outcome& out) {
   const LossWords words = words_of(found.lost);
   const std::string times = found.losses == 1 ? "once" : std::to_string(found.losses) + " times";

@@ -13,10 +13,11 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
 /// The problem of a state that no motor can reach (run_away.hpp).
 base::Problem ran_away(const plant::State<double>& state, double t_s);
 
-/// Notes in the outcome the wires that should have broken and did not: one bit for each of a, b, c.
+/// Adds a note on the wires that [[at]] should have broken and that are still closed: one bit for each of a,
+/// b, c.
 void note_wires(unsigned still_closed, Outcome& out);
 
-/// Notes in the outcome the fault that the product drive has latched, if any.
+/// Writes the fault that the product drive has latched, if any, to the outcome.
 void note_trip(const rig::Diagnosis& found, Outcome& out);
 
 }  // namespace sixstep::study

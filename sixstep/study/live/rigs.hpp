@@ -8,7 +8,8 @@ namespace sixstep::study::detail {
 
 using MadeRun = base::Result<std::unique_ptr<AnyRun>>;
 
-/// The loops alone, in double on the lean kernel, without an interface to a chip. Most plans use this run.
+/// The lean drive with ideal sensors, in double on the lean kernel. The rig calls it directly, without the
+/// interface of any_drive.hpp. Most plans use this run.
 MadeRun lean_run(const Scenario& s, const Compiled& c, rig::Timeline timeline);
 /// Drives that command a pair and one duty.
 MadeRun pair_run(PairChip (*chip)(const Scenario&, const Compiled&), const Scenario& s, const Compiled& c,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the gauge of each metric; this is the only list of them.
+// Chooses the gauge of each metric; this is the only list of gauges.
 #pragma once
 #include <limits>
 #include <variant>

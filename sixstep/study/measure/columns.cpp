@@ -12,7 +12,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// The column of a signal: it has the signal's unit, and the signal's older word if there is one.
+/// The column of a signal, with the signal's unit. Its name is the signal's older word if there is one, else
+/// the signal's word.
 Column of(Signal signal, const char* frame, const char* meaning) {
   const std::string_view older = base::word(column_words, signal);
   return {std::string(older.empty() ? fact_of(signal).word : older), std::string(unit_of(signal)), frame,
@@ -159,7 +160,7 @@ bool applies(ColumnId id, const Scenario& s) {
   if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field) return false;
   if (id == ColumnId::angle_error && s.sensors.rotor == RotorSensing::ideal &&
       s.control.field.angle == FieldAngle::sensors)
-    return false;  // with a stiff bus the column would be 0
+    return false;  // an ideal sensor has no angle error: the column would be 0
   if (id >= ColumnId::encoder_A && id < ColumnId::i_d) return fitted(id, s.sensors.rotor);
   if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})

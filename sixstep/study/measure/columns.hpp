@@ -71,12 +71,14 @@ enum class ColumnId : std::uint8_t {
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
 using FullRow = std::array<double, column_count>;
 
-/// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold NaN.
+/// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold
+/// NaN.
 bool applies(ColumnId id, control::Mode mode);
 /// Whether a column has a meaning in any mode of the run, with the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);
 
-/// All columns: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
+/// All columns in the order of ColumnId, with a rotary motor's names and units: t_s, i_a_A, i_b_A, i_c_A,
+/// u_a_V, ..
 const std::vector<Column>& all_columns();
 /// All columns with a linear motor's names and units: speed_m_s, position_mm, force_N (base/linear.hpp). The
 /// scenario's recorded rows have these units; event rows keep the rotary motor's units.

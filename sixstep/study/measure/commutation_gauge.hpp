@@ -2,11 +2,12 @@
 // Measures the angle error of commutation: the rotor's electrical angle at each commutation minus the sector
 // edge of this commutation, in the direction of rotation. Late is positive.
 //
-// The pair of sector k changes to that of sector k + 1 at 60 (k + 1) degrees, and to that of k - 1 at 60 k
-// degrees. If the current flows in the opposite direction, the edge is 180 degrees away.
+// The pair of sector k changes to the pair of sector k + 1 at 60 (k + 1) degrees, and to the pair of sector k
+// - 1 at 60 k degrees. For negative torque the drive uses the reversed pair, which is the pair of sector k +
+// 3, so that the edge is 180 degrees away.
 //
-// The gauge applies to every kind of position sensing. It leaves out a pair that jumps by more than one
-// sector, and a pair that follows an off state.
+// The gauge applies to every kind of position sensing. It ignores a change of the pair by more than one
+// sector, and the first pair after an off state.
 #pragma once
 #include <cmath>
 #include <limits>

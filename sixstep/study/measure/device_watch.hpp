@@ -11,8 +11,8 @@
 
 namespace sixstep::study {
 
-/// Mean powers over the run, W, and the junction's temperature that bridge.junction_K_W gives at them: its mean, below
-/// what it reaches; 0 without it.
+/// Mean powers over the run, W. junction_degC is the junction's temperature at these mean powers by
+/// bridge.junction_K_W, so its peak in the run is higher; 0 if junction_K_W is not given.
 struct DeviceLoss {
   std::string_view device;  // "T1" to "T6"
   double conduction_W = 0.0, turn_on_W = 0.0, turn_off_W = 0.0, diode_W = 0.0, recovery_W = 0.0;

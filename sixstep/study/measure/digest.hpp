@@ -19,8 +19,8 @@ class Digest {
     take(rig);
   }
 
-  /// Digest of all segments so far and of the rig's present state, including the remainders of its running
-  /// sums.
+  /// Digest of all segments so far and of the rig's present state, including the rounding errors that its
+  /// compensated sums keep.
   template <class Rig>
   std::uint64_t after(const Rig& rig) const {
     Digest whole = *this;

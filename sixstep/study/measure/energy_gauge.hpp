@@ -30,9 +30,10 @@ class EnergyGauge {
   void segment(const SegmentView& g, double s);
   /// Energy in J for a signal that is a power; empty if no time of the window was simulated.
   std::optional<double> energy(Signal signal) const;
-  /// Energy out over energy in, 0 to 1. Empty if no energy came in, or no time of the window was simulated.
-  /// - Motoring: energy to load and inertias over energy from the bus.
-  /// - Braking, where the energies reverse: energy into the bus over energy from the shaft.
+  /// Delivered energy divided by supplied energy, 0 to 1. Empty if no energy was supplied, or no time of the
+  /// window was simulated.
+  /// - Motoring: energy to load and inertias divided by energy from the bus.
+  /// - Braking, where the energies reverse: energy into the bus divided by energy from the shaft.
   /// - 0 if both shaft and bus supply the losses.
   std::optional<double> efficiency() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures from the largest and the smallest value in a window. Parts of the signal that cannot change such a
-// value are not searched.
+// Figures from the largest and the smallest value in a window. A part of the signal whose bounds lie within
+// the extremes so far is not searched.
 #pragma once
 #include <algorithm>
 #include <cmath>

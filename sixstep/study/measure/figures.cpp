@@ -11,8 +11,8 @@ namespace sixstep::study {
 namespace {
 
 /// A window per reference step inside the measure's own window. Without `start` the step goes from the
-/// preceding level to the new one. For a square wave the reach time counts a fraction of the full level
-/// instead of the reversal's distance: this is the stricter reading of "98 %".
+/// preceding level to the new level. For a square wave, reach_time takes its fraction of the new level,
+/// counted from 0, not of the distance between both levels: this is the stricter definition of "98 %".
 Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
   Gauges gauges;
   for (std::size_t n = 0; n < levels.size(); ++n) {
@@ -49,7 +49,7 @@ Gauges gauges_for(const Measure& m, const Scenario& scenario, const std::vector<
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// The worst value over the steps; for a signed error the one with the largest magnitude. NaN, which meets no
+/// The worst value of all steps; for a signed error the value with the largest magnitude. NaN, which meets no
 /// requirement, if the run ended before the window.
 double value_of(const Gauges& gauges, const Measure& m) {
   const auto size = [&](double v) { return m.metric == MetricKind::steady_error ? std::fabs(v) : v; };
@@ -64,7 +64,7 @@ double value_of(const Gauges& gauges, const Measure& m) {
 double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
 /// Whether a figure of samples is also computed from the whole signal, because all samples lie at the same
-/// phase of the PWM ripple. False for times until a band is reached, because the ripple can leave the band.
+/// phase of the PWM ripple. False for figures that are times, because the ripple can leave the band.
 bool looks_beside_samples(const Measure& m) {
   return m.sampled && fact_of(m.metric).of == TakenOf::signal && !is_time(m.metric);
 }
@@ -73,7 +73,8 @@ bool meets(const Requirement& r, double v) {
   return v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
 }
 
-/// Whether the whole signal differs from its samples enough to change the requirement's result.
+/// Whether the figure of the whole signal differs from the figure of its samples by more than half the
+/// required range, or only one of the two meets the requirement.
 bool tells_apart(const Requirement& r, double samples, double whole) {
   if (whole != whole) return false;
   if (r.min && r.max && std::fabs(whole - samples) > (*r.max - *r.min) / 2) return true;
@@ -86,9 +87,10 @@ bool levels_the_ripple(MetricKind metric) {
   return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
 }
 
-/// Whether a sample in the middle of the period is possible. It is not for comparators, which need no sample;
-/// for a deadbeat step, which answers a sample at the period's start; and for three legs, which have their
-/// own sample instant.
+/// Whether pwm.sample = "middle" is possible. It is not possible for
+/// - comparators, which need no sample,
+/// - the deadbeat law, which needs a sample at the period's start,
+/// - sensorless, field-oriented and user's drives, which have their own sample instant.
 bool may_sample_in_the_middle(const Control& c) {
   return (c.drive == FirmwareKind::lean || c.drive == FirmwareKind::product) &&
          c.current.type == CurrentLoopType::pi;

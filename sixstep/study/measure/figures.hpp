@@ -18,10 +18,10 @@
 
 namespace sixstep::study {
 
-/// One gauge per step or level of the reference, in the order of their windows; the worst one counts.
+/// One gauge per step or level of the reference, in the order of their windows; the worst value counts.
 using Gauges = std::vector<Gauge>;
 
-/// The parts of the figures that measure: each reads segments and returns its value at the end.
+/// The types that measure a figure. Each reads segments and returns the figure's value at the end of the run.
 struct BandExcess {
   HysteresisGauge gauge;
   void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
@@ -86,7 +86,8 @@ std::string figure_name(const Measure& measure);
 /// The name of a measure in the words of the scenario's motor: "final force".
 std::string figure_name(const Scenario& scenario, const Measure& measure);
 
-/// Unit of a figure in results, with its factor: a linear motor's unit replaces that of measure_choices.hpp.
+/// Unit of a figure in results, with its factor. For a linear motor it replaces the unit of
+/// measure_choices.hpp.
 inline base::LinearUnit unit_in(const Scenario& scenario, std::string_view unit) {
   return scenario.sheet.kind == design::MotorKind::linear ? base::in_linear(unit)
                                                           : base::LinearUnit{unit, unit, 1.0};

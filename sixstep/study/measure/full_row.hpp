@@ -8,8 +8,8 @@
 
 namespace sixstep::study {
 
-/// Sets the quantities that move within a segment, at its fraction s and time t. `sector`: the sector of the
-/// Hall code.
+/// Sets the quantities that change within a segment, at the segment's fraction s and time t. `sector`: the
+/// sector of the Hall code.
 template <class Plant>
 void set_moving(FullRow& row, const Plant& plant, int sector, double s, double t) {
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
@@ -31,7 +31,8 @@ void set_moving(FullRow& row, const Plant& plant, int sector, double s, double t
   set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
 }
 
-/// Sets the columns that only the general kernel has.
+/// Sets the columns that only the general kernel simulates. For the lean kernel they are constants or copies
+/// of other columns.
 inline void set_load_side(FullRow& row, const plant::Plant<double>& plant, double s) {
   const auto& c = plant.constants();
   const auto& bus = plant.expansion().bus;
@@ -79,7 +80,7 @@ inline void set_shaft_sensor(FullRow& row, const rig::ShaftPorts& ports,
   set(ColumnId::resolver_sin_V, raw.winding_V[1]);
 }
 
-/// The same, if the firmware has one.
+/// Sets the columns of an encoder or a resolver if the rig has such a sensor.
 template <class Rig>
 void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
   const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());

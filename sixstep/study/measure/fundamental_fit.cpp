@@ -17,8 +17,9 @@ void FundamentalFit::take(const Integrals& part) {
     series::add_compensated(sums_.pair[k], low_.pair[k], part.pair[k]);
 }
 
-/// The distance from the reference to the fit, from the normal equations by L D L' decomposition. A function
-/// that is almost a sum of the others gets no component.
+/// The fit's coefficients minus the reference's coefficients, from the normal equations by L D L'
+/// decomposition. A function that is almost a linear combination of the other functions gets the coefficient
+/// 0.
 FundamentalFit::Three FundamentalFit::step_to_fit() const {
   constexpr double made_up = 0x1p-40;
   const Integrals& f = sums_;
@@ -53,8 +54,8 @@ void FundamentalFit::move_reference(const Three& by) {
   if (sums_[rr] < 0.0) sums_.set(rr, 0.0), low_.set(rr, 0.0);
 }
 
-/// Sets the reference through three points of a part that is the first, or far longer than all parts before
-/// it: an extrapolated reference would be far away from such a part.
+/// Moves the reference so that it passes through three points of a part. Used for the first part, and for a
+/// part far longer than all parts before it: an extrapolated reference would be far away from such a part.
 void FundamentalFit::pass_through(const std::array<Phase, 3>& at, const Three& distance) {
   const double s_1 = at[1].sin - at[0].sin, s_2 = at[2].sin - at[0].sin;
   const double v_1 = at[1].versine - at[0].versine, v_2 = at[2].versine - at[0].versine;
@@ -77,7 +78,8 @@ double FundamentalFit::distortion() const {
   const double d_s = f[ss] - f[s] * f[s] / f[one], d_sv = f[sv] - f[s] * f[v] / f[one],
                d_v = f[vv] - f[v] * f[v] / f[one];
   const double sin = all.reference_[1],
-               cos = all.reference_[2];  // for 1 - cos instead of cos: the sign changes, and the mean cancels
+               cos = all.reference_[2];  // coefficient of 1 - cos; the coefficient of cos is its negative,
+                                         // and the mean cancels
   return std::sqrt(all.sums_[rr] / (sin * sin * d_s + 2 * sin * cos * d_sv + cos * cos * d_v));
 }
 

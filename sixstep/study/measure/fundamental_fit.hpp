@@ -2,12 +2,13 @@
 // Fits 1, cos and sin to a signal by least squares, part by part, and computes the residual.
 //
 // The fit sums the normal equations. It also sums the squared distance of the signal from a reference, which
-// is a fundamental close to the fit. So the residual is not a difference of large squares, and a pure sine
-// leaves a residual of rounding's size instead of its root. If the reference is moved by d, the sums change
-// by closed forms,
+// is a fundamental close to the fit. So the residual is not a difference of large squares: for a pure sine it
+// is of the order of 2^-53 of the signal, not of the square root of 2^-53. With the distance r from the
+// reference, the functions f of the fit and a change d of the reference's coefficients, the sums change by
+// closed forms,
 //   sum (r - d f)^2 = sum r^2 - 2 d . sum r f + d . (sum f f) d,
-// so that no part is read twice. The reference is set to the fit whenever the length so far has doubled. A
-// new part then lies at most as far from the fit as all parts before it.
+// so that no part is read twice. The reference is set to the fit whenever the length so far has doubled. The
+// reference is then extrapolated over at most the length over which it was fitted.
 //
 // The functions are 1, sin p and 1 - cos p of the phase p since the beginning. They span the same space as 1,
 // cos and sin. Their sums keep their digits also over the first degrees, where 1 and cos are almost equal.
@@ -37,7 +38,7 @@ class FundamentalFit {
   /// Adds a part; parts must be contiguous. `begin` is the phase at this part's beginning.
   template <int points>
   void add(const Phase& begin, const FittedPart<points>& part);
-  /// Distortion: rms of the residual over rms of the fundamental; NaN if the signal is zero.
+  /// Distortion: rms of the residual divided by rms of the fundamental; NaN if the signal is zero.
   double distortion() const;
 
  private:
@@ -96,7 +97,8 @@ template <int points>
 
 }  // namespace detail
 
-/// Sine and versine of the summed phase, by sums of products that keep their digits if both angles are small.
+/// sin and 1 - cos of the phase `begin` plus `turn`, by sums of products that keep their digits if both
+/// angles are small.
 template <int points>
 [[gnu::always_inline]] inline FundamentalFit::Phases<points> FundamentalFit::phases_of(
     const Phase& begin, const series::Nodes<points, double>& turn) {

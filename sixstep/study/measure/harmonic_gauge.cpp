@@ -17,7 +17,7 @@ constexpr double whole_turn = 6 * base::sector_rad;
 constexpr double largest_turn = 0.5;
 
 /// The least even degree n after which the series of cos x and sin x have no term above rounding: x^n/n! <=
-/// 2^-53. Products with them are integrated like those of the engine's own series of that degree
+/// 2^-53. Products with cos x and sin x are integrated like products of the engine's series of degree n
 /// (series/quadrature.hpp).
 constexpr int degree_of_turn(double rad) {
   constexpr double largest[] = {0.0065, 0.038, 0.115, 0.247, 0.437};  // for degrees 6, 8, .. 14
@@ -85,17 +85,17 @@ void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, doub
   if (root < 1.0) turn_part(g, share(root, 1.0), full, to);
 }
 
-/// Phase since the window's beginning. Whole turns are left out, so that they cost no digits.
+/// Phase since the window's beginning. Whole turns are subtracted, so that the phase keeps its digits.
 Phase HarmonicGauge::phase_at(const SegmentView& g, double s) const {
   const plant::Expansion<double>& y = g.plant.expansion();
   const double sectors = static_cast<double>((g.plant.state().sector - first_sector_) % 6);
   return phase_of(sectors * base::sector_rad + (series::evaluate(y.x, y.degree, s) - first_x_));
 }
 
-/// The series of a segment change at least as fast as the electrical angle turns, so that their degree
-/// determines the number of points. Products have three factors here, because the speed is the weight. The
-/// bound of series/quadrature.hpp is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 for n of 8
-/// or more.
+/// The number of points follows from a degree n: the degree of the segment's series or that of cos and sin
+/// over this turn, whichever is higher, and at least 8. Products have three factors here, because the speed
+/// is the weight. With x, M and u as in series/quadrature.hpp, the error bound is then (pi/2) (3/4)^n e^(3 x)
+/// u M^3, which is below u M^3/5 for n of 8 or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.pole_pairs() * e.h * (to - from);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures how well an event hysteresis keeps its band: the excess above the upper limit, and the shortfall
-// below the lower one. The recovery from a commutation or a new reference is left out.
+// below the lower limit. The recovery from a commutation or a new reference does not count.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ class HysteresisGauge {
 
  private:
   /// The last state of one comparator. A new reference excuses deviations from both limits until the current
-  /// is back in the band. A sector edge excuses only the lower limit, because the mean of two phases drops
-  /// there and never rises.
+  /// is back in the band. A sector edge excuses only deviations below the lower limit, because the mean of
+  /// two phase currents drops at a commutation and never rises.
   struct Watched {
     int sector = -1;
     double key = 0.0;  ///< upper limit with the sign of the reference

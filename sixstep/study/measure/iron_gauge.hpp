@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Separates the iron's drag from the bearings' friction: integrals in J of B_iron w^2 and of the dry drag
-// over the motor shaft's angle, by the segments' own series (model.md 7). The gauge exists only if the sheet
-// gives the iron's drag and the bearings' friction separately.
+// Computes the energy lost to the iron's drag, separate from the bearings' friction, in J, from the segments'
+// series (model.md 7). It is the integral of B_iron w^2 over time plus the integral of the dry drag torque
+// over the motor shaft's angle; B_iron is the iron's viscous drag in N m s, w the speed. The gauge exists
+// only if the sheet gives the iron's drag and the bearings' friction separately.
 #pragma once
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/plant/state.hpp"

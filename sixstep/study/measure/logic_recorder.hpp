@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records the logic signals. It only reads the rig, so the run keeps its bits.
+// Records the logic signals. It only reads the rig, so the run's results stay the same to the bit.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/rig/shaft_raw.hpp"
@@ -32,7 +32,7 @@ LogicRow logic_row(const Rig& rig) {
     row[static_cast<std::size_t>(id)] = static_cast<std::uint32_t>(v);
   };
   // The timer's gates. They differ from the plant's gates only where they would short the bus; the recording
-  // must show that.
+  // must show this short circuit.
   const plant::Gates gates = rig.modulator().gates();
   for (std::size_t k = 0; k < 3; ++k) {
     row[2 * k] = gates.high[k] ? 1 : 0;
@@ -66,7 +66,8 @@ LogicRow logic_row(const Rig& rig) {
   return row;
 }
 
-/// If several events share one picosecond, the last one counts: an analyser shows no pulse without length.
+/// If several events share one picosecond, only the signals after the last of them are recorded: a logic
+/// analyser shows no pulse of length 0.
 class LogicRecorder {
  public:
   explicit LogicRecorder(LogicSink sink) : sink_(std::move(sink)) {}

@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// Adds the switchings at a segment's beginning, if it lies within the window.
+/// Adds the switching losses at a segment's beginning, if this instant lies within the window.
 inline void begin_segment(plant::DeviceLosses& losses, const SegmentView& g, const Window& window) {
   const auto& y = g.plant.expansion();
   losses.begin(g.plant.legs(), plant::PerLeg<double>{y.i[0][0], y.i[1][0], y.i[2][0]}, y.bus[0],

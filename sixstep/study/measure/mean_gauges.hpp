@@ -65,7 +65,8 @@ class Rms {
   double integral_ = 0.0, seconds_ = 0.0;
 };
 
-/// Rms about the mean. The mean is unknown before the end, so that intervals are merged.
+/// Rms about the mean. The mean is known only at the end; until then each interval has its own mean, and
+/// intervals are merged.
 class RippleRms {
  public:
   void part(const Series& c, int degree, double, double length) {
@@ -78,8 +79,8 @@ class RippleRms {
   double value(double) const { return std::sqrt(squares_ / seconds_); }
 
  private:
-  /// Merges two intervals into one (Chan, Golub, LeVeque 1983) without a difference of large squares, so that a
-  /// ripple of a millionth of its mean keeps its digits.
+  /// Merges two intervals into one (Chan, Golub, LeVeque 1983) without a difference of large squares, so that
+  /// a ripple of a millionth of its mean keeps its digits.
   void merge(double mean, double squares, double length) {
     const double all = seconds_ + length;
     if (!(all > 0.0)) return;

@@ -16,7 +16,7 @@
 
 namespace sixstep::study {
 
-/// The energy books of both kernels; only those of the running kernel are filled.
+/// The energy books of both kernels; only the book of the kernel in use is filled.
 struct Audits {
   plant::Audit<double> lean;
   plant::general::Audit<double> general;

@@ -57,8 +57,8 @@ struct Trip {
   int hall_line = 0;                 // 1..3: the faulty line; 0: none or undecidable
 };
 
-/// A core that computed the drive in parallel with the host (rig/lockstep_core.hpp). Each of its answers
-/// equalled the host's to the bit, unless there is a fault.
+/// A core that computed the drive in parallel with the host (rig/lockstep_core.hpp). Each output of the core
+/// equalled the host's output to the bit, unless there is a fault.
 struct CoreRun {
   std::string core;         // "Cortex-M4F"
   std::uint64_t calls = 0;  // calls of the core's entry functions
@@ -86,14 +86,16 @@ struct Outcome {
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  // derivation of a sensorless drive's numbers
   std::vector<design::DerivationStep> field_steps;       // derivation of a field-oriented drive's numbers
-  std::vector<design::DerivationStep> estimator_steps;   // derivation of its estimator's numbers
+  std::vector<design::DerivationStep> estimator_steps;   // derivation of a field-oriented drive's angle
+                                                         // estimator
   design::MotorModel motor;
   std::optional<base::Problem> fault;  // fault of the run (shoot-through, impossible Hall code) or of the
                                        // drive
-  std::optional<Trip> trip;            // the same fault in parts, if the drive stopped
-  std::vector<std::string> notes;      // requested events that did not occur, a sentence each
-  std::vector<std::string> remarks;    // explanations that the run gives unasked, a sentence each
-                                       // (run/remarks.hpp)
+  std::optional<Trip> trip;            // time and reasons of this fault, if the drive stopped
+  std::vector<std::string> notes;      // facts of this run, such as a requested event that did not occur; a
+                                       // sentence each
+  std::vector<std::string> remarks;    // facts about the drive that a user may not expect (run/remarks.hpp),
+                                       // a sentence each
   std::optional<CoreRun> core;         // empty: only the host ran
   std::optional<ChipReport> chip;      // empty: no chip
   double simulated_s = 0.0;

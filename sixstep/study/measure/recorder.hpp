@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Observers that write rows: on a grid, or at every event with both sides of each jump. They only read the
-// segments' polynomials, so the run keeps its bits.
+// segments' polynomials, so the run's results stay the same to the bit.
 #pragma once
 #include <functional>
 #include <limits>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// has_run_away() returns whether the state has left all bounds of a motor. No single value in range can cause
-// that, but an excessive torque on a small rotor can. After that the simulation has no meaning.
+// has_run_away() returns whether the state has left all bounds of a motor. No single allowed value can cause
+// this, but a combination can, such as a large torque on a small rotor. The simulation has no meaning
+// afterwards.
 #pragma once
 #include <cmath>
 

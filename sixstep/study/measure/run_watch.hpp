@@ -17,13 +17,14 @@ struct RunWatch {
   double highest_phase_A = 0.0;                      ///< magnitude, of any phase
   double lowest_charge = 1.0, highest_charge = 0.0;  ///< charge of a battery
   std::optional<double> empty_s{}, full_s{};  ///< when the battery was first empty, and when first overfull
-  double winding_degC = 0.0, junction_degC = 0.0;  ///< temperature of the hottest part; only with kernels
-                                                   ///< that warm up
+  double winding_degC = 0.0, junction_degC = 0.0;  ///< highest temperatures so far; only with the general
+                                                   ///< kernel
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
-  std::int64_t samples = 0, hidden_samples = 0;  ///< samples of the shunt
-  bool held_a_commutation = false;  ///< the drive's duty step held the staying phase at least once
-  bool held_other_duty = false;     ///< and its duty or the one before it was below 1
-  double duty_before = 0.0;         ///< the drive's last duty outside of a duty step, magnitude
+  std::int64_t samples = 0, hidden_samples = 0;  ///< all samples of the shunt, and those in which it shows no
+                                                 ///< current
+  bool held_a_commutation = false;               ///< the drive made at least one duty step
+  bool held_other_duty = false;  ///< in a duty step, or immediately before it, the duty was below 1
+  double duty_before = 0.0;      ///< the drive's last duty outside of a duty step, magnitude
   double held_rad_s = 0.0,
          held_A = 0.0;  ///< speed and current reference of the duty step with their largest product
 
@@ -49,8 +50,8 @@ struct RunWatch {
     }
   }
 
-  /// A duty of 1 before and during the duty step is the same command as without it. A fixed-point duty of 1 may be
-  /// some digits less.
+  /// If the duty is 1 before and during a duty step, the step changes nothing. A duty of 1 in fixed point may
+  /// be slightly below 1.
   template <class Rig>
   void look_at_commutation(const Rig& rig, double speed) {
     constexpr double full = 0.999;
@@ -70,7 +71,8 @@ struct RunWatch {
     held_other_duty = duty_before < full || told < full || in_effect < full;
   }
 
-  /// Ignores rounding, and a thousandth of the charge that flows back into a full battery.
+  /// A battery counts as overfull only above 1.001: rounding, and a small charge that flows back into a full
+  /// battery, are ignored.
   template <class Rig>
   void look_at_charge(double charge, const Rig& rig) {
     if (charge < lowest_charge) {

@@ -70,10 +70,11 @@ Series emf_series(const Span& part, int k) {
   return e;
 }
 
-/// Adds the star point's voltage if no leg is connected: u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp).
-/// The highest and the lowest back-EMF change legs only at edges of sectors and pieces, because the shapes
-/// are even about their tops and cross there. If the rotor turns backwards, highest and lowest change places,
-/// which does not change their sum.
+/// Adds the star point's voltage if no leg is connected: u_n = (U_s - e_high - e_low)/2, with the bus voltage
+/// U_s and the highest and the lowest back-EMF (plant/circuit.hpp). Other legs become the highest or the
+/// lowest only at edges of sectors and pieces, because the shapes are symmetric about their tops and cross at
+/// these edges. If the rotor turns backwards, the highest and the lowest leg are exchanged, which does not
+/// change the sum of both back-EMFs.
 void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   const plant::Plant<double>& plant = *part.g.plant.lean;
   const plant::EmfPiece<double>& p = emf_piece(plant);
@@ -90,8 +91,8 @@ void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// The same for the general kernel, whose pole voltages are then the back-EMFs e_k. The highest and the
-/// lowest leg are those in the middle of the part.
+/// Does the same as add_floating_star(), for the general kernel. If no leg is connected, its pole voltages
+/// are the back-EMFs e_k. The highest and the lowest leg are determined in the middle of the part.
 void add_general_floating_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;
@@ -103,7 +104,7 @@ void add_general_floating_star(const Span& part, Series& u) {
   add(u, -0.5, part.of(emf[low]));
 }
 
-/// u_n + e_k for a floating leg (model.md 2).
+/// Terminal voltage u_n + e_k of a floating leg: star point plus back-EMF (model.md 2).
 Series floating_series(const Span& part, int k) {
   const bool free = plant::connected_count(part.g.plant.legs()) == 0;
   Series u{};
@@ -128,7 +129,7 @@ Series floating_series(const Span& part, int k) {
   return u;
 }
 
-/// u_k with the voltage of the leg's device (model.md 2).
+/// Terminal voltage u_k, including the voltage across the leg's conducting device (model.md 2).
 Series pole_series(const Span& part, int k) {
   const plant::View& plant = part.g.plant;
   if (plant::is_floating(plant.legs()[k])) return floating_series(part, k);
@@ -146,7 +147,8 @@ Series line_series(const Span& part, int from_leg, int to_leg) {
   return u;
 }
 
-/// sum_k r_k i_k^2 - offset_k i_k: the part of u_k i_k that the devices dissipate (plant/circuit.hpp).
+/// The power that the devices dissipate: sum over the legs k of r_k i_k^2 - offset_k i_k, with a device's
+/// resistance r_k and voltage -offset_k (plant/circuit.hpp).
 Series device_loss(const Span& part) {
   Series loss{};
   for (int k = 0; k < 3; ++k) {

@@ -5,9 +5,10 @@
 
 namespace sixstep::study {
 
-/// Products of two series of the engine are exact below degree 8. From there on they are taken over half
-/// segments. There the omitted terms are below 2^-53 of the factors' sizes: as in series/quadrature.hpp, term
-/// j is at most M^2 (2 x)^j/j! with 2 x <= 1/2, and (1/2)^17/17! < 2^-65.
+/// Whether products of two series of this degree must be formed over half segments. Products of series up to
+/// degree 8 are exact over the whole segment. For higher degrees, over half segments, the omitted terms are
+/// below 2^-53 of the factors' magnitudes: as in series/quadrature.hpp, term j is at most M^2 (2 x)^j/j! with
+/// 2 x <= 1/2, and (1/2)^17/17! < 2^-65.
 constexpr bool needs_halves(int degree) { return 2 * degree > series::max_degree; }
 
 /// The product over [from, to] of the segment; `signal` must satisfy is_product().

@@ -75,13 +75,13 @@ Series of_general(const SegmentView& g, Series General::*which) {
   return g.plant.general ? g.plant.general->series().*which : Series{};
 }
 
-/// Without a thermal simulation the junction's temperature is the one for which the sheet's numbers apply.
+/// Without a thermal simulation the junction has the temperature at which the sheet's values apply.
 Series junction_temperature(const SegmentView& g) {
   return {g.plant.general ? g.plant.general->heat().hottest_junction_degC() : design::sheet_degC};
 }
 
-/// A parabola through beginning, middle and end suffices, because a segment is short against the bodies' time
-/// constants.
+/// A parabola through beginning, middle and end suffices, because a segment is short compared with the
+/// thermal time constants.
 Series temperature(const SegmentView& g, double plant::BodyTemperatures::*which) {
   if (!g.plant.general) return {design::sheet_degC};
   const auto at = [&](double s) { return g.plant.general->bodies_degC(s).*which; };
@@ -104,7 +104,8 @@ Series load_angle(const SegmentView& g) {
   return angle;
 }
 
-/// The source's current (V_0 - U_s)/R_b; with a stiff bus, the bus current itself.
+/// The source's current: (V_0 - U_s)/R_b, with its open-circuit voltage V_0 and resistance R_b and the bus
+/// voltage U_s. With a stiff bus it equals the bus current.
 Series source_current(const SegmentView& g) {
   const auto& y = g.plant.expansion();
   const bool has_capacitor =
@@ -143,7 +144,8 @@ Extremes phase_bounds(const SegmentView& g) {
   return bounds_of_currents(g, weights);
 }
 
-/// A signal that is constant or a sum of the segment's own series, over the whole segment and with its degree.
+/// A signal that is constant or a sum of the segment's own series, over the whole segment and with its
+/// degree.
 struct PlainSignal {
   Signal signal;
   Series (*series)(const SegmentView&);

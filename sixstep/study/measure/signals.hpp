@@ -14,8 +14,8 @@ namespace sixstep::study {
 
 using Series = series::Coefficients<double>;
 
-/// The data of a segment that figures read. It has one type for all firmwares, so that the figures are compiled
-/// once.
+/// The data of a segment that figures read. It has one type for all firmwares, so that the figures are
+/// compiled once.
 struct SegmentView {
   plant::View plant;
   ModulatorView modulator;
@@ -53,13 +53,13 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
   return w;
 }
 
-/// The duty in effect, negative if its source leg differs from that of the positive pair of the board's
-/// sector. With armed comparators: whether the upper switch is on. With three legs: the largest difference of
-/// two duties.
+/// The duty in effect, negative if its source leg differs from the source leg of the positive pair of the
+/// board's sector. With armed comparators: whether the upper switch is on. With three legs: the largest
+/// difference of two duties.
 double signed_duty(const ModulatorView& modulator, int sector);
 
-/// Whether a signal is not one polynomial of at most max_degree over the whole segment; and the points of
-/// [from, to] at which it must be cut, both ends included.
+/// is_cut(): whether a signal is not one polynomial of degree max_degree or less over the whole segment.
+/// cuts_of(): the points of [from, to] between which the signal is such a polynomial, both ends included.
 bool is_cut(const SegmentView& g, Signal signal);
 std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, double to);
 

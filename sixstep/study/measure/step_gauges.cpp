@@ -20,7 +20,7 @@ double Step::height() const { return std::fabs(level - *start); }
 std::optional<double> Step::crossing(double fraction, const Series& c, int degree, double t0,
                                      double length) const {
   const double target = *start + fraction * (level - *start);
-  Series missing = c;  // difference to the level, positive until it is reached
+  Series missing = c;  // difference to the target, positive until the signal reaches the target
   for (double& v : missing) v *= -sign();
   missing[0] += sign() * target;
   if (missing[0] <= 0.0) return t0;

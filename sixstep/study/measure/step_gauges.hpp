@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures a signal's step from its start to its level: when it arrives, and from when on it stays. A time is
-// infinite if that never happens.
+// Measures the step of a signal from `start` to `level`: when the signal reaches the level, and from when on
+// it stays there. A time is infinite if its event never occurs.
 #pragma once
 #include <optional>
 
@@ -8,7 +8,7 @@
 
 namespace sixstep::study {
 
-/// Rise times are taken between these fractions of the step, as in control textbooks.
+/// Rise times are measured between these fractions of the step, as in control textbooks.
 inline constexpr double rise_from = 0.1, rise_to = 0.9;
 
 /// A step of the reference. Without `start`, it starts at the signal's first value.
@@ -21,11 +21,11 @@ struct Step {
   }
   double height() const;
   double sign() const { return level < start.value_or(0.0) ? -1.0 : 1.0; }
-  /// Time in s at which that fraction of the step is reached; empty if this part of the signal does not reach
+  /// Time in s at which `fraction` of the step is reached; empty if this part of the signal does not reach
   /// it.
   std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
                                  double length) const;
-  /// Whether a value has reached that fraction of the step.
+  /// Whether a value has reached `fraction` of the step.
   bool made(double fraction, double value) const {
     return sign() * (value - *start - fraction * (level - *start)) >= 0.0;
   }
@@ -60,7 +60,7 @@ class SettlingTime {
  public:
   SettlingTime(const Step& step, double band) : step_(step), band_(band) {}
   void part(const Series& c, int degree, double t0, double length);
-  /// The signal counts as settled from the first sample after which all samples lie inside the band.
+  /// The signal counts as settled from the first sample on that lies, as all later samples, inside the band.
   void sample(double t, double value);
   double value(double from_s) const;
 

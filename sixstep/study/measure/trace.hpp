@@ -13,7 +13,8 @@ struct Column {
   std::string unit;   // "A"
   std::string frame;  // "phase, into the motor"
   std::string meaning;
-  double per_turning = 1.0;  // a linear motor's number over the rotary motor's: such as 1000 mm per rad
+  double per_turning = 1.0;  // factor from the rotary motor's unit to the linear motor's, such as 1000 mm per
+                             // rad
 };
 
 struct TimeSpan {
@@ -25,8 +26,8 @@ struct Trace {
   std::vector<Column> columns;
   std::vector<std::vector<double>> values;
   bool every_event = false;  // rows at every event; otherwise on a grid
-  /// Intervals in which all rows are kept, rising; empty: the whole run. Outside of them an envelope replaces
-  /// the rows: each short interval keeps only the rows where a column is lowest or highest.
+  /// Intervals in which all rows are kept, in time order; empty: the whole run. Outside of them an envelope
+  /// replaces the rows: each short interval keeps only the rows where a column is lowest or highest.
   std::vector<TimeSpan> whole{};
   std::size_t left_out = 0;  // number of rows that the envelope replaces
 };

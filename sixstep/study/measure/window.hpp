@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time interval over which a figure is taken.
+// The time interval over which a figure is measured.
 #pragma once
 #include <cmath>
 #include <limits>

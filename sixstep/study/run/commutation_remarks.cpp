@@ -9,7 +9,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Above their limit, 4 E + 3 R I = U, the duty step stays at 1; the overlap acts there too.
+/// The duty step does not act if 4 E + 3 R I is above U: its duty is 1 there. The overlap acts there too.
+/// Symbols of commutation.md: back-EMF E and resistance R of a phase, current I, bus voltage U.
 bool acted(const Scenario& s, const RunWatch& w) {
   return w.held_a_commutation &&
          (w.held_other_duty || s.control.current.commutation == CurrentCommutation::overlap);
@@ -20,8 +21,9 @@ std::string named(const Scenario& s) {
          std::string(base::word(current_commutation_choices, s.control.current.commutation)) + "\"";
 }
 
-/// The part of a phase's back-EMF constant that counts twice while the leaving current falls: on its flat top all of
-/// it, of a sine the mean of top and half.
+/// The factor of E in the voltage U - 2 E - 3 R I/2 that reduces the leaving phase's current
+/// (commutation.md). It is 2 on the flat top of a trapezoid, and 1.5 for a sine: twice the mean of the peak,
+/// 1, and half the peak.
 double emf_share(const design::MotorModel& motor) {
   return motor.machine.back_emf == plant::BackEmf::sine ? 1.5 : 2.0;
 }
@@ -53,7 +55,8 @@ std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
          "it stays in effect for up to one period after the commutation has ended";
 }
 
-/// The ripple of the current makes the overlap lower the torque from slightly below that speed.
+/// Margin of longest_overlap_rad_s(): because of the current's ripple, an overlap lowers the torque from 0.98
+/// of the computed speed on.
 constexpr double near_it = 0.98;
 
 double longest_overlap_rad_s(const design::MotorModel& motor, double current_A, double bus_V) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds a duty step or an overlap (control/commutation_step.hpp) that never acts, or acts with an unsuitable pattern.
+// Finds a duty step or an overlap (control/commutation_step.hpp) that never acts, or acts with an unsuitable
+// pattern.
 #pragma once
 #include <string>
 
@@ -9,16 +10,16 @@
 
 namespace sixstep::study {
 
-/// Returns a sentence if the duty step never acted, and a cure: the drive omits a step that would come too late, or
-/// the duty is 1 with it and without it.
+/// Returns a sentence with a cure if the duty step never acted: the drive omitted each step because it would
+/// come too late, or the duty was 1 with and without the step.
 std::string on_idle_duty_step(const Scenario& scenario, const RunWatch& watch);
 /// A sentence if the duty step acted with a chopping pattern that chops the staying leg at some edges.
 std::string on_chopped_staying_leg(const Scenario& scenario, const RunWatch& watch);
 
-/// The speed, rad/s, above which an overlap at this current and bus lasts longer than a sector, less 3 % for a current
-/// above its reference. Negative: at no speed does it end within one.
+/// The speed, rad/s, above which an overlap at this current and bus voltage lasts longer than a sector, less
+/// 2 % for the current's ripple. Negative: the overlap lasts longer than a sector at every speed.
 double longest_overlap_rad_s(const design::MotorModel& motor, double current_A, double bus_V);
-/// A sentence if an overlap of the run was longer than a sector: it lowers the torque then.
+/// A sentence if an overlap of the run was longer than a sector: such an overlap lowers the torque.
 std::string on_long_overlap(const Scenario& scenario, const design::MotorModel& motor, double bus_V,
                             const RunWatch& watch);
 

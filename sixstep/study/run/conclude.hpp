@@ -11,8 +11,8 @@ namespace sixstep::study {
 /// The outcome before the run: motor, gains and their derivation.
 Outcome outcome_of(const Compiled& compiled);
 
-/// Adds the observers' results after the run's end: energy, laws, losses of the switches, remarks. Figures are
-/// judged separately.
+/// Adds the observers' results after the run's end: energies, residuals of the laws that audit.hpp checks,
+/// losses of the switches, remarks. Figures are judged separately.
 void conclude(const Scenario& scenario, const Compiled& compiled, const Observers& watchers,
               Outcome& outcome);
 

@@ -25,7 +25,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// The comparators on the board switch at once, so that the drive needs no converter for the currents.
+/// Whether comparators on the board limit the current, so that the drive needs no converter for the currents.
 bool by_comparators(const Scenario& s) {
   const CurrentLoop& loop = s.control.current;
   return loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
@@ -65,8 +65,8 @@ bool reads_rotor(const Scenario& s) {
   return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
 }
 
-/// Keys that belong to the replaced sensor: keys with problems that appear only without this sensor. Empty if
-/// there are none.
+/// The keys that belong to the sensor of `s`: the check of `without`, which has no such sensor, reports them
+/// as new problems. Empty if there are none.
 std::string of_this_sensor(const Scenario& s, const Scenario& without) {
   const auto found = [](const Scenario& x) {
     base::Problems all = check_columns(x);
@@ -130,7 +130,8 @@ void look_at_design(const Scenario& s, base::Problems& out) {
                    "change the design until it is usable, or delete the line if it no longer applies"});
 }
 
-/// A sample in the middle of a period is answered at the next period's start. This is a delay already.
+/// The output computed from a sample in the middle of a period takes effect at the next period's start. This
+/// delay of half a period is realistic without delay_periods.
 void look_at_delay(const Scenario& s, base::Problems& out) {
   const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
   if (samples && !by_comparators(s) && s.pwm.delay_periods == 0 && s.pwm.sample == SampleAt::start)
@@ -139,7 +140,8 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
                    "set delay_periods = 1, or sample = \"middle\""});
 }
 
-/// The time in which a gate driver moves a MOSFET's charges: the current's fall and the voltage's rise. 0: not given.
+/// Turn-off time of a MOSFET, s: the gate driver removes the gate charge while the voltage rises and the
+/// current falls. 0: not given.
 double turn_off_s(const Bridge& b) {
   return b.gate_current_A > 0 ? (b.gate_source_charge_C + b.gate_drain_charge_C) / b.gate_current_A : 0.0;
 }
@@ -147,7 +149,7 @@ double turn_off_s(const Bridge& b) {
 /// Applies to every drive: when the torque reverses, a leg changes from one switch to the other, with every
 /// kind of chopping.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
-  constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off faster
+  constexpr double shortest_s = 20e-9;  // two clock periods of a fast timer; no switch turns off faster
   if (s.control.mode == Mode::off) return;
   const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm), own_s = turn_off_s(s.bridge);
   const auto refuse = [&](const std::string& limit) {
@@ -166,8 +168,7 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
                               : "is over before any switch is off: less than 20e-9");
 }
 
-/// Notes that a chip keeps its configured constants, and the bridge its dead time, while the scenario changes
-/// them.
+/// Refuses events that change the drive's constants or the dead time: a chip keeps the exported constants.
 void look_at_changes(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const auto changes = [&](const char* what) {
@@ -187,7 +188,7 @@ std::string required(const Verdict& v) {
   return v.max ? "<= " + written(*v.max) + unit : "";
 }
 
-/// The measured value with as many digits as distinguish it from the missed limit.
+/// The measured value with enough digits to differ from the missed limit.
 std::string measured(const Verdict& v) {
   std::string text;
   for (int digits = 5; digits <= 17; ++digits) {

@@ -15,10 +15,10 @@ namespace sixstep::study {
 /// Finds the effects that a run of this scenario omits, each with a cure. Sensors that the drive does not
 /// read may stay ideal. The effects are:
 /// - ideal sensors that the drive reads,
-/// - an answer without delay,
+/// - a drive whose output takes effect at the sample instant, without delay,
 /// - a stall that is never detected,
 /// - a missing dead time,
-/// - constants that change during the run,
+/// - constants of the drive that an event changes during the run,
 /// - a run without requirements.
 base::Problems never_measured(const Scenario& scenario);
 

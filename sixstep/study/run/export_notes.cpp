@@ -37,7 +37,7 @@ std::string withstood(const design::WithstandTimes& times, double ambient_degC) 
          (times.differ() ? ", and by the worse ends of their ranges " + duration(times.by_worse_ends) : "");
 }
 
-/// The first reason why the drive does not hold on such a supply.
+/// The first reason why the drive fails with a supply that cannot take current back.
 std::string first_of(const base::Problems& found) {
   const base::Problem& p = found.front();
   return p.where + (p.value.empty() ? " " : " = " + p.value + " ") + p.limit;

@@ -19,7 +19,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// An over-speed threshold above this multiple of the no-load speed protects nothing: no usual load drives a
+/// An over-speed threshold above this multiple of the no-load speed does not protect: no usual load drives a
 /// rotor that fast.
 constexpr double beyond_no_load = 2.0;
 
@@ -58,7 +58,7 @@ namespace {
 
 void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems& out) {
   const Protection& p = s.protection;
-  // The reading of a current at the limit has an error of one count and a little noise.
+  // A current at the limit may be read lower by two counts of the converter and by 2 % for ripple and noise.
   const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
   const double surely_A = 0.98 * most.ampere - 2 * count_A;
   if (!p.stall_current_A || *p.stall_current_A <= surely_A) return;

@@ -21,14 +21,19 @@ struct MostCurrent {
 /// The largest requested current. Empty if nothing requests or limits a current.
 std::optional<MostCurrent> most_current(const Scenario& scenario, const design::MotorModel& motor);
 
-/// How long the winding withstands that current in two phases, as in block commutation and at a blocked rotor.
+/// How long the winding withstands the current `most` in two phases, as in six-step operation and at a
+/// blocked rotor.
 base::Result<design::WithstandTimes> withstand_times_of(const Scenario& scenario,
                                                         const design::MotorModel& motor,
                                                         const MostCurrent& most);
 
-/// Finds a stall threshold above the drive's largest requested current, a stall time longer than the winding
-/// withstands that current by the worse ends of the motor file's thermal ranges,
-/// an accepted offset of the current converter that hides an over-current, and an over-speed that neither bus nor motor approaches.
+/// Finds thresholds that do not protect:
+/// - an over-current threshold at or below the drive's largest requested current,
+/// - a stall threshold above this current,
+/// - a stall time longer than the winding withstands this current, by the worse ends of the motor file's
+///   thermal ranges,
+/// - an accepted offset of the current converter that hides an over-current,
+/// - an over-speed threshold that neither bus nor motor reaches.
 void look_at_protection(const Scenario& scenario, const design::MotorModel& motor, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -37,8 +37,7 @@ double allowed_bus_V(const Scenario& s) {
   return allowed;
 }
 
-/// Longest braking time from no-load speed, s, with a margin of one half for a torque that drives the rotor
-/// on.
+/// Longest braking time from no-load speed, s. The factor 1.5 allows for a load torque that drives the rotor.
 double braking_s(const Scenario& s, const design::MotorModel& motor) {
   constexpr double shortest = 20e-3, longest = 2.0;
   const double w = s.supply.voltage_V / motor.K_t_Nm_A, J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
@@ -61,7 +60,8 @@ std::string reasons_of(const Trip& trip) {
   return reasons;
 }
 
-/// The highest bus voltage until the currents of a trip have ended: braking, or the windings' energy, made it.
+/// The highest bus voltage, V, until the phase currents have ended after a trip. Until then braking or the
+/// windings' energy raises the bus, later only a load that drives the rotor.
 double bus_until_the_trip_V(const Scenario& scenario, const Trip& trip, const Listeners& listeners) {
   constexpr double currents_end_s = 10e-3;
   Scenario s = scenario;

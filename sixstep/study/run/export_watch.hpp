@@ -17,20 +17,21 @@ struct SeenPeaks {
   std::optional<Trip> trip{};  ///< the fault at which a product drive turned its bridge off
 };
 
-/// The scenario with the measures that take_peaks() reads, behind its own [[compare]] entries.
+/// The scenario with the measures that take_peaks() reads, appended to its [[compare]] entries.
 Scenario watching_peaks(const Scenario& scenario);
-/// Removes these measures from the outcome, which is then that of `scenario` itself, and returns their
-/// values.
+/// Removes the measures of watching_peaks() from the outcome and returns their values. The outcome is then
+/// the outcome of a run of `scenario`.
 SeenPeaks take_peaks(const Scenario& scenario, Outcome& outcome);
 
 /// Refuses a current above the converter's range, because such a current is neither measured nor limited.
 void look_at_current_range(const Scenario& scenario, const SeenPeaks& peaks, base::Problems& out);
-/// Refuses a bus above its converter's range if the drive reads it, and a bus that braking, or a load after a
-/// trip, raises without a bound.
+/// Refuses two kinds of bus voltage: above the converter's range, if the drive reads it (is_read); and raised
+/// without a bound, by braking or by a load after a trip.
 void look_at_bus(const Scenario& scenario, const SeenPeaks& peaks, bool is_read, const Listeners& listeners,
                  base::Problems& out);
-/// A product drive that brakes when its run request ends does so at its first test. Therefore it is stopped
-/// here at its highest setpoint, unless the scenario has a stop of its own.
+/// Refuses a stop that ends in a fault. A product drive that brakes when its run request ends does so in the
+/// first test on a bench. Therefore a second run stops it at its highest setpoint, unless the scenario
+/// contains a stop.
 void look_at_stop(const Scenario& scenario, const design::MotorModel& motor, const Listeners& listeners,
                   base::Problems& out);
 

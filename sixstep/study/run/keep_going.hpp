@@ -4,7 +4,7 @@
 
 namespace sixstep::study {
 
-/// Converts a listener's question to the form of Listeners::keep_going.
+/// Converts a callback without parameter to the form of Listeners::keep_going.
 inline std::function<bool(double)> listening(const std::function<bool()>& keep_going) {
   if (!keep_going) return {};
   return [keep_going](double) { return keep_going(); };

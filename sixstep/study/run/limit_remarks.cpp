@@ -29,10 +29,11 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
   return {};
 }
 
-/// A period of 5 us: comparator, gate driver and dead time take 0.5 us or more of each of its halves.
+/// Chopping frequency above which a remark follows. Of each half period, 2.5 us, comparator, gate driver and
+/// dead time take 0.5 us or more.
 constexpr double fast_chopping_Hz = 200e3;
 
-/// A rotor may exceed its printed speed by a thousandth without a remark.
+/// A speed or a current may exceed its limit by a thousandth without a remark.
 constexpr double past = 1.001;
 
 std::string on_fastest(const Scenario& s, const RunWatch& w) {
@@ -81,8 +82,8 @@ std::string on_cold_winding(const Scenario& s, const Outcome& out) {
          " s; here nothing warms up: heat.motor = true computes it";
 }
 
-/// Comparators at the instants of the currents switch as fast as the band lets them. Their frequency is proportional to
-/// 1/band_A.
+/// Comparators with `comparator = "event"` chop at a frequency proportional to 1/band_A, independent of
+/// pwm.period_s.
 std::string on_chopping(const Scenario& s, const Outcome& out) {
   const CurrentLoop& loop = s.control.current;
   if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event ||

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds limits that a run exceeded and that the model does not enforce: a battery's charge, a rotor's maximum
-// speed, a raised bus, the winding's temperature in a run without temperatures, a current.
+// speed, a raised bus voltage, the winding's temperature in a run without temperatures, the chopping
+// frequency of comparators, a current.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,8 +20,8 @@ std::string few_digits(double x);
 std::vector<std::string> passed_limits(const Scenario& scenario, const RunWatch& watch,
                                        const Outcome& outcome);
 
-/// Compares the highest phase current with the limit that a user's controller was given (0: none), and with the
-/// converters' range.
+/// Compares the highest phase current with the limit that a user's controller was given (0: none), and with
+/// the converters' range.
 std::vector<std::string> passed_currents(const Scenario& scenario, double given_limit_A,
                                          const RunWatch& watch);
 

@@ -10,7 +10,7 @@
 namespace sixstep::study {
 namespace {
 
-/// Periods from a sample to the beginning of its answer.
+/// Control periods from a sample to the instant at which the output computed from it takes effect.
 double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }

@@ -11,7 +11,7 @@
 namespace sixstep::study {
 
 /// The problem of a PI current loop that is unstable on the motor's R and L, with the scenario's sampling and
-/// delay. Empty for a stable loop, and for loops that are no current PI.
+/// delay. Empty for a stable loop, and for a loop that is not a PI current loop.
 std::optional<base::Problem> unstable_current_loop(const Scenario& scenario, const design::MotorModel& motor,
                                                    const LoopGains& gains);
 

@@ -38,7 +38,7 @@ std::string speed(const Scenario& s, double rad_s) {
 std::string ms(double t_s) { return few_digits(1e3 * t_s) + " ms"; }
 std::string us(double t_s) { return few_digits(1e6 * t_s) + " us"; }
 
-/// Compares a default bus voltage with the voltage for which the motor is made.
+/// Compares a bus voltage that equals its default with the motor's nominal voltage.
 std::string on_supply(const Scenario& s) {
   const auto& nominal = s.sheet.nominal_voltage_V;
   const double usual_V = Supply{}.voltage_V;
@@ -49,8 +49,8 @@ std::string on_supply(const Scenario& s) {
          " V, equal to its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
 }
 
-/// Finds values of the reference after the run's end. The first of them may still be in use: it ends the line
-/// that the run's last instant lies on.
+/// Finds values of the reference after the run's end. With linear interpolation the first of these values is
+/// still used: the run's last instant lies on the line to it.
 std::string on_late_values(const Scenario& s) {
   const Reference& r = s.reference;
   if (r.shape != Shape::csv || s.control.mode == control::Mode::off) return {};  // check() refuses late steps
@@ -68,8 +68,8 @@ double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
 }
 
-/// Finds a shunt amplifier that is too slow: with one pole, it has reached 1 - exp(-2 pi f t) of the current
-/// at the end of the shortest measured pulse.
+/// Finds a shunt amplifier that is too slow. With one pole at current_bandwidth_Hz, f, it has reached 1 -
+/// exp(-2 pi f t) of the current after t = shunt_settle_s, the end of the shortest measured pulse.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
@@ -84,8 +84,8 @@ std::string on_shunt_amplifier(const Scenario& s) {
 }
 
 /// Finds samples that the drive takes before the shunt shows the current. The drive computes the least duty
-/// from shunt_settle_s and the dead time only. For duties between this computed limit and the real one it
-/// reads 0 A.
+/// from shunt_settle_s and the dead time only. For duties between this computed least duty and the real least
+/// duty the drive reads 0 A.
 std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const double taken_duty = least_visible_duty(s);
   if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};
@@ -144,8 +144,8 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
          base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
 }
 
-/// A negative gain results if the poles are slower than the plant's own: the loop must then slow the plant
-/// down.
+/// Pole placement results in a negative gain if the requested poles are slower than the plant's pole: the
+/// loop must then slow the plant down.
 std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
   return "the " + g.loop + " loop's gain on its error is negative, d1 = " + few_digits(g.d1) +
@@ -223,7 +223,7 @@ void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
     if (!(stalled && p.where == "protection.stall_current_A")) out.remarks.push_back(to_string(p));
 }
 
-/// A constant load torque does not end with a trip of the drive, and drives the coasting rotor on.
+/// After a trip of the drive, a constant load torque still acts and turns the coasting rotor.
 std::string on_load_after_trip(const Scenario& s, const Outcome& out) {
   if (!out.trip || s.load.locked || s.load.torque_Nm == 0.0) return {};
   return "after the trip load.torque_Nm = " + base::six_digits(s.load.torque_Nm) +
@@ -240,8 +240,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
   add(sheet_contradiction(s));
   add(on_supply(s));
-  // A product drive is made for a real bridge. Scenarios with other drives are studies, whose limits the
-  // design bounds.
+  // Only a product drive is made for a real bridge. Scenarios with other drives are studies.
   if (s.control.drive == FirmwareKind::product) add(limit_above_nominal(s, c.motor));
   on_protection(s, c, out);
   add(on_load_after_trip(s, out));

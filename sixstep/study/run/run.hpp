@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// run() compiles a scenario to a timeline and a rig, runs it and takes the figures of merit.
+// run() compiles a scenario to a timeline and a rig, runs it and computes the figures of merit.
 #pragma once
 #include <functional>
 #include <span>
@@ -20,25 +20,27 @@ using Row = std::span<const double>;
 /// Callbacks of a run. Each may be empty. None of them changes the run's result by a bit.
 struct Listeners {
   std::function<void(Row)> on_record{};  ///< rows of [record]; columns of record_columns(scenario)
-  std::function<void(Row)> on_event{};   ///< a row on both sides of each event's jump; columns of
-                                         ///< all_columns()
+  std::function<void(Row)> on_event{};   ///< a row immediately before and a row immediately after each event;
+                                         ///< columns of all_columns()
   LogicSink on_logic{};                  ///< gates, Hall lines, timer and others, as in logic_signals()
   std::function<bool(double t_s)> keep_going{};  ///< called from time to time; false ends the run early
-  bool keep_books = true;  ///< keeps energy books and standing laws, which costs about a third more run time
+  bool keep_books = true;  ///< computes energies and checks the plant's laws (audit.hpp); adds about a third
+                           ///< to the run time
 };
 
 /// A core in an emulator, in one of two roles. on_core.hpp checks which scenarios it can run.
-/// - It computes the drive in parallel with the host, and each answer must equal the host's.
-/// - It is a chip that runs its own firmware instead of the drive.
+/// - The core computes the drive in parallel with the host, and each output must equal the host's output.
+/// - The core is a chip that runs its own firmware instead of the drive.
 struct OnCore {
   rig::CorePort beside{};
   rig::ChipPort instead{};
-  /// Largest setpoint, at the ends of the potentiometer, in the mode's unit; 0: the run's own range.
+  /// Setpoint at the ends of the potentiometer, in the mode's unit; 0: a little more than the run's largest
+  /// setpoint.
   double setpoint_range = 0.0;
 };
 
-/// Runs the scenario. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
-/// outcome; Problems: the run could not start.
+/// Runs the scenario. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of
+/// the outcome; Problems: the run could not start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {}, const OnCore& core = {});
 
 /// Whether Listeners::keep_going ended the run early. A run that a fault stopped is not cut short.

@@ -28,7 +28,8 @@ struct AtHallBreak {
 
 /// rig::WireOrder; `same` leaves the order as it is.
 enum class AtOrder : std::uint8_t { same, abc, bca, cab, acb, cba, bac };
-/// rig's HallLines, each value one higher, because 0 is `same`: the lines stay as they were.
+/// The values of study::HallLines, each one higher, because 0 is `same`: the inverted lines stay as they
+/// were.
 enum class AtHallLines : std::uint8_t {
   same,
   none,
@@ -41,7 +42,7 @@ enum class AtHallLines : std::uint8_t {
   all
 };
 
-/// Level of an encoder's line or track: stuck low, stuck high, or `whole`: the encoder's own level again.
+/// Level of an encoder's line or track: stuck low, stuck high, or `whole`: no longer stuck.
 enum class EncoderLevel : std::uint8_t { low, high, whole };
 
 /// The level of an absolute encoder's track from the event on. Track 1 is the finest.
@@ -50,7 +51,7 @@ struct AtTrack {
   EncoderLevel level = EncoderLevel::low;
 };
 
-/// A line of an incremental encoder; the numbers are those of rig::ShaftPorts.
+/// A line of an incremental encoder; rig::ShaftPorts numbers the lines in the same way.
 enum class EncoderLine : std::uint8_t { A = 1, B = 2, Z = 3 };
 struct AtEncoderLine {
   EncoderLine line = EncoderLine::A;
@@ -80,8 +81,8 @@ struct AtSensors {
 /// Request to the product drive.
 enum class DriveRequest : std::uint8_t { none, off, on, clear };
 
-/// A PI's gains, in any of the forms of CurrentLoop. New gains replace the earlier gains, also if those were
-/// given in another form.
+/// A PI's gains, in any form that CurrentLoop allows. New gains replace all earlier gains, even if the
+/// earlier gains have another form.
 struct AtGains {
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;

@@ -36,7 +36,8 @@ void take(T& member, const std::optional<double>& given) {
   if (given) member = *given;
 }
 
-/// If only settle_s or only damping is given, the other one stays as it was. Given gains replace both.
+/// If only settle_s or only damping is given, the other value stays as it was. Explicit gains (d1, d0, kp,
+/// ki, ki_per_s) replace both.
 template <class Loop>
 void take_gains(Loop& loop, const AtGains& given) {
   if (given == AtGains{}) return;

@@ -13,10 +13,11 @@ inline bool retunes(const At& at) { return at.control != AtControl{} || at.pwm !
 /// The events in time order. Two events at one instant keep their order in the file.
 std::vector<const At*> in_order(const Scenario& scenario);
 
-/// The time of an event, s. An event that changes the mode waits for the control sample at or after its time_s,
-/// so that mode and reference change together.
+/// The time of an event, s. An event that changes the mode waits for the control sample at or after its
+/// time_s, so that mode and reference change together.
 double happens_at_s(const Scenario& scenario, const At& at);
-/// The control sample at or after an instant, from which the chip uses another configuration.
+/// The first control sample at or after `ticks`. The chip uses the configuration of an event at `ticks` from
+/// this sample on.
 std::int64_t sample_from_ticks(const Pwm& pwm, std::int64_t ticks);
 
 /// The mode after each event of scenario.at.
@@ -25,9 +26,9 @@ std::vector<control::Mode> modes_from(const Scenario& scenario);
 bool comes_into(const Scenario& scenario, control::Mode mode);
 bool changes_mode(const Scenario& scenario);
 
-/// The scenario as if the chip had its configuration after `event` (nullptr: before all events) from the start:
-/// with the changes of control, PWM and dead time up to `event`, without later ones, and with the references of
-/// its own mode only.
+/// A scenario in which the configuration that the chip has after `event` (nullptr: before all events) applies
+/// from the start. It includes the changes of control, PWM and dead time up to `event` and no later change of
+/// these. A reference of another mode is replaced by 0.
 Scenario settled(const Scenario& scenario, const At* event);
 
 }  // namespace sixstep::study

@@ -12,16 +12,17 @@
 namespace sixstep::study {
 
 enum class CurrentLoopType : std::uint8_t { pi, hysteresis, deadbeat };
-/// The current that a loop controls: the mean (i_p - i_n)/2 of the driven pair, or the current of the staying
-/// phase, which the last commutation left connected.
+/// The current that the loop controls: the mean (i_p - i_n)/2 of the driven pair, or the current of the
+/// staying phase. The staying phase belongs to the pair before the last commutation and to the pair after it.
 enum class CurrentFeedback : std::uint8_t { mean, staying_phase };
-/// The duty during a commutation: the loop's, or a duty that holds the staying phase's current.
+/// The duty during a commutation: the loop's duty (plain), or a duty that keeps the staying phase's current
+/// constant (duty_step; overlap also drives the leaving phase's leg if duty 1 is too small).
 enum class CurrentCommutation : std::uint8_t { plain, duty_step, overlap };
 enum class HysteresisOn : std::uint8_t { motor, phase };
 enum class Comparator : std::uint8_t { event, sampled };
 
-/// Gains of a discrete PI: given as d1, d0, as kp with ki (per sample) or ki_per_s (per second), or designed by
-/// pole placement from settle_s, damping.
+/// The current loop. A PI's gains are given as d1 and d0, or as kp with ki (per sample) or ki_per_s (per
+/// second), or they are designed by pole placement from settle_s and damping.
 struct CurrentLoop {
   CurrentLoopType type = CurrentLoopType::pi;
   std::optional<double> settle_s, damping;
@@ -39,7 +40,7 @@ struct CurrentLoop {
                                               // u/nominal bus
 };
 
-/// Whether a loop's keys set or design a PI's gains.
+/// Whether the loop gives any key from which a PI's gains follow.
 template <class Loop>
 bool gives_gains(const Loop& loop) {
   return loop.d1 || loop.d0 || loop.kp || loop.ki || loop.ki_per_s || loop.settle_s || loop.damping;
@@ -47,7 +48,8 @@ bool gives_gains(const Loop& loop) {
 
 enum class SpeedOutput : std::uint8_t { current, duty };
 
-/// The form of the speed loop's PI: pi.hpp, or pi_positional.hpp with derivative.hpp.
+/// The form of the speed loop's PI: incremental (pi.hpp), or positional (pi_positional.hpp with
+/// derivative.hpp).
 enum class SpeedForm : std::uint8_t { incremental, positional };
 
 /// The law that computes a torque from a speed error (design/loops/speed_laws.hpp).
@@ -67,8 +69,8 @@ struct SpeedLoop {
   std::optional<double> observer_ratio;
 };
 
-/// The profile of the position loop's setpoint (control/profiled_position.hpp). Values that are not given
-/// follow from what the drive can do.
+/// The profile of the position loop's setpoint (control/profiled_position.hpp). Values that are not given are
+/// computed from the drive's torque and speed limits (compile/position_profile.cpp).
 struct PositionProfile {
   bool on = false;  // false: the setpoint goes to the loop unshaped
   std::optional<double> speed_rad_s, acceleration_rad_s2;
@@ -86,7 +88,8 @@ struct PositionLoop {
 /// Number format of the controller; fixed-point formats are named by their fraction bits.
 enum class Arithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
 
-/// Fixed point: the largest value of each quantity; if not given, it follows from the drive's needs.
+/// Fixed point: the largest value that each quantity can have. The default is computed by operating_range()
+/// (compile/arithmetic.hpp).
 struct FullScale {
   std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
 };

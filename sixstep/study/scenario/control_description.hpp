@@ -15,8 +15,8 @@ using base::above;
 using base::between;
 using base::from;
 
-/// Meanings of a PI's gains, the same in every loop. Units: V/A in a current loop, full output per rad/s in a
-/// speed loop.
+/// Meanings of a PI's gains. They differ between the loops in the unit only: V/A in a current loop, full
+/// output per rad/s in a speed loop.
 struct GainMeanings {
   std::string_view d1, d0, kp, ki, ki_per_s;
 };

@@ -5,7 +5,8 @@
 
 namespace sixstep::study {
 
-/// Random numbers are drawn for converters' noise, Hall glitches and a series' drives.
+/// True if the run draws no random numbers. A run draws them for the converters' noise, for Hall glitches,
+/// and for the drives of a series.
 inline bool draws_nothing(const Scenario& s) {
   const Sensors& x = s.sensors;
   return x.currents == rig::CurrentMeasurement::ideal && x.bus == BusSensing::ideal &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps control.arithmetic to the controller's number type; this is the only switch over them.
+// Maps control.arithmetic to the controller's number type; this is the only switch over the arithmetics.
 #pragma once
 #include <utility>
 
@@ -8,8 +8,8 @@
 
 namespace sixstep::study {
 
-/// Calls `visit` with the type as its template argument: `in_arithmetic(a, [&]<class Scalar>() { ... })`. All
-/// calls must return one type.
+/// Calls `visit` with the number type as its template argument. `visit` must return the same type for every
+/// number type. Example: `in_arithmetic(a, [&]<class Scalar>() { ... })`.
 template <class Visit>
 auto in_arithmetic(Arithmetic arithmetic, Visit&& visit) {
   switch (arithmetic) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A figure of merit in a scenario: which metric, of which signal, over which window. docs/reference/figures.md
-// defines each by its formula.
+// A figure of merit in a scenario: which metric, of which signal, over which window.
+// docs/reference/figures.md defines each metric by its formula.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -77,10 +77,12 @@ struct Measure {
   Signal signal = Signal::current;
   std::optional<double> from_s, to_s;  // window; default: whole run
   std::optional<double> level;         // metrics of a step: the value to reach
-  std::optional<double> start;  // initial value of the step; default: the signal's, or the level before
+  std::optional<double> start;  // initial value of the step. Default, with `level`: the signal's first value
+                                // in the window; else: the level before the step
   double fraction = 0.98;       // reach_time: fraction of the step from start to level
   double band = 0.02;           // settling_time: half width of the band, as a fraction of the step
-  std::optional<double> tail;   // steady_error, largest_error: fraction of each level, at its end
+  std::optional<double> tail;   // steady_error, largest_error: evaluated part at the end of each level, as a
+                                // fraction of the level's duration
   std::optional<double> frequency_Hz;  // thd: frequency of the fundamental; default: the electrical frequency
   bool sampled = false;                // use only the controller's samples
   std::string label;                   // shown instead of metric and signal

@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// Unit of a figure: its own, or that of the signal it is taken of.
+/// Unit of a figure: the metric's unit; if the metric has none, the signal's unit.
 constexpr std::string_view figure_unit(const Measure& m) {
   const std::string_view own = fact_of(m.metric).unit;
   return own.empty() ? unit_of(m.signal) : own;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp says what each key
-// means.
+// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp says what each
+// key means.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// A number of the controller that replaces its preset.
+/// A value that replaces the preset of one of the controller's numbers.
 struct OwnNumber {
   std::string name;
   double value = 0.0;

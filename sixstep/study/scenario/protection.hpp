@@ -6,7 +6,8 @@
 
 namespace sixstep::study {
 
-/// Alignment before the run: a fixed pair pulls the rotor, to prove that phases and probes are wired as given.
+/// Alignment before the run: the current through a fixed pair turns the rotor to a known angle, to prove that
+/// phases and probes are wired as given.
 struct Align {
   std::optional<double> current_A;  // not given: no alignment
   double longest_s = 0.5;
@@ -23,7 +24,7 @@ struct Protection {
   double brake_current_A = 0.0;
   std::optional<double> short_below_rad_s;
   double standing_rad_s = 0.0;
-  std::optional<double> off_at_s;  // when the run request ends
+  std::optional<double> off_at_s;  // time at which the request to run ends
 };
 
 }  // namespace sixstep::study

@@ -23,12 +23,13 @@ struct Reference {
   double begin_s = 0.0;                  // ramp, trapezoid: the value is `start` until begin_s
   std::optional<double> start{};         // default: the preceding reference's value; 0 at the run's start
   double end = 0.0;                      // ramp, trapezoid: final value
-  std::optional<double> end_s{};         // ramp: when it arrives
+  std::optional<double> end_s{};         // ramp: time at which it reaches `end`
   std::optional<double> slope{};         // ramp, instead of end_s; trapezoid: largest rate
   std::optional<double> acceleration{};  // trapezoid: largest change of the rate
   double offset = 0.0, amplitude = 0.0;  // shape sine
   double frequency_Hz = 0.0, phase_deg = 0.0;  // shape sine
-  std::string file{};                          // csv: text reads it into times_s and values
+  std::string file{};                          // csv: text/scenario/reference_file.cpp reads it into times_s
+                                               // and values
   std::optional<std::string> column{};  // csv: heading of the values; without it the table has two columns
   Interpolation interpolation = Interpolation::linear;  // shape csv
   std::optional<std::string> unit{};                    // if given, it must be the mode's unit

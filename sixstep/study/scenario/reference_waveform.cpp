@@ -11,8 +11,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Adds a reference's intervals. Its times count from from_s; `before` is the value of the preceding
-/// reference there.
+/// Adds the intervals of one reference to `out`. The reference's times count from from_s. `before` is the
+/// value of the preceding reference at from_s.
 class StretchWriter {
  public:
   StretchWriter(const Reference& r, double from_s, double until_s, double before, std::vector<Stretch>& out)
@@ -53,7 +53,7 @@ class StretchWriter {
     for (std::size_t n = 0; n < r_.times_s.size(); ++n) put(r_.times_s[n], r_.values[n]);
   }
 
-  /// The edges are counted, not summed: half period n begins at n T/2, rounded once.
+  /// Half period n begins at n T/2, rounded once. A sum of half periods would be rounded at every edge.
   void square() {
     const double half_s = r_.period_s / 2;
     for (int n = 0; n == 0 || from_s_ + n * half_s < until_s_; ++n)
@@ -163,8 +163,8 @@ std::optional<double> reference_rests_from_s(const Scenario& s) {
   const Reference* last = &s.reference;
   for (const At* at : in_order(s))
     if (at->reference) last = &*at->reference;
-  // A square wave keeps the run's duration: it only repeats its levels, and the duration longest_s would give
-  // too many of them.
+  // For a square wave the run's duration stays: the wave only repeats its two levels, and over longest_s it
+  // would have too many intervals.
   if (last->shape != Shape::square) longer.duration_s = longest_s;
   const std::vector<Stretch> stretches = reference_waveform(longer);
   if (stretches.back().waveform.moves()) return std::nullopt;

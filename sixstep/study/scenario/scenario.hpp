@@ -19,8 +19,8 @@
 
 namespace sixstep::study {
 
-/// How the source's open-circuit voltage behaves; except with `steady`, voltage_V is only the nominal bus
-/// voltage.
+/// Kind of the source, which determines its open-circuit voltage. For `steady` it is voltage_V; for the
+/// others voltage_V is only the nominal bus voltage.
 enum class SourceKind : std::uint8_t { steady, battery, single_phase, three_phase };
 
 struct Supply {
@@ -113,7 +113,7 @@ struct Comparison {
 
 enum class Distribution : std::uint8_t { uniform, normal };
 
-/// Variation of one number of motor, supply, bridge, load or start within a series of drives.
+/// Variation of one number of motor, supply, bridge, load, start or Hall edges within a series of drives.
 struct Spread {
   std::string key;  // as written in the scenario: "motor_override.resistance_ohm", "supply.voltage_V"
   Distribution distribution = Distribution::uniform;
@@ -124,7 +124,7 @@ struct Spread {
   std::string source;
 };
 
-/// The values on which a controller is designed.
+/// The values for which a controller is designed.
 struct Nominal {
   design::Sheet sheet;
   Supply supply;
@@ -154,9 +154,10 @@ struct Scenario {
   Record record;
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
-  std::vector<Spread> spread;           // over a batch of runs; a single run is the nominal one
-  std::optional<Nominal> designed_for;  // design basis; not given: motor, supply, load as here (set by
-                                        // study::varied)
+  std::vector<Spread> spread;           // applies to a series of runs; a single run uses the values as
+                                        // written
+  std::optional<Nominal> designed_for;  // design basis, set by study::varied; not given: sheet, supply and
+                                        // load of this scenario
 };
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a scenario file. The descriptions in this folder alone define their names, units, ranges and
+// The keys of a scenario file. Only the descriptions in this folder define their names, units, ranges and
 // meanings. The structs hold the defaults.
 #pragma once
 #include "sixstep/base/visitor.hpp"
@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// Keys of the motor's sheet and of the timeline, which some visitors handle separately.
+/// Names of two tables that some visitors handle separately: the motor's sheet and the events.
 inline constexpr std::string_view sheet_table = "motor_override", events_list = "at";
 
 void describe(base::Visitor& v, Scenario& s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's measurements in a scenario. By default all are ideal. sensors_description.hpp says what each key
-// means.
+// The board's measurements in a scenario. By default all are ideal. sensors_description.hpp says what each
+// key means.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -39,8 +39,8 @@ struct HallBreak {
   Level01 level = Level01::low;
 };
 
-// Sensors on the shaft that replace Hall probes, in the board's own structs. Only the sensor that `rotor`
-// names is used.
+// Sensors on the shaft that replace Hall probes. Their structs belong to the board (rig). Only the sensor
+// that `rotor` names is used.
 using rig::AbsoluteEncoder;
 using rig::Encoder;
 using rig::Resolver;
@@ -75,7 +75,8 @@ struct Sensors {
   std::vector<double> terminal_gain_error{};  // three values, for terminals a, b, c
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;
-  int speed_edges = 0;  // edges per measured speed; 0: six if the speed loop tolerates their delay, else one
+  int speed_edges = 0;  // Hall edges over which a speed is averaged; 0: six if the speed loop tolerates the
+                        // delay of six edges, else one
   rig::HallAngleFrom hall_angle = rig::HallAngleFrom::sectors;
   int hall_calibration_turns = 8;
   double timeout_s = 0.05;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of [sensors.encoder], [sensors.absolute] and [sensors.resolver]: names, units, ranges and meanings.
+// The keys of [sensors.encoder], [sensors.absolute] and [sensors.resolver]: names, units, ranges and
+// meanings.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
@@ -15,8 +16,8 @@ inline constexpr base::Choice<rig::ResolverReading> resolver_reading_choices[] =
 
 }  // namespace sixstep::study
 
-// The structs are the board's. Argument-dependent lookup finds their descriptions only in the structs'
-// namespace.
+// The structs belong to the board (rig). Argument-dependent lookup finds describe() only in the namespace of
+// the structs.
 namespace sixstep::rig {
 
 inline void describe(base::Visitor& v, Encoder& s) {

@@ -21,7 +21,8 @@ namespace {
 constexpr std::string_view torque_key = "motor_override.torque_constant_mNm_A",
                            back_emf_key = "motor_override.back_emf_mV_s";
 
-/// Motor values that can vary. Other lines of the sheet do not describe a part of the motor.
+/// Motor values that can vary. The sheet's other values, such as the nominal voltage, are not properties of
+/// one motor.
 constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
                                            "motor_override.inductance_mH",
                                            torque_key,
@@ -50,7 +51,7 @@ class NumberAt final : public base::Visitor {
 
   double* number = nullptr;  ///< null: not found
   base::Range range;
-  bool left_out = false;  ///< the key exists, its value does not
+  bool left_out = false;  ///< the key exists, but no value is given
 
  private:
   void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
@@ -88,9 +89,9 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
   return finder;
 }
 
-/// The scenario with explicit numbers for all values that are computed from a varying value. All constants
-/// stand under their standard keys, independent of the sheet. Hall edges that may vary get their nominal
-/// places if the scenario gives none.
+/// The scenario with explicit numbers for all values that are computed from a varying value. The motor's
+/// constants have their standard keys, whichever keys the sheet uses. If a Hall edge varies and the scenario
+/// gives no edges, all six edges are set to their nominal value 0.
 Scenario written_out(const Scenario& scenario, std::string_view key = {}) {
   Scenario s = scenario;
   s.sheet = design::in_standard_keys(std::move(s.sheet));
@@ -125,7 +126,7 @@ double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number)
   return 0.0;
 }
 
-/// Each drive has its own noise. Without noise the seed has no effect.
+/// Seed of one drive's noise. It differs from drive to drive, and has no effect without noise.
 int noise_seed(const Scenario& scenario, std::uint64_t seed, std::uint64_t number) {
   const std::uint64_t stream = stream_of("sensors.seed") + static_cast<std::uint64_t>(scenario.sensors.seed);
   return static_cast<int>(base::random_bits({seed, stream, number})[0] >> 33);
@@ -190,7 +191,7 @@ Scenario with_its_designer(const Scenario& scenario, std::string_view key = {}) 
   return s;
 }
 
-/// The key that is spread: back-EMF constant and torque constant are one quantity.
+/// The key that names the varied quantity. Back-EMF constant and torque constant are one quantity.
 std::string_view spread_fact(std::string_view key) { return key == back_emf_key ? torque_key : key; }
 
 }  // namespace
@@ -202,8 +203,8 @@ Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t numb
     set_number(s, spread.key, nominal + width(spread, nominal) * deviation(spread, seed, number));
   }
   s.spread.clear();
-  // Without random numbers the default seed stays: a remark would report another seed as a given key without
-  // effect.
+  // If nothing is drawn, the seed keeps its default. Any other seed would cause the remark that a given key
+  // has no effect.
   s.sensors.seed = draws_nothing(s) ? Sensors{}.seed : noise_seed(scenario, seed, number);
   return s;
 }

@@ -13,9 +13,9 @@ namespace sixstep::study {
 /// Drive `number` of the series that scenario.spread describes: a pure function of its arguments. Each value
 /// depends on the seed, the number and its own key, not on other spread keys or their order.
 ///
-///   - The controller stays the one designed for the values as written (Scenario::designed_for): its gains, torque and
-///     current limits, the bus voltage by which it divides. Gains designed anew for each motor would hide the effect of
-///     a spread.
+///   - The controller stays as designed for the values as written (Scenario::designed_for). This includes its
+///     gains, its torque and current limits, and the bus voltage by which it divides. Gains designed anew for
+///     each motor would hide the effect of a spread.
 ///   - Values that the sheet omits are computed once, from the values as written: friction does not change
 ///     with the torque constant.
 ///   - Torque constant and back-EMF constant are one quantity: if the sheet gives both, both change.
@@ -23,12 +23,11 @@ namespace sixstep::study {
 /// Requires that check() found nothing. Numbers below 2^48 give different drives.
 Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t number);
 
-/// The values of scenario.spread's keys in one of its drives, in the keys' units; NaN for a key without a
-/// number.
+/// The values of scenario.spread's keys in `drive`, in the keys' units; NaN for a key without a number.
 std::vector<double> strayed_values(const Scenario& scenario, Scenario drive);
 
-/// The scenario with one number set to x, in the key's unit; the controller stays as designed. Allowed keys are
-/// those of scenario.spread; a Problem's `where` is the key.
+/// The scenario with one number set to x, in the key's unit; the controller stays as designed. Allowed are
+/// the keys that scenario.spread allows. A Problem's `where` is the key.
 base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key, double x);
 
 /// Finds errors in scenario.spread: unknown keys, keys that cannot vary, a width given twice or not at all, a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open-circuit voltages of all sources, including those whose voltage is not voltage_V.
+// Open-circuit voltages of all kinds of source, including sources whose voltage is not voltage_V.
 #pragma once
 #include "sixstep/study/scenario/scenario.hpp"
 

@@ -6,9 +6,10 @@
 
 namespace sixstep::study {
 
-/// IGBT: the energies divided by the voltage and the current for which the sheet gives them. MOSFET: U i (t_i
-/// + t_u)/2 at turn-on and again at turn-off, with times from gate charge over gate current, and in addition
-/// Q_rr U at turn-on.
+/// IGBT: the sheet's energies divided by the voltage and the current at which the sheet states them.
+/// MOSFET: U i (t_i + t_u)/2 at turn-on and at turn-off, and Q_rr U at turn-on, with the bus voltage U, the
+/// current i and the recovery charge Q_rr. t_i + t_u, the rise time of the current and the fall time of the
+/// voltage, is the gate charge divided by the gate current.
 inline plant::SwitchingLaw switching_law(const Bridge& b) {
   plant::SwitchingLaw law{.on_J_V = b.recovery_charge_C};
   if (b.energies_at_V > 0 && b.energies_at_A > 0) {
