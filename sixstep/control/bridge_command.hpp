@@ -52,7 +52,7 @@ struct Setpoint {
 enum class Watch : std::uint8_t {
   none,   ///< comparators not armed: the duty sets the gates
   motor,  ///< one comparator on (i_source - i_sink)/2
-  phase  ///< two comparators: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
+  phase   ///< two comparators: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
 };
 
 template <class Scalar>

@@ -25,12 +25,12 @@ inline constexpr std::uint8_t no_track = 0xff;
 /// The default reads 0.
 template <class Scalar>
 struct GrayConfig {
-  std::uint8_t bits = 0;      ///< n, 1..20; bit 0 of a code is the finest track
-  BinaryAngle tolerance = 0;  ///< largest error of the predicted angle: 2 counts plus the effect of
-                              ///< acceleration, below an eighth of a turn; 0: not checked
-  std::uint8_t patience = 0;  ///< number of consecutive bad codes that the prediction replaces; the code
-                              ///< after them is accepted
-  std::uint8_t span = 1;      ///< k, 1..8 ticks over which the speed is measured
+  std::uint8_t bits = 0;          ///< n, 1..20; bit 0 of a code is the finest track
+  BinaryAngle tolerance = 0;      ///< largest error of the predicted angle: 2 counts plus the effect of
+                                  ///< acceleration, below an eighth of a turn; 0: not checked
+  std::uint8_t patience = 0;      ///< number of consecutive bad codes that the prediction replaces; the code
+                                  ///< after them is accepted
+  std::uint8_t span = 1;          ///< k, 1..8 ticks over which the speed is measured
   Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) over the base of speeds, k = span; fixed: raw digits
   bool operator==(const GrayConfig&) const = default;
 };
