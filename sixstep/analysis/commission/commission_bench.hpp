@@ -29,7 +29,7 @@ enum class TestCurrent : std::uint8_t {
   asked_for,
   twice_nominal,
   twice_tenth_of_stall,  ///< twice a tenth of the stall current: the sheet has no nominal current
-  half_of_most  ///< half of the current that bus and rotor allow, because the other values exceed it
+  half_of_most           ///< half of the current that bus and rotor allow, because the other values exceed it
 };
 
 /// The motor's true values at the board's terminals, with the winding at `degC`.

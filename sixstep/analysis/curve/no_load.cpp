@@ -31,8 +31,9 @@ class NoLoadSearch {
       return false;
     }
     into = {speed, direction_ * point->shaft_torque_Nm, *point};
-    if (speed == 0) into.torque -= bench_.motor.shaft.coulomb_Nm;  // dry friction acts against the begin of
-                                                                   // the motion
+    if (speed == 0)
+      into.torque -= bench_.motor.shaft.coulomb_Nm;  // dry friction acts against the begin of
+                                                     // the motion
     return true;
   }
 
@@ -141,8 +142,9 @@ base::Result<NoLoad> no_load(const Bench& b) {
   if (!narrow(search, low, high, found, slope)) return search.problems;
   NoLoad out;
   out.point = found.point;
-  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // the remaining shaft power is only a rounding
-                                                             // error
+  if (out.point.supplied_W > 0)
+    out.point.efficiency = 0.0;  // the remaining shaft power is only a rounding
+                                 // error
   out.slope_Nm_s = slope;
   out.half_width_rad_s = found.point.half_width_Nm / std::fabs(slope);
   out.time_constant_s = b.motor.shaft.J_kg_m2 / std::fabs(slope);

@@ -42,8 +42,8 @@ struct IdentifiedPlace {
   /// value is then the sum of the three for this direction.
   Interval offset_deg;
   double usual_speed_deg_s = 0.0;  ///< mean magnitude of the electrical speed at the edges
-  bool both_ways = false;  ///< true: the log has both directions, which separates the offset from the
-                           ///< hysteresis
+  bool both_ways = false;          ///< true: the log has both directions, which separates the offset from the
+                                   ///< hysteresis
   /// Number of edges that are not used for the hysteresis, because the rotor reversed beyond them.
   std::size_t at_turns = 0;
   /// Present if the log has both directions, and enough edges between its reversals.
