@@ -2,13 +2,13 @@
 // Integrals over a segment without divisions. Products are integrated from a few values of their factors by
 // Gauss-Legendre, which is exact for polynomials of degree 2 points - 1 (Abramowitz and Stegun 25.4.29).
 //
-// Products of two series of degree n have degree 2 n, but fewer points suffice. x is the fastest rate times the
-// segment's length, M the magnitude of the solution and u = 2^-53. Taylor coefficients of a solution are at most
-// M x^j/j!, and a series ends at the degree n with x^n/n! = u. A product f therefore has
-// |f^(j)| <= M^2 (2 x)^j e^(2 x). The rule's error is E f^(2 points)/(2 points)!. Its error for s^(2 points) is
-// E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points). For 2 points = n the error is at most
-// (pi/2) e^(2 x) 2^-n u M^2: u M^2/128 at n = 8 with x = 0.04, and less at any other degree that the engine uses
-// (7 to 16).
+// Products of two series of degree n have degree 2 n, but fewer points suffice. x is the fastest rate times
+// the segment's length, M the magnitude of the solution and u = 2^-53. Taylor coefficients of a solution are
+// at most M x^j/j!, and a series ends at the degree n with x^n/n! = u. A product f therefore has
+// |f^(j)| <= M^2 (2 x)^j e^(2 x). The rule's error is E f^(2 points)/(2 points)!, with its error for
+// s^(2 points), E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points). For 2 points = n the
+// error is at most (pi/2) e^(2 x) 2^-n u M^2: u M^2/128 at n = 8 with x = 0.04, and less at any other degree
+// that the engine uses (7 to 16).
 #pragma once
 #include <array>
 #include <bit>

@@ -6,8 +6,8 @@
 // A System provides
 //   Instant now() const                    the present instant
 //   Instant next_known() const             the next scheduled instant, > now after act()
-//   bool act()                             executes everything that is due now, by its own clocks (never by the planned end of
-//                                          a step); false if a fault stops the run
+//   bool act()                             executes everything that is due now, by its own clocks (never by
+//                                          the planned end of a step); false if a fault stops the run
 //   double expand(double h)                makes the discrete state consistent and the polynomials valid over the
 //                                          returned length, <= h; negative if no consistent state exists
 //   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay

@@ -83,8 +83,8 @@ constexpr std::uint8_t quarter_of_line(bool a, bool b) {
   return a ? (b ? std::uint8_t{1} : std::uint8_t{0}) : (b ? std::uint8_t{2} : std::uint8_t{3});
 }
 
-/// One reading of the lines. Call it at each edge of A and B, or so often that at most one edge occurs between
-/// two calls. Returns the counts since the last call, -2..2; the first call returns 0.
+/// One reading of the lines. Call it at each edge of A and B, or so often that at most one edge occurs
+/// between two calls. Returns the counts since the last call, -2..2; the first call returns 0.
 constexpr std::int8_t quadrature_step(const QuadratureConfig& config, QuadratureState& state, bool a, bool b,
                                       bool z) {
   const std::uint8_t quarter = quarter_of_line(a, b);

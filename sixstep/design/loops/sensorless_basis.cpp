@@ -13,8 +13,8 @@ constexpr double noises = 5.0;           // number of standard deviations that n
 constexpr double clear = 4.0;            // ratio of the lowest speed's back-EMF to the threshold
 constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the back-EMF of a slow rotor
 
-/// Problem of filters that are too slow. Samples are in the middle of the on-time: half of it must be long
-/// enough for the legs to reach their rails.
+/// Problem of filters that are too slow. Samples are in the middle of the on-time: the legs must reach their
+/// rails within half of the on-time.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
   return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
@@ -24,8 +24,8 @@ base::Problem too_slow(const SensorlessBasis& b) {
           "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
 }
 
-/// Problem of the comparators' low-pass. Without one, comparators change at each edge of the pulse; with one
-/// that is too slow they show the voltage of an earlier time.
+/// Problem of the comparators' low-pass. Without a low-pass, comparators switch at each edge of the pulse;
+/// with a low-pass that is too slow they show an earlier voltage.
 base::Problem badly_filtered(const SensorlessBasis& b) {
   const ComparatorSpec& c = b.spec.comparators;
   const std::string least = base::rounded(1.01 / (2.0 * base::pi * b.longest_comparator_lag_s()), 3) +
@@ -58,7 +58,7 @@ double SensorlessBasis::ramp_rad_s2() const {
 }
 
 /// Current that the ramp's acceleration and the sheet's drag need. The rest of start_A is a reserve for a
-/// load. A speed loop that began with all of start_A would overshoot until its integral has decreased.
+/// load. A speed loop that began with the whole start_A would overshoot until its integral has decreased.
 double SensorlessBasis::ramp_A() const {
   const plant::Shaft& shaft = motor.shaft;
   const double drag_Nm = shaft.coulomb_Nm + shaft.B_Nm_s * lowest_rad_s;
