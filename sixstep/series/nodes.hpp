@@ -59,8 +59,8 @@ template <class Real>
 
 inline namespace SIXSTEP_LANES {
 
-/// One number per node. With an odd number of nodes the last lane is unused; weighted() sets it to zero before
-/// a sum.
+/// One number per node. With an odd number of nodes the last lane is unused; weighted() sets it to zero
+/// before a sum.
 template <int points, class Real>
 struct Nodes {
   static constexpr int pairs = (points + 1) / 2;

@@ -12,7 +12,8 @@
 // of the rotation (field_current.hpp):
 //
 //   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
-//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or the shape's back-EMF (harmonic_current.hpp)
+//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or the shape's back-EMF
+//                                                              (harmonic_current.hpp)
 //
 // i is rotated back by x/2, advanced by a period, and rotated back by x/2 again. For a round rotor this is
 // exact except for e: the rotation of e by +-x/2 about its mean causes an error of x^2/24 of e. The

@@ -44,9 +44,9 @@ struct DesignSpec {
                                           ///< usual_torque_limit_Nm
   std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
   double load_inertia_kg_m2 = 0.0;        ///< inertia on the shaft, in addition to the rotor's inertia
-  int delay_periods = 0;           ///< whole periods from a sample until its output acts, 0 or 1
-  bool sampled_in_middle = false;  ///< samples in the middle of a period; the output acts at the next
-                                   ///< period's start or later
+  int delay_periods = 0;                  ///< whole periods from a sample until its output acts, 0 or 1
+  bool sampled_in_middle = false;         ///< samples in the middle of a period; the output acts at the next
+                                          ///< period's start or later
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
   /// Lowest required speed; default: a tenth of the speed that the bus reaches, bus/K_t.

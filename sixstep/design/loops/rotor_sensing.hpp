@@ -25,8 +25,8 @@ namespace sixstep::design {
 /// Sensors of speed and position.
 struct RotorSensing {
   bool hall = true;  ///< true: Hall probes; false: an ideal sensor, like an encoder with very many lines
-  int edges = 0;  ///< edges over which the speed is measured, 1..6; 0: six if their delay is small for the
-                  ///< loop, else one
+  int edges = 0;     ///< edges over which the speed is measured, 1..6; 0: six if their delay is small for the
+                     ///< loop, else one
   ShaftSensing shaft{};     ///< an encoder or a resolver, which replaces Hall probes and the ideal sensor
   double late_s = 0.0;      ///< delay from a probe's edge to the pin of the chip
   double stray_rad = 0.0;   ///< largest deviation of the total length of k sectors from k pi/3, electrical

@@ -76,8 +76,8 @@ double SensorlessBasis::comparators_V() const {
   return (c.against_half_bus ? 2.0 : 3.0) * (c.offset_V + c.hysteresis_V / 2.0);
 }
 
-/// Virtual star: the freewheel's effect must have decayed after half a sector. Half the bus: the low-pass
-/// must settle in half a pulse.
+/// Virtual star: half a sector must suffice for the decay of the freewheel's effect. Half the bus: half a
+/// pulse must suffice for the low-pass to settle.
 double SensorlessBasis::longest_comparator_lag_s() const {
   if (spec.comparators.against_half_bus) return least_on_s() / (2.0 * rail_lags);
   return sector_s(no_load_rad_s) / (2.0 * forgetting_lags);
@@ -113,8 +113,8 @@ SensorlessBasis sensorless_basis(const MotorModel& motor, const SensorlessSpec& 
               std::max(motor.shaft.coulomb_Nm, motor.shaft.static_Nm);
   const double range_V = spec.adc_range_V > 0.0 ? spec.adc_range_V : 1.25 * spec.bus_V;
   b.lsb_V = range_V / static_cast<double>(1 << spec.adc_bits);
-  // Noise of 2 u_f - u_s - u_k: variances 4 + 1 + 1 times that of a converter, and half a step of rounding in
-  // each converter.
+  // Noise of 2 u_f - u_s - u_k: its variance is 4 + 1 + 1 times a converter's variance. Rounding adds half a
+  // step in each converter.
   b.threshold_V = noises * std::sqrt(6.0) * spec.adc_noise_V + 2.0 * b.lsb_V + spec.mismatch * spec.bus_V;
   b.lock_V = b.threshold_V + b.comparators_V();
   b.lowest_rad_s =
