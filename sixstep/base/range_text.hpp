@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes ranges in words, for messages and help.
+// Writes ranges as text, for messages and help.
 #pragma once
 #include <string>
 

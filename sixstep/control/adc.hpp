@@ -19,7 +19,7 @@ template <class Scalar>
 struct AdcConfig {
   Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
                                        ///< fixed point: raw units
-  std::uint16_t offset_counts = 0;     ///< counts without current, as the circuit gives them
+  std::uint16_t offset_counts = 0;     ///< counts without current, by the circuit's design
   std::uint16_t offset_tolerance = 0;  ///< largest deviation of the measured offset, counts
   std::uint8_t log2_samples = 6;       ///< 2^n samples in one calibration, n at most 12
   bool operator==(const AdcConfig&) const = default;

@@ -59,7 +59,7 @@ template <class Scalar>
 struct BridgeCommand {
   bool enabled = false;  ///< false: all six gates off
   Pair pair{};           ///< source and sink are already exchanged for a negative command
-  Scalar duty{};         ///< 0..1, on-time over PWM period; ignored while comparators are armed
+  Scalar duty{};         ///< 0..1, on-time divided by PWM period; ignored while comparators are armed
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;

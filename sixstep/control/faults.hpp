@@ -52,7 +52,7 @@ struct FaultEvents {
   bool hall = false;            ///< an invalid code or a jump in this tick
   std::uint8_t hall_line = 0;   ///< 1..3: the faulty line; 0: unknown
   bool moved = false;           ///< a Hall edge occurred since the last tick
-  std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
+  std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that is impossible at steady speed; 0: none
   std::uint16_t other = 0;      ///< other causes: calibration, alignment
 };
 

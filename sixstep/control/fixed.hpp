@@ -7,7 +7,7 @@
 //
 // Saturation: a result beyond the range becomes the nearer limit of the range; nothing wraps. x/0 saturates
 // in the direction of x, and 0/0 is 0. Sums and differences are exact unless they saturate.
-// tests/control/fixed_test.cpp compares all pairs of an 8-bit format, and random pairs of the wider ones,
+// tests/control/fixed_test.cpp compares all pairs of an 8-bit format, and random pairs of wider formats,
 // with exact arithmetic.
 //
 // The arithmetic is correct also where int has 16 bits. Every operand is widened to an explicitly sized type

@@ -43,7 +43,7 @@ struct HallState {
   std::uint8_t seen = 0;              ///< samples since the candidate appeared
   std::uint8_t sector = no_sector;    ///< the last valid sector
   std::int8_t direction = 0;          ///< direction of the last edge: +1 forward, -1 backward, 0 none yet
-  std::uint8_t suspect = 0;           ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
+  std::uint8_t suspect = 0;           ///< 1..3: line with an edge that is impossible at steady speed; 0: none
   std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; `suspect` is cleared after 6
   HallFault fault = HallFault::none;  ///< impossible_code while an invalid code is present
 };

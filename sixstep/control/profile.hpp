@@ -12,7 +12,7 @@
 // least as fast as the continuous profile with the same limits. If the target is nearer than the stopping
 // distance, the profile passes it and returns.
 //
-// In fixed point v and a are whole raw steps per tick: give the profile enough bits (32), or a slower tick.
+// In fixed point v and a are whole raw steps per tick: use enough bits (32), or a slower tick.
 #pragma once
 #include <cstdint>
 

@@ -14,7 +14,7 @@ struct LoopPoint {
   design::Complex closed;  ///< the closed loop T, from the reference to the measured value
   double coherence = 0.0;
   double gain = 0.0, phase_rad = 0.0;  ///< gain and phase of L; next_to() chooses the phase's turn
-  double scatter = 0.0;  ///< standard deviation of |L| over |L|: standard deviation of |T| times |1 + L|
+  double scatter = 0.0;  ///< relative deviation of |L|: |1 + L| times the relative deviation of |T|
 };
 
 /// The angle plus or minus whole turns, so that it lies within half a turn of `near`, rad.
@@ -45,7 +45,7 @@ ReadMargins margins_of(const std::vector<LoopPoint>& points);
 /// Limit for an answered line: with a lower coherence, too much of the response has another source than the
 /// multisine.
 inline constexpr double little_coherence = 0.9;
-/// Whether the loop answered at any line; without an answer, no margin is read.
+/// True if the loop responded at any line; otherwise no margin is computed.
 bool answered(const std::vector<LoopPoint>& points);
 
 }  // namespace sixstep::analysis

@@ -68,7 +68,7 @@ struct CommissionOrder {
   std::function<bool()> keep_going{};  ///< false ends the study early with a Problem "was interrupted"
 };
 
-/// Problems are those of the bench. A value that the chip did not find is no Problem; `state` contains the
+/// Returns the Problems of the bench. A value that the chip did not find is no Problem; `state` contains the
 /// reason.
 base::Result<CommissionStudy> study_commission(const CommissionOrder& order);
 

@@ -55,7 +55,7 @@ Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::s
 /// The largest peak current in A of a start within the torque limit. Commutations add up to half of the
 /// limit's current to it, and the PWM adds its ripple.
 double most_peak_A(const ContestBench& bench);
-/// Whether a row's figures may count as the best: its nominal drive follows the course, with a start current
+/// True if a row's figures may count as the best: its nominal drive follows the course, with a start current
 /// within most_peak_A(). A larger current would be an unfair advantage.
 bool may_win(const Contest& contest, std::size_t row);
 
@@ -65,7 +65,7 @@ GaugeValues gauges_of(const RunRecord& record);
 /// Stores the run of an entry's nominal drive.
 void take_nominal(Contest& contest, std::size_t entry, const base::Result<study::Outcome>& result);
 /// Stores the figures of a drive within the tolerances. Its number in the plan selects the entry. Only
-/// figures that are worse than the stored ones are kept.
+/// figures that are worse than the stored figures are kept.
 void take_drive(Contest& contest, const RunRecord& record);
 
 }  // namespace sixstep::analysis

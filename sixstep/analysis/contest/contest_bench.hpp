@@ -35,7 +35,7 @@ struct ContestSpec {
       current_settle_s{};            ///< settling time of the current loop; empty: the design's default
   std::optional<double> period_s{};  ///< period of PWM and control; empty: 30 us
   /// Source of supply, bridge, PWM and sensors; empty: usual_bridge(). If the board's switches have no
-  /// switching energies, those of usual_bridge() are used.
+  /// switching energies, the energies of usual_bridge() are used.
   std::optional<study::Scenario> board{};
 };
 
@@ -56,7 +56,7 @@ struct ContestBench {
   std::vector<std::string> rules;  ///< conditions that are the same for all controllers, a sentence each
 };
 
-/// Problems: those of the sheet, a linear motor, no settling time that suits.
+/// Problems: errors of the sheet, a linear motor, no suitable settling time.
 base::Result<ContestBench> contest_bench(const ContestSpec& spec);
 
 /// The bridge if the user gives no bridge: switches of 1 % of the winding's resistance, diodes of 0.8 V, half

@@ -158,7 +158,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
     if (order.keep_going && !order.keep_going()) return out;
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
-    // Changes that would need most of the budget are tried after the short ones.
+    // Changes that would need most of the budget are tried after the short trials.
     if (periods_of(order, *next) > rescue_periods / 4 && !position) {
       dear.emplace_back(spec, *next);
       continue;

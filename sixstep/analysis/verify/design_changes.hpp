@@ -31,7 +31,7 @@ std::vector<design::DesignSpec> single_changes(const DesignOrder& order, const d
 /// slower by steps.
 std::vector<design::DesignSpec> joint_changes(const DesignOrder& order, const design::DriveDesign& design);
 
-/// A change in words: "period_s = 1.1e-05 and chopping = complementary".
+/// A change as text: "period_s = 1.1e-05 and chopping = complementary".
 std::string words_of_change(const design::DesignSpec& before, const design::DesignSpec& after);
 
 /// The order's specification with an encoder, complementary chopping and this control period.

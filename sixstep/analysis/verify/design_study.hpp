@@ -52,7 +52,7 @@ void require_swing(const DesignStudy& study, study::Scenario& scenario);
 /// The first grave warning; empty if the design is usable.
 std::string found_against(const DesignStudy& study);
 
-/// Problems are those of sheet, spec and scenario.
+/// Returns the Problems of sheet, spec and scenario.
 base::Result<DesignStudy> study_design(const DesignOrder& order);
 
 }  // namespace sixstep::analysis

@@ -25,7 +25,7 @@ struct FieldStudy {
   bool usable() const;  ///< true: no warning is grave
 };
 
-/// Problems: those of the scenario; a drive that is not field-oriented, or that has no linear loop.
+/// Problems: errors of the scenario; a drive that is not field-oriented, or that has no linear loop.
 base::Result<FieldStudy> study_field(const study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

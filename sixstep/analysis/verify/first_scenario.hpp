@@ -19,7 +19,7 @@ struct FirstScenarioSpec {
   ForEach for_each = one_after_the_other;     ///< runs the motors within the tolerances
 };
 
-/// Creates the scenario. Problems: those of the sheet; no design is usable.
+/// Creates the scenario. Problems: errors of the sheet; no design is usable.
 /// - Current, speed, position: the design's own test (design_scenario.hpp) with a board's sensors. The
 ///   settling time is the design's settling time if it is usable over the sheet's tolerances, else the
 ///   shortest usable one of 2, 5, 10 .. times this time.

@@ -41,8 +41,8 @@ struct GainSearch {
 double braking_gain(const design::DriveDesign& design);
 
 /// The overshoot grows with the gain between braking_gain() and the linear loop's gain. Bisection with full
-/// simulations finds the gain at which overshoot begins, to a part in 1000. Problems: those of a run; no gain
-/// was found within the search's limits. The periods of the runs are subtracted from `budget`, if it is
+/// simulations finds the gain at which overshoot begins, to a part in 1000. Problems: errors of a run; no
+/// gain was found within the search's limits. The periods of the runs are subtracted from `budget`, if it is
 /// given.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,

@@ -70,7 +70,7 @@ struct RobustFigure {
   std::string figure{}, unit{};
   double nominal = 0.0;
   double worst = 0.0;     ///< the largest value; infinite if a run never settles, or if a fault ended it
-  std::string at{};       ///< the variation in words; empty if no variation is worse than nominal
+  std::string at{};       ///< the variation as text; empty if no variation is worse than nominal
   std::string culprit{};  ///< the single level with the largest effect
   double alone = 0.0;     ///< the figure with only this level
 };

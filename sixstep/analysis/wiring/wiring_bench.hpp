@@ -45,7 +45,7 @@ struct WiringBench {
   double turned_from_s = 0.0, turned_s = 0.0;
 };
 
-/// Problems of `voltage_V` and `current_A`, and those of the sheet.
+/// Problems of `voltage_V`, `current_A` and the sheet.
 base::Result<WiringBench> wiring_bench(const WiringSubject& subject);
 
 /// Scenario of a motor that is released from rest at an electrical angle.

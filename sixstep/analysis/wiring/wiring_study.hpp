@@ -86,7 +86,7 @@ struct WiringOrder {
   std::function<bool()> keep_going{};  ///< false ends the study early with a Problem "was interrupted"
 };
 
-/// Problems are those of the sheet and of the bench.
+/// Returns the Problems of the sheet and of the bench.
 base::Result<WiringStudy> study_wiring(const WiringOrder& order);
 
 /// The run from the first start with straight wires, as a scenario for the user's file. The values of its

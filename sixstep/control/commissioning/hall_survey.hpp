@@ -68,7 +68,7 @@ struct HallSurveyReading {
   HallSurvey verdict = HallSurvey::not_steady;
   std::uint8_t dead_pins = 0;  ///< mask of the pins that never changed, as bits of a code
   HallLines lines{};
-  /// True if no table is needed: hall.hpp decodes the pins with `config` alone.
+  /// True if no table is needed: hall.hpp decodes the pins with only `config`.
   bool plain = false;
   HallConfig config{};
   HallEdges edges{};        ///< electrical angle of each edge
@@ -76,7 +76,7 @@ struct HallSurveyReading {
   std::int32_t lag = 0;     ///< mean angle by which the edges came late in each direction, signed angle
 };
 
-/// The code that correctly connected probes 120 degrees apart would give for `pins`; 000 if there is none.
+/// The code of correctly connected probes 120 degrees apart for `pins`; 000 if there is none.
 constexpr std::uint8_t as_wired(const HallLines& lines, std::uint8_t pins) {
   return hall_of_sector(lines.sector[pins & 7u]);
 }
@@ -151,7 +151,7 @@ constexpr void name_lines(HallLines& lines) {
   }
 }
 
-/// Sets reading.plain if the lines are those of correctly connected probes, which need no table.
+/// Sets reading.plain if the lines match correctly connected probes, which need no table.
 constexpr void name_arrangement(HallSurveyReading& reading) {
   constexpr HallArrangement arrangements[] = {HallArrangement::degrees_120, HallArrangement::degrees_60};
   for (const HallArrangement arrangement : arrangements) {

@@ -21,7 +21,7 @@
 //      45         11 for rounding two phases, 32 for three rounded offsets, 2 for their eighths
 //   each component of a harmonic has the standard deviation sigma/sqrt 3, relative to I_0
 //
-// I_0 is the mean of the six currents. Rounding alone causes at most 5.1 times this deviation. A first
+// I_0 is the mean of the six currents. Rounding by itself causes at most 5.1 times this deviation. A first
 // harmonic below 6 times the deviation is rejected (`seen` is false): the rotor is round, or the current is
 // too small to saturate it. A second harmonic must also exceed the amplifiers' difference of gain; otherwise
 // the first harmonic gives the angle. The rotor must not turn: opposite pairs follow each other, so that
@@ -40,8 +40,9 @@ struct PulsePositionConfig {
   std::uint16_t pulse_ticks = 0;  ///< control ticks of a pulse; 0: no pulses
   std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until its current has ended: at least pulse_ticks
   std::uint8_t rounds = 8;        ///< n, the number of rounds; at least two
-  std::uint8_t certain = 6;       ///< least ratio of signal to noise; noise alone reaches 6 once in e^18
-                                  ///< rounds
+  std::uint8_t certain =
+      6;  ///< least ratio of signal to noise; without a signal, noise reaches 6 once in e^18
+          ///< rounds
   std::uint16_t amplifiers = 20;  ///< largest difference of gain between two amplifiers, 1/1000
   bool operator==(const PulsePositionConfig&) const = default;
 };

@@ -18,7 +18,7 @@
 // In both cases the PI's state is its output after the limit, minus e. The state therefore cannot wind up,
 // although the bound changes with the speed and with the other axis.
 //
-// If the rotation needs more than 0.9 of the available voltage, priority of d would leave too little v_q. The
+// If the rotation needs more than 0.9 of the available voltage, v_q would be too small if d had priority. The
 // magnet would then drive a current that needs even more v_d: up to twice psi/L_d. In this case v moves back
 // to the circle along the line to the voltage that holds the reference, and the integrals rest. A drive that
 // does not decouple its axes then decouples only the deviation from the reference (reachable_current.hpp).

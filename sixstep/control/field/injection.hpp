@@ -39,7 +39,7 @@ struct InjectionState {
   AlphaBeta<Scalar> current{};      ///< current at the last sample, A
   Dq<Scalar> change{};              ///< change of the current since the sample before, A, in its period's
                                     ///< frame
-  Dq<Scalar> turn{};                ///< half of the difference between this change and the one before, A
+  Dq<Scalar> turn{};                ///< half of `change` minus the change before, A
   Direction<Scalar> answered[3]{};  ///< directions of the pulses of the last ticks, the newest first
   std::uint8_t up = 0;              ///< bit n: the output of n ticks ago pulsed up
   std::uint8_t pulses = 0;          ///< bit n: the output of n ticks ago pulsed

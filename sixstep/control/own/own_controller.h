@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Defines the interface of a user's own controller. It runs in a scenario, in a comparison and on a chip,
- * like the library's controllers. The interface is plain C: any language that can define a C symbol can provide
- * a controller. own_controller.hpp makes a controller from a C++ class.
+ * like the library's controllers. The interface is plain C: any language that can define a C symbol can
+ * provide a controller. own_controller.hpp makes a controller from a C++ class.
  *
  * A file with a controller is compiled into a shared object,
  *
@@ -52,7 +52,7 @@ typedef struct {
   sixstep_real speed_rad_s;  /* mechanical; of a linear motor m/s */
   sixstep_real position_deg; /* mechanical, counted over turns; of a linear motor 180/pi per m */
   sixstep_real bus_V;
-  sixstep_real magnet_cos, magnet_sin; /* cosine and sine of the magnet's electrical angle from phase a's axis; with Hall codes only, of the sector's middle */
+  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; with Hall codes only, of the sector's middle */
   uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
 } sixstep_measured;
 
@@ -62,8 +62,8 @@ typedef struct {
   sixstep_real duty; /* 0..1, used with SIXSTEP_LEG_PWM */
 } sixstep_leg;
 
-/* Output of a step. A pair: source, sink, duty, overlap, chopping, chopped. Legs: leg. Before the first step it is zero, all
- * gates off; later it contains the last output. */
+/* Output of a step. A pair: source, sink, duty, overlap, chopping, chopped. Legs: leg. Before the first step it is zero,
+ * all gates off; later it contains the last output. */
 typedef struct {
   uint8_t enabled; /* 0: all six gates off */
   uint8_t fault;   /* not 0: the controller stops the drive, and the run ends with exit code 3 */

@@ -21,7 +21,7 @@ constexpr void command_pair(sixstep_real duty, std::uint8_t code, sixstep_answer
   answer.duty = duty < 0 ? -duty : duty;
 }
 
-/// Motor current, A, of the pair that makes positive torque: half the difference of the source's and the
+/// Motor current, A, of the pair with positive torque: half the difference of the source's and the
 /// sink's current.
 constexpr sixstep_real pair_current(const sixstep_measured& measured) {
   const Pair positive = positive_pair(sector_of_hall(measured.hall));

@@ -79,7 +79,7 @@ inline DesignSpec on_a_board() {
 
 struct LoopDesign {
   std::string name;    ///< "current", "speed", "position"
-  std::string method;  ///< method of the design, in words
+  std::string method;  ///< method of the design, as text
   PiGains gains;       ///< position: d1 is the gain in rad/s per degree, d0 = 0
   std::vector<DerivationStep> steps;
   std::optional<PolePlacement> placed;
@@ -144,8 +144,8 @@ struct DriveDesign {
   std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
   double longest_period_s =
-      0.0;  ///< longest period at which the current loop keeps 45 degrees of phase with the longer of the
-            ///< delays
+      0.0;  ///< longest period at which the current loop has 45 degrees of phase margin with the longer
+            ///< of the delays
   double headroom_end_rad_s = 0.0;   ///< highest speed at which the bus drives the nominal current
   double high_speed_rad_s = 0.0;     ///< with a speed loop: nine tenths of headroom_end_rad_s
   double speed_step_rad_s = 0.0;     ///< step of the measured speed at high_speed_rad_s while the speed is

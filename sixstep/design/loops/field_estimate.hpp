@@ -13,7 +13,7 @@
 //   flux           at w_high the magnet's back-EMF is a tenth of U_s/sqrt 3; w_low is half of w_high, and w_g
 //                  half of p w_high
 //
-// Symbols are those of magnet_estimator.hpp and of its parts.
+// magnet_estimator.hpp and its parts define the symbols.
 // Without injection a voltage R I along the assumed axis aligns the rotor. The rotor swings like a motor at a
 // stiff voltage, and its back-EMF damps the swing:
 //

@@ -99,8 +99,8 @@ bool are_points(SheetReader& reader) {
 ShapeFactors table_factors(std::span<const double> angle_deg, std::span<const double> values) {
   const Table table(angle_deg, values);
   ShapeFactors out;
-  // Each phase is the source for two sectors, in its positive third of a turn, and the sink for two sectors, in
-  // its negative third. With three phases these are all six sectors.
+  // Each phase is the source for two sectors, in its positive third of a turn, and the sink for two sectors,
+  // in its negative third. With three phases these are all six sectors.
   out.sector_mean = (table.integral(0.0, 120.0) - table.integral(180.0, 300.0)) / 120.0;
   line_to_line(table, out);
   double square = 0.0, cos = 0.0, sin = 0.0;

@@ -65,7 +65,7 @@ std::string contradiction_words(const SheetCheck& check);
 
 /// Slowest usual time constants, s. In data/motors the slowest winding has L/R = 11 ms and the slowest rotor
 /// R J/K_t^2 = 1.2 s. A thousand times a usual value is a wrong unit. Values between these limits, such as
-/// those of a megawatt generator or a rotor with a flywheel, are reported and used.
+/// a megawatt generator or a rotor with a flywheel, are reported and used.
 inline constexpr double slowest_usual_winding_s = 0.2, slowest_usual_rotor_s = 100.0;
 
 /// Least margin of a no-load speed. The ideal line neglects the commutation, which may need a larger margin
@@ -98,7 +98,8 @@ inline constexpr double warm_winding = 1.5;
 
 /// Largest fraction of the voltage across the winding's resistance at no load, if neither I_0 nor the whole
 /// friction is printed. With a fraction x the best efficiency is at most (1 - sqrt x)/(1 + sqrt x), a third
-/// for x = 1/4. No motor with a higher loss is sold. With this limit an error by sqrt 2 in a constant is found.
+/// for x = 1/4. No motor with a higher loss is sold. With this limit an error by sqrt 2 in a constant is
+/// found.
 inline constexpr double most_unknown_drop = 0.25;
 
 /// Allowed excess of a no-load speed over the mechanical speed limit, relative to the limit. Makers wind the

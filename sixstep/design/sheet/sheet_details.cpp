@@ -12,8 +12,8 @@ namespace {
 
 bool is_whole(double x) { return std::floor(x) == x; }
 
-/// Bounds with which the rotations, including those of the sine and a salient rotor, fit in the general
-/// kernel (plant/general/constants.hpp).
+/// Bounds with which the rotations, including the rotations of the sine and a salient rotor, fit in the
+/// general kernel (plant/general/constants.hpp).
 constexpr std::size_t most_harmonics = 5, most_cogging = 4;
 
 void read_harmonics(SheetReader& reader) {

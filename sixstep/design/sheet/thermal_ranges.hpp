@@ -30,7 +30,7 @@ struct WithstandTimes {
 /// A verdict on safety uses `by_worse_ends`. Problem: the sheet's thermal lines that are missing.
 base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& heating);
 
-/// The model for a safe limit: at the worse ends if there are any, else by the values. Problems: those of
+/// The model for a safe limit: at the worse ends if there are any, else by the values. Problems as for
 /// thermal_model().
 base::Result<ThermalModel> safe_thermal_model(const Sheet& sheet);
 

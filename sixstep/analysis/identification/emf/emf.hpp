@@ -61,13 +61,13 @@ struct EmfResult {
   bool all_phases = false;             ///< true: there are two or three channels, so that `backward` is known
   std::vector<EmfHarmonic> harmonics;  ///< harmonics from the second on
   EmfConstants constants;
-  double crest = 0.0;     ///< peak over rms of the probed voltage
+  double crest = 0.0;     ///< peak of the probed voltage, divided by its rms
   double flat_deg = 0.0;  ///< width above 95 % of the peak
   /// Phase a over an electrical turn, with peak 1. The middle of its positive half wave is at 60 degrees
   /// (notation.md). Harmonics below the noise are not included.
   std::vector<double> angle_deg, shape;
   HarmonicFit fit;                 ///< the fit, for a picture
-  double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; the table agrees within 1e-4
+  double shape_sector_mean = 0.0;  ///< K_t/K_e of the fitted shape; the table agrees within 1e-4
 };
 
 /// flat_deg of a sine and of a trapezoid with a top of 120 degrees, for comparison.

@@ -56,7 +56,7 @@ std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, 
   return top;
 }
 
-/// The last row of a top that begins at `from`. Near the top's ends, noise makes a few rows differ from the
+/// The last row of a top that begins at `from`. Near the top's ends, a few rows differ by noise from the
 /// extreme.
 std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   std::size_t end = from;

@@ -40,7 +40,7 @@ ShapePeak peak_of(const ShapeHarmonics& shape);
 
 /// The peak of the wave with the given first harmonics, and the peak's uncertainty in `below` and `above`.
 ///
-/// A flat top has more harmonics than the given ones. Without these, the sum overshoots by 1 to 5 % near the
+/// A flat top has harmonics beyond the given harmonics. Without them the sum overshoots by 1 to 5 % near the
 /// flanks (Gibbs). Averaging the sum over a turn of the first missing harmonic (Lanczos) reduces the
 /// overshoot to a tenth. A pointed top is not averaged; its peak lacks the missing harmonics.
 struct WavePeak {

@@ -72,8 +72,8 @@ class Memory {
 };
 
 /// Uncertainty of the amplitude. Each half turn gives a separate amplitude, with all its errors of noise and
-/// speed. A small number of half turns, or a few fast ones among slow ones, shift the amplitude towards their
-/// own values, so that their residuals are too small. Therefore each half turn contributes its residual
+/// speed. A small number of half turns, or a few fast among slow half turns, shift the amplitude towards
+/// their own values, so that their residuals are too small. Therefore each half turn contributes its residual
 /// without its own influence, and the weights determine Student's degrees of freedom (R. M. Bell and D. F.
 /// McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage samples", Survey
 /// Methodology 28, 2002, for one unknown).

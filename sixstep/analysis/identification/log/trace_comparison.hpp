@@ -48,7 +48,7 @@ struct Overlay {
     std::string column, reason;
   };
   std::vector<LeftOut> left_out;
-  std::size_t rows = 0, inside = 0;  ///< rows of the log, and those of them in the simulated time
+  std::size_t rows = 0, inside = 0;  ///< rows of the log; rows within the simulated time
 };
 
 /// trace_comparison() of the columns with enough rows. A Problem if no column has enough rows; `name` is the
