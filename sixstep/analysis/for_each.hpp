@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs independent pieces of work, on several cores if the caller has them.
+// Runs independent tasks, on several cores if the caller's function does.
 #pragma once
 #include <cstddef>
 #include <functional>

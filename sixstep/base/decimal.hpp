@@ -5,14 +5,14 @@
 
 namespace sixstep::base {
 
-/// No data sheet prints more than ten digits. A longer number is the result of arithmetic and is rounded to a
-/// double like any result.
+/// No data sheet prints more than ten digits. A longer number is a computed result and is rounded to a double
+/// like any result.
 inline constexpr double more_than_printed = 1e10;
 
 /// A printed number times 10^ten, as the double nearest to the decimal product. 0.572 mH becomes exactly the
-/// double of 0.000572, and 135 g cm^2 that of 1.35e-5. For this the digits, as an integer, are multiplied or
-/// divided by one exact power of ten and rounded once; dividing 0.572 itself would round twice. `ten` is in
-/// -22..22: these powers are exact doubles.
+/// double of 0.000572, and 135 g cm^2 the double of 1.35e-5. For this purpose the digits, as an integer, are
+/// multiplied or divided by one exact power of ten and rounded once; dividing 0.572 itself would round twice.
+/// `ten` is in -22..22, where powers of ten are exact doubles.
 inline double times_ten_to(double printed, int ten) {
   const auto scaled = [](double x, int power) {
     double exact = 1.0;
@@ -28,9 +28,9 @@ inline double times_ten_to(double printed, int ten) {
   return scaled(printed, ten);
 }
 
-/// Weight of the last digit of the shortest decimal that reads back as the same double: 0.01 for 1.03, 1 for
-/// 24. The weight is 0 for a number with more digits than a data sheet prints. Trailing zeros cannot be seen,
-/// because a double does not store them.
+/// Weight of the last digit of the shortest decimal that converts back to the same double: 0.01 for 1.03, 1
+/// for 24. The weight is 0 for a number with more digits than a data sheet prints. Trailing zeros have no
+/// effect, because a double does not store them.
 inline double last_digit_of(double printed) {
   double scale = 1.0;
   for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0) {

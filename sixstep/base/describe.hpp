@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One description of each parameter serves all faces: the TOML reader with its checks, help, the schema and
-// Python, and later the web form and the FMU. For each parameter struct S there is one free function
+// One description of each parameter serves all interfaces: the TOML reader with its checks, help, the schema
+// and Python, and later the web form and the FMU. For each parameter struct S there is one free function
 //
 //   void describe(Visitor& v, S& s);          (base/visitor.hpp)
 //
-// This function visits the members in reading order. Per member it calls one of these on the visitor:
+// This function visits the members in reading order. For each member it calls one of these functions of the
+// visitor:
 //   v.value(key, member, about)            double, int, bool, std::string,
 //                                          std::optional<double>, std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
@@ -22,8 +23,7 @@
 
 namespace sixstep::base {
 
-/// Range of a number. An end that is not given is open; `above`/`below` exclude the bound, `from`/`to`
-/// include it.
+/// Range of a number. A missing end is open; `above`/`below` exclude the bound, `from`/`to` include it.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -41,20 +41,20 @@ constexpr Range from(double low) { return {.low = low}; }
 constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 constexpr Range strictly_between(double low, double high) { return {low, high, false, false}; }
 
-/// Another key for the same value, as another data sheet prints it: in another unit, or with a line number.
+/// Another key for the same value, for another form in a data sheet: another unit, or a line number.
 struct Spelling {
   std::string_view key;
   int ten = 0;                    ///< value in the key's own unit = 10^ten times the written value
-  std::string_view unit = "";     ///< unit of the written value; empty: that of the key
+  std::string_view unit = "";     ///< unit of the written value; empty: the key's unit
   std::string_view frame = "";    ///< the only possible frame of a value with this spelling; empty: the key's
                                   ///< frames
   std::string_view source = "";   ///< source that follows from the spelling: "data sheet, line 10"
-  std::string_view meaning = "";  ///< meaning in that only frame; empty: the key's meaning
+  std::string_view meaning = "";  ///< meaning in this only frame; empty: the key's meaning
   double factor = 1.0;            ///< further factor on the written value
   bool linear = false;            ///< true: the spelling is for linear motors only (base/linear.hpp)
 };
 
-/// The data of one key that a face needs.
+/// The data of one key for an interface.
 struct About {
   std::string_view meaning;     ///< one or two plain sentences, no full stop at the end
   std::string_view unit = "";   ///< "V", "rad/s"; empty for counts, words and ratios
@@ -63,13 +63,13 @@ struct About {
   bool required = false;
   std::string_view cure = "";  ///< remedy in messages: what to write instead; empty: derived from range and
                                ///< unit
-  bool partial = false;        ///< table that changes single values of a complete one: no key in it is
+  bool partial = false;        ///< true: the table changes single values of a complete table; no key in it is
                                ///< required
   std::span<const Spelling> also = {};  ///< other keys for the same quantity; a file uses one of them
-  std::string_view mode_unit = "";      ///< "*": the unit is that of the reference in control.mode; "*/s":
-                                        ///< that unit per second
+  std::string_view mode_unit = "";      ///< "*": the unit of the reference in control.mode; "*/s": this unit
+                                        ///< per second
   std::string_view unit_here =
-      "";  ///< unit that follows from values read before, such as that of a figure or a signal
+      "";  ///< unit that follows from values read before, such as the unit of a figure or a signal
   std::string_view unit_of = "";  ///< path of the key that has the unit
 };
 
@@ -79,8 +79,7 @@ struct Choice {
   std::string_view word;
   Enum value;
   std::string_view meaning;
-  std::string_view turning = "";  ///< if this is a linear motor's word: the rotary motor's word that it
-                                  ///< replaces
+  std::string_view turning = "";  ///< for a linear motor's word: the rotary motor's word that it replaces
 };
 
 /// The word for a value; empty if no choice has this value.
@@ -91,11 +90,11 @@ constexpr std::string_view word(const Choices& choices, Enum value) {
   return {};
 }
 
-/// Reliability of a number.
+/// Origin of a number, which determines its reliability.
 enum class Trust : std::uint8_t {
   unstated,
-  sheet,     ///< the maker's print
-  measured,  ///< measured by others on one motor
+  sheet,     ///< printed by the maker
+  measured,  ///< measured by another source on one motor
   derived,   ///< computed from other values
 };
 
@@ -115,8 +114,8 @@ struct Interval {
 ///
 /// In TOML: `key = 1.03` or `key = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`.
 /// Useful additions are `kind = "measured"`, and `range = [0.978, 1.03]` if sources differ. If About::frame
-/// lists several frames, the file must give one. The check of the struct that has the quantity requires it,
-/// because that check can explain each frame.
+/// lists several frames, the file must name one. The check of the struct that contains the quantity requires
+/// the frame, because this check can explain each frame.
 struct Quantity {
   double value = 0.0;
   std::string frame;
@@ -124,7 +123,7 @@ struct Quantity {
   Trust kind = Trust::unstated;
   std::optional<Interval> range = {};     ///< least and greatest value of all sources, `value` included
   std::string key = {};                   ///< the spelling that the file used; empty: the key itself
-  std::optional<double> last_digit = {};  ///< weight of the last digit that the file writes: 0.1 for 36.0
+  std::optional<double> last_digit = {};  ///< weight of the last digit in the file: 0.1 for 36.0
 };
 
 }  // namespace sixstep::base

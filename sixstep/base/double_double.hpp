@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A number as the unevaluated sum of two doubles, about 106 bits. The elementary functions need these bits to
 // round correctly. The operations are exact only without contraction and extended precision
-// (-ffp-contract=off, SSE or better), as the whole library is built.
+// (-ffp-contract=off, SSE or better); the whole library is built in this way.
 #pragma once
 
 namespace sixstep::base {

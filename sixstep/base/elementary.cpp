@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes exp, log, pow. Each function reduces its argument exactly and sums a Taylor series whose first
-// omitted term is below 2^-60 of the result. The bits that the last rounding needs are kept in double-double.
+// omitted term is below 2^-60 of the result. Bits that affect the last rounding are stored in double-double.
 #include "sixstep/base/elementary.hpp"
 
 #include <bit>
@@ -24,7 +24,7 @@ constexpr double log2_e = 0x1.71547652b82fep+0;
 
 bool is_nan(double x) { return x != x; }
 
-/// 2^n, for n whose 2^n is a normal double.
+/// 2^n, for n for which 2^n is a normal double.
 double power_of_two(std::int64_t n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
@@ -71,7 +71,8 @@ DoubleDouble log_sum(double x) {
     k = -54;
   }
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-  // Adding the difference of the bits of 1 and of sqrt(1/2) carries into the exponent from exactly sqrt 2 on.
+  // Adding the difference of the bits of 1 and of sqrt(1/2) carries into the exponent for all numbers from
+  // sqrt 2 on.
   constexpr std::uint64_t half_octave = 0x3ff0000000000000u - 0x3fe6a09e667f3bcdu;
   const std::int64_t octave = static_cast<std::int64_t>((bits + half_octave) >> 52) - 1023;
   k += octave;
@@ -90,7 +91,7 @@ DoubleDouble log_sum(double x) {
   p = p * h + 1.0 / 13;
   p = p * h + 1.0 / 11;
   p = p * h + 1.0 / 9;
-  // From here on the terms are so large that their rounding matters; they are added in double-double.
+  // The next terms are so large that their rounding has an effect; they are added in double-double.
   DoubleDouble sum = q * p + DoubleDouble{0x1.2492492492492p-3, 0x1.2492492492492p-57};  // 1/7
   sum = q * sum + DoubleDouble{0x1.999999999999ap-3, -0x1.999999999999ap-57};            // 1/5
   sum = q * sum + DoubleDouble{0x1.5555555555555p-2, 0x1.5555555555555p-56};             // 1/3

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames are types with their own member names, so that a phase quantity cannot be used as an axis quantity.
+// Frames are types with their own member names: the compiler rejects a phase quantity where an axis quantity
+// is needed.
 #pragma once
 
 namespace sixstep::base {

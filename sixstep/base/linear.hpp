@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words and units of linear motors. A linear motor has the equations of a rotary motor with v for w, m for J,
 // F for T and pi/tau for p (model.md 7). The library computes with the rotary motor's symbols, where 1 rad
-// stands for 1 m; files and results use metres. Only this file has the table of both.
+// means 1 m; files and results use metres. Only this file contains the table of both.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,8 +13,8 @@
 
 namespace sixstep::base {
 
-/// A unit of rotary motors, the unit that replaces it for linear motors, and how many linear units one rotary
-/// unit is.
+/// A unit of rotary motors, the unit that replaces it for linear motors, and the number of linear units in
+/// one rotary unit.
 struct LinearUnit {
   std::string_view turning, linear;
   double factor = 1.0;
@@ -83,8 +83,7 @@ inline constexpr LinearWord linear_word_table[] = {
     {"K\u209c", "K_f"},
 };
 
-/// Units that are replaced one for one, in prose and in keys. A letter must neither precede nor follow the
-/// unit.
+/// Units that are replaced one for one, in prose and in keys. No letter may precede or follow the unit.
 inline constexpr LinearWord linear_unit_words[] = {
     {"rad/s", "m/s"}, {"rad_s", "m_s"},  {"kg m2", "kg"}, {"kg_m2", "kg"},  {"N m/A", "N/A"}, {"Nm/A", "N/A"},
     {"Nm_A", "N_A"},  {"Nm_s", "N_s_m"}, {"Nm", "N"},     {"V_s", "V_s_m"}, {"N m", "N"},
@@ -118,7 +117,7 @@ inline std::string linear_words(std::string text) {
   return text;
 }
 
-/// Chooses the words and units of results: a rotary motor's as computed, or a linear motor's.
+/// Chooses the words and units of results: unchanged for a rotary motor, converted for a linear motor.
 struct Motion {
   bool linear = false;
 
@@ -141,7 +140,7 @@ inline const Spelling* linear_spelling(const About& about) {
   return nullptr;
 }
 
-/// The word for a value in files of this kind of motor; empty if there is none.
+/// The word for a value in files of this kind of motor; empty if no choice has this value.
 template <class Choices, class Enum>
 constexpr std::string_view word_in(const Motion& motion, const Choices& choices, Enum value) {
   const std::string_view turning = word(choices, value);

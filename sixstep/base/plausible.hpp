@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of plausible numbers for each unit. Every number that enters is checked against it, whether from
-// a file, the command line, a table of rows or another program. The ranges are so wide that only mistakes are
-// refused (1e308, a forgotten unit), and so narrow that products of a few such numbers stay within a double.
-// A key can have a narrower range in addition.
+// The table of plausible numbers for each unit. Every number from outside is checked against it: from a file,
+// the command line, a table of rows or another program. The ranges are so wide that only mistakes are
+// rejected (1e308, a forgotten unit), and so narrow that products of a few such numbers stay within a double.
+// A key may have a narrower range.
 #pragma once
 #include <string_view>
 
@@ -38,7 +38,8 @@ inline constexpr Plausible plausible_numbers[] = {
 /// Limits for gains, ratios, and numbers whose unit is not in the table.
 inline constexpr Plausible any_number = {"", 1e-12, 1e12};
 
-/// Formulas treat a smaller number like 0, but its inverse or its square would leave the range of a double.
+/// Formulas treat a smaller number like 0, but the inverse or the square of such a number would exceed the
+/// range of a double.
 inline constexpr double nearly_nothing = 1e-30;
 
 constexpr Plausible plausible(std::string_view unit) {
@@ -57,7 +58,7 @@ constexpr Range allowed(Range range, std::string_view unit) {
   return range;
 }
 
-/// The allowed range of a key's number. If the unit follows from other keys, the limits of any_number apply.
+/// The allowed range of a key's number. If other keys determine the unit, the limits of any_number apply.
 constexpr Range allowed(const About& about) { return allowed(about.range, about.unit); }
 
 }  // namespace sixstep::base

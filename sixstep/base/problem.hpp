@@ -9,17 +9,17 @@ namespace sixstep::base {
 
 /// One error, described so that the user can correct it without further help.
 struct Problem {
-  std::string where{};  ///< the key or place, e.g. "supply.voltage_V"; readers add file, line and column
-  std::string value{};  ///< the wrong value as written; empty if none was given
+  std::string where{};  ///< the key or location, e.g. "supply.voltage_V"; readers add file, line and column
+  std::string value{};  ///< the wrong value as written; empty if there is none
   std::string limit{};  ///< the allowed values or the broken rule, as a clause: "must be above 0"
-  std::string cure{};   ///< what to do: "give the bus voltage in volts"
+  std::string cure{};   ///< the remedy: "give the bus voltage in volts"
 
   bool operator==(const Problem&) const = default;
 };
 
 using Problems = std::vector<Problem>;
 
-/// Appends problems to `to`, because a user gets all of them together.
+/// Appends problems to `to`, because the user receives all problems at once.
 inline void append(Problems& to, const Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 /// The problem as one sentence: "supply.voltage_V = -3 must be above 0; give the bus voltage in volts"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers without a state. Each number is a function of its place (seed, stream and counter), so that
-// a run draws the same values regardless of earlier draws, of the number of threads and of the platform.
+// Random numbers without a state. Each number is a function of its seed, stream and counter. A run therefore
+// draws the same values regardless of earlier draws, of the number of threads and of the platform.
 //
 // Generator: Philox4x32-10 (J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as
 // easy as 1, 2, 3", SC11, 2011). Ten rounds pass all of TestU01's BigCrush; the authors' known answers are in
@@ -30,14 +30,14 @@ constexpr PhiloxBlock philox(PhiloxBlock x, PhiloxKey key) {
   return x;
 }
 
-/// The place of a random number. Places that differ in any of the three members give independent numbers.
+/// Address of a random number. Addresses that differ in any of the three members give independent numbers.
 struct RandomPlace {
   std::uint64_t seed = 0;
-  std::uint64_t stream = 0;   ///< identifies the quantity: each has its own stream
+  std::uint64_t stream = 0;   ///< identifies the quantity: each quantity has its own stream
   std::uint64_t counter = 0;  ///< index of the draw within the stream
 };
 
-/// The 128 random bits of a place, as two words.
+/// The 128 random bits at an address, as two words.
 constexpr std::array<std::uint64_t, 2> random_bits(const RandomPlace& at) {
   const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
   const auto high = [](std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); };
@@ -46,15 +46,15 @@ constexpr std::array<std::uint64_t, 2> random_bits(const RandomPlace& at) {
   return {std::uint64_t{out[1]} << 32 | out[0], std::uint64_t{out[3]} << 32 | out[2]};
 }
 
-/// The middle of one of 2^52 equal parts of (0, 1). It is never 0 or 1, exact, and equally often above and
-/// below 1/2.
+/// The middle of one of 2^52 equal parts of (0, 1). The result is exact, never 0 or 1, and equally often
+/// above and below 1/2.
 constexpr double open_unit(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52; }
 
 /// A number uniformly distributed in (0, 1).
 constexpr double uniform(const RandomPlace& at) { return open_unit(random_bits(at)[0]); }
 
-/// A normally distributed number of mean 0 and standard deviation 1 (Box and Muller, 1958). No value lies
-/// beyond sqrt(2 ln 2^53) = 8.57.
+/// A normally distributed number of mean 0 and standard deviation 1 (Box and Muller, 1958). Its magnitude is
+/// at most sqrt(2 ln 2^53) = 8.57.
 inline double normal(const RandomPlace& at) {
   constexpr double two_pi = 6.283185307179586;
   const std::array<std::uint64_t, 2> bits = random_bits(at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes ranges in words, for messages and help.
+// Writes ranges as text, for messages and help.
 #pragma once
 #include <string>
 
@@ -12,7 +12,7 @@ namespace sixstep::base {
 /// ends.
 std::string limit_of(const Range& range);
 
-/// The limit that x, the number of a key, breaks: the key's own range, or else the plausible range of its
+/// The limit that x, the number of a key, violates: the key's own range, or else the plausible range of its
 /// unit.
 std::string limit_of(const Range& own, const Range& allowed, double x);
 

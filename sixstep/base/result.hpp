@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value, or the reasons why there is none. std::expected would serve, but comes only with C++23.
+// A value, or the reasons why there is no value. std::expected requires C++23.
 #pragma once
 #include <utility>
 #include <variant>
@@ -17,13 +17,13 @@ class [[nodiscard]] Result {
 
   explicit operator bool() const { return content_.index() == 0; }
 
-  /// Requires that the result holds a value, which operator bool tells; otherwise the call dereferences null.
+  /// Requires a value, which operator bool shows; otherwise the call dereferences null.
   T& operator*() { return *std::get_if<0>(&content_); }
   const T& operator*() const { return *std::get_if<0>(&content_); }
   T* operator->() { return std::get_if<0>(&content_); }
   const T* operator->() const { return std::get_if<0>(&content_); }
 
-  /// Requires that the result holds problems and no value; otherwise the call dereferences null.
+  /// Requires problems instead of a value; otherwise the call dereferences null.
   const Problems& problems() const { return *std::get_if<1>(&content_); }
 
  private:

@@ -21,15 +21,15 @@ constexpr DoubleDouble half_pi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr double half_pi_third = -0x1.f1976b7ed8fbcp-110;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 
-/// An angle as a number of quarter turns (modulo 4) and a rest of at most 45 degrees (plus rounding).
+/// An angle as a number of quarter turns (modulo 4) and a remainder of at most 45 degrees (plus rounding).
 struct Reduced {
   unsigned quarters = 0;
   DoubleDouble rest;
 };
 
-/// Reduces |x| < 2^20: x - n pi/2, with pi/2 in three doubles whose products with n are exact. No double
-/// below 2^20 is nearer than 2^-60 to a multiple of pi/2, and the omitted part of pi/2 gives an error below
-/// 2^-140.
+/// Reduces |x| < 2^20: x - n pi/2, with pi/2 in three doubles whose products with n are exact. Every double
+/// below 2^20 differs by at least 2^-60 from all multiples of pi/2, and the omitted part of pi/2 causes an
+/// error below 2^-140.
 Reduced reduce_small(double x) {
   const double turns = x * two_over_pi;
   const std::int64_t n = static_cast<std::int64_t>(turns + (turns < 0.0 ? -0.5 : 0.5));
@@ -51,7 +51,7 @@ constexpr std::array<std::uint32_t, 39> two_over_pi_words{
     0x3d0739f7, 0x8a5292ea, 0x6bfb5fb1, 0x1f8d5d08, 0x56033046, 0xfc7b6bab, 0xf0cfbc20};
 
 /// Reduces x >= 2^20: x 2/pi modulo 4 in integers (Payne and Hanek 1983), with x = M 2^E. Words of 2/pi whose
-/// product with x is a multiple of 4 are left out. The next seven words (224 bits) are exact to 2^-137.
+/// product with x is a multiple of 4 are skipped. The next seven words (224 bits) are exact to 2^-137.
 Reduced reduce_large(double x) {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   const std::int64_t E = static_cast<std::int64_t>(bits >> 52) - 1075;
@@ -76,7 +76,7 @@ Reduced reduce_large(double x) {
   const std::uint64_t half_bit =
       shift > 0 ? (product[top] >> (shift - 1)) & 1u : (product[top - 1] >> 31) & 1u;
   double sign = 1.0;
-  if (half_bit != 0) {  // nearer to the next quarter turn: counts from there
+  if (half_bit != 0) {  // the next quarter turn is nearer: the remainder is counted back from it
     ++quarters;
     sign = -1.0;
     std::uint64_t carry = 1;
@@ -108,7 +108,7 @@ double sin_rest(DoubleDouble r) {
   return r.high + (r.low * (1.0 - 0.5 * q) + q * p * r.high);
 }
 
-/// cos(r) = 1 - r^2/2 + r^4/4! - ...; the square of r.high is kept exactly.
+/// cos(r) = 1 - r^2/2 + r^4/4! - ...; the square of r.high is exact, in double-double.
 double cos_rest(DoubleDouble r) {
   const DoubleDouble square = two_prod(r.high, r.high);
   const double q = square.high;
@@ -135,8 +135,8 @@ constexpr std::array<DoubleDouble, 9> atan_eighths{{{0.0, 0.0},
                                                     {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
                                                     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
 
-/// atan(y/x) for 0 <= y <= x with x in [1, 2). The result is atan c + atan s, with c the nearest eighth to
-/// y/x, and s = (y - c x)/(x + c y), |s| <= 1/16, atan s = s - s^3/3 + ...
+/// atan(y/x) for 0 <= y <= x with x in [1, 2): atan c + atan s. c is the eighth nearest to y/x, and
+/// s = (y - c x)/(x + c y), |s| <= 1/16, atan s = s - s^3/3 + ...
 DoubleDouble atan_ratio(double y, double x) {
   const double eighths = std::floor(8.0 * (y / x) + 0.5), c = eighths / 8.0;
   const DoubleDouble s = (-two_prod(c, x) + y) / (two_prod(c, y) + x);
@@ -161,11 +161,11 @@ double absolute(double x) {
 double first_quadrant(double y, double x, bool mirrored) {
   const double big = y > x ? y : x, small = y > x ? x : y;
   DoubleDouble angle;
-  if (small < big * 0x1p-60) {  // atan of the ratio is the ratio itself, and negligible beside pi/2
+  if (small < big * 0x1p-60) {  // atan of the ratio equals the ratio, and is negligible beside pi/2
     if (y <= x && !mirrored) return y / x;
   } else {
-    // A power of two brings the larger of the two into [1, 2). It is applied as two factors, because it may
-    // not be a double itself.
+    // A power of two scales the larger number to [1, 2). It is applied as two factors, because it may not be
+    // a double itself.
     const std::int64_t exponent = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(big) >> 52) - 1023;
     const double half = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent / 2) << 52);
     const double other =
@@ -182,7 +182,7 @@ double first_quadrant(double y, double x, bool mirrored) {
 SinCos sin_cos(double x) {
   if (!(x - x == 0.0)) return {nan, nan};
   const double size = absolute(x);
-  if (size < 0x1p-27) return {x, 1.0};  // sin x = x (1 - x^2/6) is x itself; this also keeps the sign of zero
+  if (size < 0x1p-27) return {x, 1.0};  // sin x = x (1 - x^2/6) rounds to x; this also keeps the sign of zero
   const Reduced r = size < 0x1p20 ? reduce_small(size) : reduce_large(size);
   const double s = sin_rest(r.rest), c = cos_rest(r.rest), sign = x < 0.0 ? -1.0 : 1.0;
   switch (r.quarters) {
@@ -202,7 +202,7 @@ double atan2(double y, double x) {
   double y_size = absolute(y), x_size = absolute(x);
   const double sign = sign_bit(y) ? -1.0 : 1.0;
   if (y_size == 0.0) return sign * (sign_bit(x) ? 2.0 * half_pi.high : 0.0);
-  if (y_size == infinity || x_size == infinity) {  // only the direction counts: 0, 45 or 90 degrees
+  if (y_size == infinity || x_size == infinity) {  // only the direction has an effect: 0, 45 or 90 degrees
     y_size = y_size == infinity ? 1.0 : 0.0;
     x_size = x_size == infinity ? 1.0 : 0.0;
   } else if (y_size < 0x1p-900 && x_size < 0x1p-900) {  // both are tiny: scaled by a common factor

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visitors of the members of described structs (base/describe.hpp). Descriptions are compiled once, for class
-// Visitor. A member whose type is a struct or an enumeration reaches the visitor through a small handle that
+// Visitor. The visitor receives a member whose type is a struct or an enumeration through a small handle that
 // hides the type.
 #pragma once
 #include <cstddef>
@@ -33,12 +33,12 @@ class WordMember {
   };
   virtual std::size_t size() const = 0;
   virtual Word at(std::size_t n) const = 0;
-  /// Index of the member's word; size() if no word stands for its value.
+  /// Index of the member's word; size() if its value has no word.
   virtual std::size_t chosen() const = 0;
   virtual void choose(std::size_t n) = 0;
-  /// The member's word; empty if no word stands for its value.
+  /// The member's word; empty if its value has no word.
   std::string_view word() const;
-  /// The member's word in a linear motor's file, where some words replace the rotary motor's.
+  /// The member's word in a linear motor's file, where some words replace words of the rotary motor.
   std::string_view linear_word() const;
 
  protected:
@@ -51,9 +51,9 @@ class TableMember {
   virtual bool is_optional() const = 0;
   virtual bool is_there() const = 0;
   virtual void emplace() = 0;
-  /// Visits the struct that is present.
+  /// Visits the struct, which must be present.
   virtual void walk(Visitor& visitor) = 0;
-  /// Visits a default-constructed struct, for the usual values.
+  /// Visits a default-constructed struct, for the default values.
   virtual void walk_usual(Visitor& visitor) const = 0;
 
  protected:
@@ -72,7 +72,8 @@ class ListMember {
   ~ListMember() = default;
 };
 
-/// Base of all visitors. Override the functions for the kinds of member that matter; the others do nothing.
+/// Base of all visitors. Override the functions for the kinds of members that you need; the others do
+/// nothing.
 class Visitor {
  public:
   template <class T>

@@ -7,7 +7,7 @@
 
 namespace sixstep::base {
 
-/// The shortest decimal that reads back as the same double, independent of the locale.
+/// The shortest decimal that converts back to the same double, independent of the locale.
 inline std::string written(double x) {
   char text[32];
   const std::to_chars_result end = std::to_chars(text, text + sizeof text, x);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts ADC counts to a signal, with the offset measured while the bridge is off.
+// Converts ADC counts to a signal. The offset is measured while the bridge is off.
 //
-//   x = per_count (counts - offset),   offset = mean of 2^n counts, kept in eighths of a count
+//   x = per_eighth (8 counts - offset),   offset = mean of 2^n samples, in eighths of a count
 //
-// Calibration fails if the mean is too far from the offset that the circuit gives, because the amplifier is
-// then broken.
+// x: the signal, n: log2_samples. Calibration fails if the mean differs too much from offset_counts: the
+// amplifier is then broken.
 #pragma once
 #include <cstdint>
 
@@ -13,21 +13,20 @@
 
 namespace sixstep::control {
 
-/// With the default every count reads 0. Converters of up to 12 bits do not saturate 16-bit formats; more
-/// bits need 32-bit formats.
+/// The default converts every count to 0. Counts of converters of up to 12 bits do not saturate 16-bit
+/// formats; converters with more bits need 32-bit formats.
 template <class Scalar>
 struct AdcConfig {
   Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
                                        ///< fixed point: raw units
-  std::uint16_t offset_counts = 0;     ///< counts without current, as the circuit gives them
+  std::uint16_t offset_counts = 0;     ///< counts without current, by the circuit's design
   std::uint16_t offset_tolerance = 0;  ///< largest deviation of the measured offset, counts
   std::uint8_t log2_samples = 6;       ///< 2^n samples in one calibration, n at most 12
   bool operator==(const AdcConfig&) const = default;
 };
 
 struct AdcState {
-  std::int32_t offset_eighths = -1;  ///< measured offset; below 0: not measured yet, and offset_counts is
-                                     ///< used
+  std::int32_t offset_eighths = -1;  ///< measured offset; below 0: not measured yet, offset_counts is used
   std::uint32_t sum = 0;
   std::uint16_t samples = 0;
 };

@@ -4,7 +4,8 @@
 //
 //   advance = fixed + per_speed |w|, at most limit;    switch early where fraction >= 1 - advance
 //
-// Angles are in sectors (60 electrical degrees = 1), measured in the direction of turning.
+// advance and fraction are in sectors (60 electrical degrees = 1), measured in the direction of turning. w is
+// the mechanical speed.
 #pragma once
 #include <cstdint>
 
@@ -13,8 +14,8 @@
 
 namespace sixstep::control {
 
-/// With the default the drive commutates at the edge. A limit of 1/2 keeps the pair within 30 degrees of the
-/// right one.
+/// With the default the drive commutates at the edge. With a limit of 1/2 or less, the selected pair is at
+/// most 30 degrees ahead of the correct pair.
 template <class Scalar>
 struct AdvanceConfig {
   Scalar fixed{};            ///< sectors

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface between controller and chip: measurement and setpoint are its input, a bridge command its
-// output. They are plain structs, the same on the simulated board and on a real one.
+// The interface between controller and chip. Measurement and setpoint are its input, a bridge command is its
+// output. The simulated board and a real board use the same plain structs.
 #pragma once
 #include <cstdint>
 
@@ -50,21 +50,21 @@ struct Setpoint {
 
 /// Current that the board's event comparators use, if a controller arms them (event hysteresis).
 enum class Watch : std::uint8_t {
-  none,   ///< comparators not armed: the duty applies
+  none,   ///< comparators not armed: the duty sets the gates
   motor,  ///< one comparator on (i_source - i_sink)/2
-  phase  ///< one per driven phase: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
+  phase   ///< two comparators: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
 };
 
 template <class Scalar>
 struct BridgeCommand {
   bool enabled = false;  ///< false: all six gates off
   Pair pair{};           ///< source and sink are already exchanged for a negative command
-  Scalar duty{};         ///< 0..1, on-time over PWM period; ignored while comparators are armed
+  Scalar duty{};         ///< 0..1, on-time divided by PWM period; ignored while comparators are armed
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
-  /// Duty of the leg that has left the pair, while its old current has not ended, -1..1. Above 0 its upper
-  /// switch is chopped, below 0 its lower one.
+  /// Duty -1..1 of the leaving leg: it has left the pair, but its current has not ended. Above 0 its upper
+  /// switch is chopped, below 0 its lower switch.
   Scalar overlap{};
   Scalar on_below_A{};   ///< a comparator switches on if its current is below this
   Scalar off_above_A{};  ///< a comparator switches off if its current is above this

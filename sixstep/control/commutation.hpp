@@ -12,7 +12,7 @@ namespace sixstep::control {
 inline constexpr std::uint8_t no_sector = 0xff;
 
 /// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0). Returns no_sector for 000
-/// and 111, which intact probes 120 degrees apart never give: a wire or a probe is broken.
+/// and 111: intact probes 120 degrees apart never give these codes, so a wire or a probe is broken.
 constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
   switch (code) {
     case 0b100:
@@ -38,7 +38,7 @@ constexpr std::uint8_t hall_of_sector(std::uint8_t sector) {
   return sector < 6 ? codes[sector] : std::uint8_t{0};
 }
 
-/// The pair that makes positive torque in sectors 0 to 5: T1 T4, T1 T6, T3 T6, T3 T2, T5 T2, T5 T4.
+/// The pair with positive torque in sectors 0 to 5: T1 T4, T1 T6, T3 T6, T3 T2, T5 T2, T5 T4.
 constexpr Pair positive_pair(std::uint8_t sector) {
   switch (sector) {
     case 0:
@@ -77,8 +77,8 @@ struct StayingPhase {
   Leg leg = Leg::a;
 };
 
-/// The leg of the staying phase. If the pairs before and after have no leg in common, or if there was no pair
-/// before, it is the source of the positive pair.
+/// The leg of the staying phase. Returns the source of the positive pair if there was no pair before, or if
+/// the pairs before and after have no leg in common.
 constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   if (sector == state.sector) return state.leg;
   const Pair now = positive_pair(sector),
@@ -88,8 +88,8 @@ constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   return state.leg;
 }
 
-/// i_m from the staying phase alone. During a commutation this current makes the torque, T_e w = 2 E i while
-/// all shapes are flat; otherwise it equals the current of the pair.
+/// i_m measured in the staying phase only. During a commutation this current determines the torque, T_e w = 2
+/// E i while all shapes are flat. At other times it equals the current of the pair.
 template <class Scalar>
 constexpr Scalar staying_current(StayingPhase& state, const Measurement<Scalar>& m, std::uint8_t sector) {
   const Leg leg = staying_leg(state, sector);

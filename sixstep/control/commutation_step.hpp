@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps the duty at a commutation. While the leaving phase's current decays through its diode, another duty
-// than the pair's holds the staying phase's current. E is the back-EMF of a phase on its flat top, R and L
-// are those of a phase, I is the current and U the bus. The leaving terminal is at the far rail. The star's
-// three equations (model.md 1) then give for the staying phase
+// Steps the duty at a commutation. While the leaving phase's current decays through its diode, the duty that
+// holds the staying phase's current differs from the duty of the pair. E is the back-EMF of a phase on its
+// flat top, R and L are the values of a phase, I is the current, U the bus voltage and d the duty. The
+// leaving terminal is at the far rail. The star's three equations (model.md 1) give for the staying phase
 //
 //   L dI/dt = ((2 d - 1) U - 4 E - 3 R I)/3     if the staying phase's switch is chopped
 //   L dI/dt = (d U - 4 E - 3 R I)/3             if the entering phase's switch is chopped
@@ -11,29 +11,29 @@
 //
 //   d = 1/2 + (4 E + 3 R I)/(2 U)   and   d = (4 E + 3 R I)/U
 //
-// whereas the pair alone needs d = (2 E + 2 R I)/U. If 4 E + 3 R I is above U, no duty holds the current
-// (Carlson, Lajoie-Mazenc and Fagundes, Analysis of torque ripple due to phase commutation in brushless DC
-// machines, IEEE Trans. Ind. Appl. 28, 1992). Then d = 1. If legs may overlap, the leaving phase's own switch
-// is then also chopped, with the duty
+// whereas without a leaving current d = (2 E + 2 R I)/U holds it. If 4 E + 3 R I is above U, no duty holds
+// the current, and d is 1 (Carlson, Lajoie-Mazenc and Fagundes, Analysis of torque ripple due to phase
+// commutation in brushless DC machines, IEEE Trans. Ind. Appl. 28, 1992). If legs may overlap, the leaving
+// phase's own switch is then also chopped, with the duty
 //
 //   x = (4 E + 3 R I)/U - 1
 //
-// because the leaving terminal is then at x U on average instead of at the rail, which replaces d U above by
-// (d + x) U.
+// The leaving terminal is then at x U on average instead of at the rail. This replaces d U above by (d + x)
+// U.
 //
-// Meanwhile the leaving current i falls by (2 E + R I + R i)/L. On average (i = I/2) this is u/L with u = 2 E
-// + 3 R I/2, half of the voltage that the held current needs; with overlapping legs it is (U - u)/L. If, when
-// the command acts, less is left of i than it falls in half a period, a step comes too late. In a braking
-// motor the back-EMF maintains the leaving current, and no step is needed.
+// Meanwhile the leaving current i falls by (2 E + R I + R i)/L. On average (i = I/2) it falls by u/L, with u
+// = 2 E + 3 R I/2, half of the voltage that the held current needs. With overlapping legs it falls by (U -
+// u)/L. A step comes too late if the rest of i at the instant when the command acts is less than the fall in
+// half a period. In a braking motor the back-EMF maintains the leaving current, and no step is needed.
 //
 // The leaving phase's flat top ends at the edge, or later by the fraction g of a flank. At the fraction f of
-// the flank its back-EMF is E (1 - 2 f), at the flank's end -E. 4 E becomes 4 E - 2 E f, and 2 E in u becomes
-// 2 E - E f.
+// the flank its back-EMF is E (1 - 2 f), and -E at the flank's end. 4 E becomes 4 E - 2 E f, and 2 E in u
+// becomes 2 E - E f.
 //
-// The edge comes within a control period, and the staying current falls until the command acts. Without a
-// correction, the step would hold that lower current. The deviation from the reference therefore adds
-// voltage: 3/2 V for each volt that the pair's current loop would add, because L di/dt is a third of the
-// voltage here and half of it there.
+// The edge lies within a control period, and the staying current falls until the command acts. A step without
+// a correction would hold the lower current. The deviation from the reference therefore adds voltage: 3/2 V
+// for each volt that the pair's current loop would add. The factor is 3/2 because L di/dt is a third of the
+// voltage during a commutation, and half of it otherwise.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -41,11 +41,11 @@
 
 namespace sixstep::control {
 
-/// By default the duty steps at every commutation with a current, to 0 or 1/2.
+/// By default the duty steps at every commutation in which a current flows, to 0 or 1/2.
 template <class Scalar>
 struct CommutationStepConfig {
   Gain<Scalar> K_t_V_s{};           ///< V of the back-EMF 2 E per mechanical rad/s
-  Gain<Scalar> V_per_A{};           ///< 3 R/2: half of 3 R, as u is half of the voltage
+  Gain<Scalar> V_per_A{};           ///< 3 R/2: half of 3 R, because u is half of the voltage
   Gain<Scalar> A_per_V{};           ///< T/L (1/2 + periods until a command acts)
   Scalar overlap_bus_V{};           ///< U, V, if legs may overlap; else 0
   Gain<Scalar> missing_V_per_A{};   ///< added to u: 3/4 of the proportional gain of the pair's loop
@@ -64,7 +64,7 @@ struct CommutationStepState {
   Scalar driven_A{};    ///< the staying phase's current at the last tick, positive in the command's direction
   Scalar volts{};       ///< u at the last tick, V
   Scalar flank{};       ///< f; below 0 before the flank begins
-  Scalar least_A{};     ///< a leaving current below this ends too soon for a step
+  Scalar least_A{};     ///< with a smaller leaving current a step comes too late
   Scalar part{};        ///< (4 E + 3 R I)/(2 U): 0 to 1/2, to 1 if legs may overlap
 };
 
@@ -89,8 +89,8 @@ constexpr void enter_sector(const CommutationStepConfig<Scalar>& config, Commuta
   state.flank = -config.flat_flanks;
 }
 
-/// Call it once per tick. It measures what is left of the leaving current, and computes the voltage that
-/// holds the staying current. `reversed`: the sign of the last command.
+/// Call it once per tick. It compares the rest of the leaving current with state.least_A, and computes the
+/// voltage that holds the staying current. `reversed`: sign of the last command.
 template <class Scalar>
 constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, CommutationStepState<Scalar>& state,
                              const Measurement<Scalar>& measured, std::uint8_t sector, bool reversed) {
@@ -127,8 +127,8 @@ constexpr Scalar half_of_one() {
   return ScalarTraits<Scalar>::half_difference(one<Scalar>, Scalar{});
 }
 
-/// Bound to which a correction may raise state.part. Beyond 1/2 this part also feeds the leaving phase: while
-/// the staying current is held, the leaving phase's L di/dt is u - U, and each rise of u changes it by 4/3 of
+/// Bound to which a correction may raise state.part. Above 1/2 the duty also feeds the leaving phase: while
+/// the staying current is held, the leaving phase's L di/dt is u - U, and each rise of u raises it by 4/3 of
 /// the rise. With this bound the leaving current still falls at two thirds of its rate.
 template <class Scalar>
 constexpr Scalar greatest_part(Scalar holding) {
@@ -138,7 +138,7 @@ constexpr Scalar greatest_part(Scalar holding) {
   return most < half ? half : most;
 }
 
-/// Duty of the command's pair that holds the staying current; `chopped` is the command's chopped switch.
+/// Duty of the command's pair that holds the staying current. `chopped`: the command's chopped switch.
 template <class Scalar>
 constexpr Scalar holding_duty(const CommutationStepState<Scalar>& state, Pair pair, ChoppedSwitch chopped) {
   const Scalar half = half_of_one<Scalar>();
@@ -148,7 +148,7 @@ constexpr Scalar holding_duty(const CommutationStepState<Scalar>& state, Pair pa
 }
 
 /// Overlap of the leaving leg (BridgeCommand::overlap). If the staying leg is the sink, the leaving leg was
-/// the source, and its upper switch is chopped; otherwise its lower one.
+/// the source, and its upper switch is chopped; otherwise its lower switch.
 template <class Scalar>
 constexpr Scalar holding_overlap(const CommutationStepState<Scalar>& state, Pair pair) {
   const Scalar beyond = state.part - half_of_one<Scalar>();

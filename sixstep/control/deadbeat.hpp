@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Deadbeat current control with compensation of the delay: it computes the voltage with which the current
-// reaches its reference one period later. The driven pair is a winding of R and L. With a voltage held over a
-// time t (zero-order hold) its current is
+// reaches its reference one period later. The driven pair is a winding of R and L with the back-EMF e. If the
+// voltage u is constant during a time t (zero-order hold), its current changes from i to
 //
 //   i(t) = a(t) i + b(t) (u - e),   a(t) = exp(-R t/L),   b(t) = (1 - a(t))/R
 //
-// The voltage computed from a sample begins a time `wait` later, and the last voltage acts until then, so
-// that
-//   i_w    = a(wait) i + b(wait) (u[n-1] - e)        where the new voltage begins
-//   u[n]   = (i* - a(T) i_w)/b(T) + e                reaches i* a period after that
+// The voltage computed from a sample begins a time `wait` later. Until then the last voltage acts:
 //
-// e is K_t w plus a correction of the predictions: at each sample e changes by g/b(T) times (predicted -
-// measured). If the model lacks a constant voltage (drop, dead time, error of R), a fraction (1 - g)^n of
-// this voltage remains after n samples.
+//   i_w    = a(wait) i + b(wait) (u[n-1] - e)        current when the new voltage begins
+//   u[n]   = (i* - a(T) i_w)/b(T) + e                the current is i* one period T after that
+//
+// e is K_t w plus a correction: at each sample it changes by g/b(T) times (predicted - measured current). g
+// is the gain of the correction. If the model lacks a constant voltage (drop, dead time, error of R), a
+// fraction (1 - g)^n of this voltage remains after n samples.
 //
 // Without a limit the current follows i*[n] one period after the new voltage begins. If the inductance is m
-// times the model's, the loop has its poles at 1 - 1/m, and is stable for m above 1/2 (no wait).
+// times the model's inductance, the loop has its poles at 1 - 1/m. It is stable for m above 1/2 if there is
+// no wait.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// Response of the winding over a time: i' = decay i + A_per_V (u - e). By default both factors are 0; over a
-/// time of 0 decay is 1 and A_per_V 0.
+/// Response of the winding over a time: i' = decay i + A_per_V (u - e). By default both factors are 0. For a
+/// time of 0, decay is 1 and A_per_V is 0.
 template <class Scalar>
 struct HeldWinding {
   Gain<Scalar> decay{};
@@ -35,7 +36,7 @@ struct HeldWinding {
 template <class Scalar>
 struct DeadbeatConfig {
   HeldWinding<Scalar> wait{};         ///< from a sample until the voltage computed from it begins
-  HeldWinding<Scalar> rest{};         ///< from the begin of that voltage to the next sample
+  HeldWinding<Scalar> rest{};         ///< from the begin of the computed voltage to the next sample
   Gain<Scalar> decay{};               ///< a(T), decay over a period
   Gain<Scalar> V_per_A{};             ///< 1/b(T), voltage per ampere of change in a period
   Gain<Scalar> correction_V_per_A{};  ///< g/b(T)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes a filtered derivative: the D part of a PID, to be added to a PI. It differentiates the
-// measurement, so that a step of the setpoint gives no kick. Backward difference of K_d s/(T_f s + 1):
+// measurement, because a step of the setpoint would cause a pulse of the output. Backward difference of K_d
+// s/(T_f s + 1):
 //
 //   y[n] = y[n-1] + g (x[n] - x[n-1]) - b y[n-1],   g = K_d/(T_f + T_s),  b = T_s/(T_f + T_s)
 //
+// x: measurement, y: derivative part, K_d: gain, T_f: time constant of the filter, T_s: control period.
+//
 // On a ramp of r per second y settles at K_d r. Subtract y from the output of the PI. y is a running sum and
-// no signal: it may be larger than the PI's output. |y| is at most g times the largest step of x, and g/b
-// times the largest change per sample. design/scaling proves that this fits.
+// may exceed the PI's output: |y| is at most g times the largest step of x, and at most g/b times the largest
+// change per sample. design/scaling proves that y does not overflow.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the bridge command of a six-step drive: position P -> speed PI -> current loop -> commutation. The
-// mode names the loop at which the chain begins. Alternatively the speed PI sets the duty (thesis 6.2.2).
+// mode selects the loop at which the chain begins. Alternatively the speed PI sets the duty (thesis 6.2.2).
 // Firmware calls step() once per control tick and on_hall() in the Hall interrupt.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
@@ -27,10 +27,10 @@ struct DriveConfig {
   Divisor<Scalar> nominal_bus_V{};  ///< the duty is u/nominal_bus_V
   PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; with SpeedControl::duty: rad/s
                                     ///< -> duty
-  Gain<Scalar> current_at_full_torque_A{};  ///< torque limit/K_t: the current reference is the speed loop's
-                                            ///< output times this
-  Scalar current_limit_A{};      ///< bound of the speed loop's current reference; give `speed.limit` the same
-                                 ///< bound
+  Gain<Scalar> current_at_full_torque_A{};  ///< torque limit/K_t: the speed loop's output times this value is
+                                            ///< the current reference
+  Scalar current_limit_A{};      ///< bound of the speed loop's current reference; set `speed.limit` to the
+                                 ///< same bound
   Gain<Scalar> position_gain{};  ///< degrees -> rad/s
   Scalar speed_limit_rad_s{};    ///< bound of the position loop's speed reference
   SpeedControl speed_control = SpeedControl::cascade;
@@ -146,7 +146,7 @@ constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
 }
 
 /// Computes at each tick the duty to which the next commutation will step. It uses the tick's speed and
-/// current, because on_hall has no measurement. Without a current loop no current is held.
+/// current, because on_hall() has no measurement. In modes without a current loop there is no step.
 template <class Scalar>
 constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                    const Measurement<Scalar>& measured, std::uint8_t sector) {
@@ -159,14 +159,14 @@ constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config,
   s.part = holding_part(config, s.volts, measured);
 }
 
-/// True while the leaving phase still carries current. The staying phase's current is held then, and the
-/// current loop rests.
+/// True while the leaving phase still carries current. Meanwhile the duty holds the staying phase's current,
+/// and the current loop rests.
 template <class Scalar>
 constexpr bool holds_current(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   return config.extras.on && config.extras.steps_commutation && state.extras.commutation.hands_over;
 }
 
-/// Sets the new pair, and a duty that drives the staying phase's current towards its reference.
+/// Sets the new pair, and state.part so that the staying phase's current moves towards its reference.
 template <class Scalar>
 constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                             const Measurement<Scalar>& measured, Pair positive, Scalar i_ref) {
@@ -227,7 +227,7 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
     i_ref = between(i_ref, window.low, window.high);
   }
   telemetry.current_reference_A = i_ref;
-  // A current loop would have no effect while the gates are off, and would only integrate the sensor's
+  // While the gates are off, a current loop would have no effect and would only integrate the sensor's
   // offset.
   if (limits && must_coast(config.extras.limits, i_ref, measured.speed_rad_s, measured.bus_V))
     return coast(state);
@@ -295,8 +295,8 @@ constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, D
 }
 
 /// The Hall interrupt: the bridge changes to the new pair at once, with the same duty and sign (model.md 3).
-/// The PWM pattern selects the chopped switch. With a commutation step the duty becomes the one that holds
-/// the staying phase's current.
+/// The PWM pattern selects the chopped switch. With a commutation step the duty changes to the value that
+/// holds the staying phase's current.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                                std::uint8_t code) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds optional parts to the drive's loops. All are behind one flag, so that a drive without any of them
-// costs one branch per tick:
+// Adds optional parts to the drive's loops. One flag enables them, so that a drive without any of them needs
+// one branch per tick:
 //   a slewed setpoint, or a position setpoint by a profile
 //   a window for the current reference
 //   back-EMF feed-forward and compensation of the measured bus
 //   chopping that is smooth through zero, and PWM patterns
 //   other laws of the speed loop than the PI in velocity form
 //   a deadbeat current loop
-//   the staying phase's current as the controlled one, and a duty that holds it during a commutation
+//   control of the staying phase's current, and a duty that holds it during a commutation
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -60,14 +60,14 @@ struct DriveExtras {
   SlewConfig<Scalar> slew{};  ///< largest step per tick, in the unit of the mode
   bool limits_current = false;
   LimitsConfig<Scalar> limits{};
-  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A, with which the speed PI stays inside
-                                         ///< the window of current
+  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A: it limits the speed PI to the window
+                                         ///< of currents
   FeedForwardConfig<Scalar> feed_forward{};
   BusCompensationConfig<Scalar> bus{};
   bool smooth_chopping = false;  ///< false: DriveConfig::chopping applies
   SmoothChoppingConfig<Scalar> chopping{};
   PwmPatternConfig<Scalar> pwm{};  ///< which switch of the pair is chopped
-  bool predicts_current = false;   ///< the current loop is `deadbeat`, else DriveConfig::current
+  bool predicts_current = false;   ///< true: `deadbeat` is the current loop, false: DriveConfig::current
   DeadbeatConfig<Scalar> deadbeat{};
   bool staying_phase = false;      ///< i_m is the current of the staying phase (commutation.hpp)
   bool steps_commutation = false;  ///< a duty step holds the current while a commutation lasts, and the
@@ -75,7 +75,7 @@ struct DriveExtras {
   CommutationStepConfig<Scalar> commutation{};
   SpeedLaw speed_law = SpeedLaw::pi;  ///< pi uses DriveConfig::speed, positional the next three members
   PiPositionalConfig<Scalar> speed{};
-  DerivativeConfig<Scalar> speed_derivative{};  ///< its output, for the measured speed, is subtracted
+  DerivativeConfig<Scalar> speed_derivative{};  ///< acts on the measured speed; its output is subtracted
   Gain<Scalar> speed_weight_off{};  ///< (1 - b) K, b the weight of the setpoint in the proportional part
   SpeedLaws<Scalar> laws{};         ///< their outputs are limited by DriveConfig::speed.limit
   [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< in Mode::position it replaces the
@@ -95,7 +95,7 @@ struct DriveExtrasState {
   DerivativeState<Scalar> speed_derivative{};
   SpeedLawsState<Scalar> laws{};
   [[no_unique_address]] ProfiledPositionState<Scalar> position{};
-  Mode slewing = Mode::off;  ///< mode for which the setpoint is shaped; after a change of mode it starts at
+  Mode slewing = Mode::off;  ///< mode whose setpoint is shaped; after a change of mode the setpoint starts at
                              ///< the measurement
 };
 
@@ -137,7 +137,7 @@ constexpr bool tells_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasS
     return false;
 }
 
-/// Speed reference of the position loop, w plus the profile's speed if that is fed forward.
+/// Speed reference of the position loop: w, plus the profile's speed if the profile is fed forward.
 template <class Scalar>
 constexpr Scalar with_speed_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state,
                                   Scalar w) {
@@ -168,7 +168,7 @@ constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtras
 }
 
 /// One tick of the speed controller. In a cascade its output stays within the window of current references,
-/// so that its integral cannot wind up against the window's limits.
+/// because its integral would otherwise wind up against the window's limits.
 template <class Scalar>
 constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                    const PiConfig<Scalar>& config, PiState<Scalar>& pi, Scalar error,
@@ -197,7 +197,7 @@ constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtra
 }
 
 /// u = u_PI + e, within the limit of the PI. At the limit u is set to exactly the limit: (limit - e) + e may
-/// round to one digit less, and a duty just below 1 would chop.
+/// round to a value one digit below the limit, and a duty just below 1 would chop.
 template <class Scalar>
 constexpr Scalar voltage_with_feed_forward(const DriveExtras<Scalar>& extras, const PiConfig<Scalar>& config,
                                            PiState<Scalar>& state, Scalar error, Scalar speed_rad_s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Monitors the measurements for faults. A fault is latched with its reason, and cleared only on request once
-// its cause is gone. The monitor reacts within the tick; a faster reaction is left to the board's comparator.
+// Monitors the measurements for faults. A fault is latched with its reason. It is cleared only on request,
+// after its cause has ended. The monitor reacts within the tick; only the board's comparator reacts faster.
 #pragma once
 #include <cstdint>
 
@@ -17,14 +17,15 @@ enum Fault : std::uint16_t {
   fault_over_voltage = 2,
   fault_under_voltage = 4,
   fault_over_speed = 8,
-  fault_hall = 16,         ///< an invalid code, a jump over a sector, or an edge that gives an impossible
+  fault_hall = 16,         ///< an invalid code, a jump over a sector, or an edge that implies an impossible
                            ///< speed
   fault_stall = 32,        ///< current without movement for too long
   fault_calibration = 64,  ///< the offset of a current amplifier is out of tolerance
   fault_align = 128        ///< the rotor did not reach the sector to which it was pulled
 };
 
-/// With the defaults any bus voltage and any current is a fault, so that no limit can be forgotten.
+/// With the defaults any bus voltage and any current is a fault. A limit that is not set is therefore
+/// noticed.
 template <class Scalar>
 struct FaultConfig {
   Scalar over_current_A{};         ///< a phase's |i| above this is a fault
@@ -49,14 +50,14 @@ struct FaultState {
 
 struct FaultEvents {
   bool hall = false;            ///< an invalid code or a jump in this tick
-  std::uint8_t hall_line = 0;   ///< 1..3: the line that causes it; 0: unknown
-  bool moved = false;           ///< a Hall edge has come since the last tick
-  std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
+  std::uint8_t hall_line = 0;   ///< 1..3: the faulty line; 0: unknown
+  bool moved = false;           ///< a Hall edge occurred since the last tick
+  std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that is impossible at steady speed; 0: none
   std::uint16_t other = 0;      ///< other causes: calibration, alignment
 };
 
-/// Takes one tick's measurement and returns the latched set; unless it is 0, the bridge must be turned off. A
-/// comparison with NaN is false, and each comparison is written so that false means a fault.
+/// Checks one tick's measurement and returns the latched set. Turn the bridge off unless the set is 0. Each
+/// comparison is false for a fault, because a comparison with NaN is false.
 template <class Scalar>
 constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState& state,
                                    const Measurement<Scalar>& m, const FaultEvents& events) {
@@ -75,8 +76,8 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  // A false edge and a real overspeed give the same measurement, so that both faults are reported. The line
-  // is reported only if a code proves that it failed.
+  // A false edge and a real overspeed give the same measurement; therefore both faults are set. The line is
+  // reported only if a code proves that the line failed.
   if (too_fast) now |= fault_over_speed;
   if (too_fast && events.false_edge != 0) now |= fault_hall;
   if (events.hall) now |= fault_hall;

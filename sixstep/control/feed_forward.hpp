@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds the back-EMF and the measured bus voltage forward, so that the current loop need not correct them.
+// Feeds the back-EMF and the measured bus voltage forward, so that the current loop has less to correct.
 //
 //   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (model.md 1: e = K_t w)
 //   d = u/U_s                 measured bus in place of the nominal one (model.md 4)
@@ -12,8 +12,8 @@ namespace sixstep::control {
 /// The default adds no voltage.
 template <class Scalar>
 struct FeedForwardConfig {
-  Gain<Scalar> K_t_V_s{};  ///< V between the driven terminals per mechanical rad/s: the torque constant's
-                           ///< number
+  Gain<Scalar> K_t_V_s{};  ///< V between the driven terminals per mechanical rad/s; equals the torque
+                           ///< constant in N m/A
   bool operator==(const FeedForwardConfig&) const = default;
 };
 
@@ -25,7 +25,7 @@ constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scala
 /// With the default the measured bus voltage is not used.
 template <class Scalar>
 struct BusCompensationConfig {
-  Scalar lowest_bus_V{};  ///< least divisor, V, used if the measurement is lower (a failed sensor); 0: off
+  Scalar lowest_bus_V{};  ///< least divisor, V; replaces a lower measurement (a failed sensor); 0: off
   bool operator==(const BusCompensationConfig&) const = default;
 };
 

@@ -3,11 +3,11 @@
 // integer n means n/2^15. The storage has 16 or 32 bits, and any number of fraction bits below this width.
 //
 // Rounding: every product, quotient and conversion is the exact result rounded to the nearest representable
-// number, ties away from zero. So (-a) b = -(a b), and a motor behaves alike in both directions.
+// number, ties away from zero. Therefore (-a) b = -(a b), and a motor behaves alike in both directions.
 //
-// Saturation: a result out of range becomes the nearer end of the range; nothing wraps. x/0 saturates in the
-// direction of x, and 0/0 is 0. Sums and differences are exact unless they saturate.
-// tests/control/fixed_test.cpp compares all pairs of an 8-bit format, and random pairs of the wider ones,
+// Saturation: a result beyond the range becomes the nearer limit of the range; nothing wraps. x/0 saturates
+// in the direction of x, and 0/0 is 0. Sums and differences are exact unless they saturate.
+// tests/control/fixed_test.cpp compares all pairs of an 8-bit format, and random pairs of wider formats,
 // with exact arithmetic.
 //
 // The arithmetic is correct also where int has 16 bits. Every operand is widened to an explicitly sized type
@@ -38,7 +38,7 @@ struct Fixed {
   constexpr Fixed() = default;
   /// The nearest representable number; 0 if x is NaN. Use it for constants and on the host: on a chip without
   /// a floating-point unit a conversion at run time would link a library. Where double has 32 bits (AVR), a
-  /// 32-bit format gets only 24 correct bits: use from_raw for its constants.
+  /// 32-bit format would get only 24 correct bits: use from_raw() for constants there.
   explicit constexpr Fixed(double x)
       : raw(detail::nearest<Storage>(x * static_cast<double>(detail::two_to<std::int64_t>(FractionBits)))) {}
   static constexpr Fixed from_raw(Storage raw) {
@@ -79,13 +79,13 @@ struct Fixed {
 
 using Q15 = Fixed<std::int16_t, 15>;
 using Q31 = Fixed<std::int32_t, 31>;
-/// Formats that hold the number 1, which a full duty needs, with one fraction bit less.
+/// Formats with one fraction bit less, which contain the number 1; a full duty needs it.
 using Q14 = Fixed<std::int16_t, 14>;
 using Q30 = Fixed<std::int32_t, 30>;
 
 /// A factor between two signals of one format: mantissa/2^right. Its range is 2^-30 (16 bits) or 2^-62 (32
-/// bits) to the storage's largest number. The constructor takes the nearest such number; the relative error
-/// is at most 2^-15 or 2^-31 while `right` is below its limit.
+/// bits) to the storage's largest number. The constructor rounds to the nearest such number. The relative
+/// error is at most 2^-15 or 2^-31 while `right` is below its limit.
 template <class Storage>
 struct FixedGain {
   Storage mantissa = 0;
@@ -102,8 +102,8 @@ struct FixedGain {
     }
     mantissa = detail::nearest<Storage>(m < -end ? -end : m);
   }
-  /// The gain with these raw numbers. It has the same bits on every compiler, also where double has 32 bits;
-  /// exported drives use it.
+  /// The gain with these raw numbers. Its bits are the same with every compiler, also where double has 32
+  /// bits. Exported drives use it.
   static constexpr FixedGain from_raw(Storage mantissa, std::int8_t right) {
     FixedGain gain;
     gain.mantissa = mantissa;
@@ -133,8 +133,8 @@ struct FixedDivisor {
   }
 };
 
-/// A running sum of signals. Its last bit is 2^-12 (16 bits) or 2^-28 (32 bits) of a signal's last bit, and
-/// its range is 16 times a signal's.
+/// A running sum of signals. Its last bit is 2^-12 (16 bits) or 2^-28 (32 bits) of a signal's last bit. Its
+/// range is 16 times the range of a signal.
 template <class Format>
 struct FixedSum {
   using Raw = typename Format::WideInt;
@@ -220,14 +220,13 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
   static constexpr Scalar signal(Accumulator sum) {
     return narrow(detail::shifted_down(sum.raw, Accumulator::guard_bits));
   }
-  /// A fraction `part`, 0..1, of a sum. It is exact to one digit of the signal, or to eight digits if the sum
-  /// is above twice the signal's range.
+  /// The fraction `part`, 0..1, of a sum. The error is at most one digit of the signal, or eight digits if
+  /// the sum exceeds twice the signal's range.
   static constexpr Accumulator share(Accumulator sum, Gain part) {
     constexpr Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
     const Wide digits = detail::shifted_down(sum.raw, Accumulator::guard_bits);
     if (digits <= end && digits >= -end) return accumulated(digits, part);
-    // When it is shifted down, the greatest sum rounds up to one more than the largest difference of two
-    // signals.
+    // Shifted down, the greatest sum rounds up to one more than the largest difference of two signals.
     const Wide p = static_cast<Wide>(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3) *
                                      static_cast<Wide>(part.mantissa));
     const Accumulator eighth = accumulated(detail::absolute(p), p < 0, part.right);
@@ -244,13 +243,14 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     const Unsigned q = detail::divided_unsigned(detail::absolute(ratio.raw), static_cast<Unsigned>(ticks));
     return narrow(detail::with_sign(q, ratio.raw < 0));
   }
-  /// Computed digit by digit. This keeps every digit of 32-bit counts and costs less than their division.
+  /// Computed digit by digit: it keeps every digit of 32-bit counts and costs less than a division of 64
+  /// bits.
   static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
     if (part >= whole) return one<Scalar>;
     UnsignedStorage q = 0;
     for (int n = 0; n < FractionBits; ++n) {
       const bool one_more =
-          part >= static_cast<std::uint32_t>(whole - part);  // 2 part >= whole, where 2 part may not fit
+          part >= static_cast<std::uint32_t>(whole - part);  // 2 part >= whole, without an overflow of 2 part
       part = one_more ? static_cast<std::uint32_t>(part - (whole - part))
                       : static_cast<std::uint32_t>(part + part);
       q = static_cast<UnsignedStorage>(static_cast<UnsignedStorage>(q << 1) | (one_more ? 1u : 0u));

@@ -6,7 +6,7 @@
 
 namespace sixstep::control::detail {
 
-/// Integer types by width: Wide holds a product of two numbers of the storage. int8_t exists for the
+/// Integer types by width. Wide holds a product of two numbers of the storage. int8_t exists for the
 /// exhaustive test.
 template <class Int>
 struct Widths;
@@ -57,7 +57,7 @@ constexpr UnsignedOf<Int> absolute(Int x) {
   return x < 0 ? static_cast<Unsigned>(Unsigned{0} - static_cast<Unsigned>(x)) : static_cast<Unsigned>(x);
 }
 
-/// The signed number of a magnitude. It saturates if it does not fit.
+/// The signed number from magnitude and sign; saturates if it does not fit.
 template <class Unsigned>
 constexpr auto with_sign(Unsigned magnitude, bool negative) {
   using Int = decltype([] {
@@ -72,7 +72,7 @@ constexpr auto with_sign(Unsigned magnitude, bool negative) {
   return negative ? static_cast<Int>(-static_cast<Int>(magnitude)) : static_cast<Int>(magnitude);
 }
 
-/// x, or the nearest number that Narrow holds.
+/// x, or the nearest number within the range of Narrow.
 template <class Narrow, class Wide>
 constexpr Narrow saturated(Wide x) {
   if constexpr (sizeof(Narrow) < sizeof(Wide)) {
@@ -82,7 +82,7 @@ constexpr Narrow saturated(Wide x) {
   return static_cast<Narrow>(x);
 }
 
-/// The signed number of a magnitude in half the magnitude's width, saturated.
+/// The signed number from magnitude and sign, in half the magnitude's width, saturated.
 template <class Narrow, class Unsigned>
 constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
   if (magnitude > static_cast<Unsigned>(greatest<Narrow>)) return negative ? least<Narrow> : greatest<Narrow>;
@@ -97,8 +97,8 @@ struct Magnitude {
   bool negative = false;
 };
 
-/// Product of 16 by 16 bits where int has 16 bits. There a product of 32-bit factors would be a library call;
-/// these four products of 8 bits cost a quarter of it.
+/// Product of 16 by 16 bits where int has 16 bits. On such chips a product of 32-bit factors would call a
+/// library; these four products of 8 bits cost a quarter of the call.
 constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
   const auto part = [](std::uint16_t x, std::uint16_t y) {
     return static_cast<std::uint16_t>(static_cast<std::uint16_t>(x & 0xffu) *
@@ -110,7 +110,7 @@ constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
          (static_cast<std::uint32_t>(part(a, b_high)) << 8);
 }
 
-/// a b as magnitude and sign. |a| may have one bit more than Storage has without its sign.
+/// a b as magnitude and sign. |a| may have one bit more than the magnitude bits of Storage.
 template <class Storage>
 constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   using Wide = typename Widths<Storage>::Wide;
@@ -123,8 +123,7 @@ constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   }
 }
 
-/// u/2^n for n >= 0, rounded to nearest. For a product, at n = 2 bits - 2 only a last digit is left, by
-/// rounding.
+/// u/2^n for n >= 0, rounded to nearest. For a product and n = 2 bits - 2, the result is 0 or 1 by rounding.
 template <class Unsigned>
 constexpr Unsigned magnitude_down(Unsigned u, int n) {
   if (n == 0) return u;
@@ -138,7 +137,7 @@ constexpr Int shifted_down(Int x, int n) {
   return with_sign(magnitude_down(absolute(x), n), x < 0);
 }
 
-/// The signed number of u 2^n, saturated.
+/// +-u 2^n as a signed number, saturated.
 template <class Int>
 constexpr Int magnitude_up(UnsignedOf<Int> u, bool negative, int n) {
   using Unsigned = UnsignedOf<Int>;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a bridge command to the six gates of one instant, for firmware that sets pins or the output modes of
-// a timer. In the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
-//   soft           the switch that is not chopped stays on: the sink's lower one, or the source's upper one
-//   hard           no switch is on
+// Converts a bridge command to the six gates of one instant, for firmware that sets pins or the output modes
+// of a timer. In the on-time of a PWM period both driven switches are on. In its off-time (model.md 3) these
+// are on:
+//   soft           the driven switch that is not chopped: the sink's lower or the source's upper switch
+//   hard           no switch
 //   complementary  as soft, and also the other switch of the chopped leg, after the dead time that the timer
 //                  inserts
 #pragma once
@@ -13,8 +14,8 @@
 
 namespace sixstep::control {
 
-/// Bit of a switch: 0, 2, 4 for the upper switches of a, b, c (T1 T3 T5); 1, 3, 5 for the lower ones (T2 T4
-/// T6).
+/// Bit of a switch: 0, 2, 4 for the upper switches of a, b, c (T1 T3 T5); 1, 3, 5 for the lower switches (T2
+/// T4 T6).
 constexpr std::uint8_t upper_gate(Leg leg) {
   return static_cast<std::uint8_t>(1u << (2u * static_cast<unsigned>(leg)));
 }

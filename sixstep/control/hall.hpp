@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the Hall pins to sector and direction, with a filter against glitches. Faults are the two codes
-// that an arrangement cannot give, and jumps over a sector. If the times allow it, the broken line is named.
-// The table of codes is in commutation.hpp.
+// Decodes the Hall pins to sector and direction, with a filter against glitches. Two faults are detected: a
+// code that the arrangement cannot give, and a jump over a sector. If the times allow it, the broken line is
+// named. The table of codes is in commutation.hpp.
 //
-// Probes 60 degrees apart give 110 111 011 001 000 100 in sectors 0 to 5 (each probe is high over half a turn
-// and lags the one before by one sector); 010 and 101 are invalid (model.md 3). Compared with probes 120
-// degrees apart, H3 is the H2 of that arrangement, and H2 is the inverted H3.
+// Probes 60 degrees apart give 110 111 011 001 000 100 in sectors 0 to 5: each probe is high over half a turn
+// and lags the probe before by one sector. 010 and 101 are invalid (model.md 3). H3 of this arrangement
+// equals H2 of probes 120 degrees apart, and H2 of this arrangement equals their inverted H3.
 #pragma once
 #include <cstdint>
 
@@ -18,7 +18,7 @@ enum class HallArrangement : std::uint8_t { degrees_120, degrees_60 };
 /// Class of the time since the last edge, compared with the sectors before (hall_speed.hpp). It is used only
 /// to name a broken line.
 enum class SectorTime : std::uint8_t {
-  unknown,  ///< the rotor starts, slows down or has turned back, or no other class fits
+  unknown,  ///< the rotor starts, slows down or has reversed, or no other class fits
   soon,     ///< less than 3/4 of a sector's time
   within,   ///< no longer than a sector's time
   twice     ///< about two sectors' time: an edge was missed
@@ -32,8 +32,8 @@ enum class HallFault : std::uint8_t {
 
 struct HallConfig {
   HallArrangement arrangement = HallArrangement::degrees_120;
-  /// Consecutive equal samples after which a new code counts. n of them delay each edge by n - 1 samples; 0
-  /// counts as 1. Leave it at 1 in an interrupt, where the first reading counts.
+  /// Consecutive equal samples after which a new code is accepted. n samples delay each edge by n - 1
+  /// samples; 0 counts as 1. Keep 1 in an interrupt, which must accept the first reading.
   std::uint8_t stable_samples = 1;
   bool operator==(const HallConfig&) const = default;
 };
@@ -43,13 +43,13 @@ struct HallState {
   std::uint8_t seen = 0;              ///< samples since the candidate appeared
   std::uint8_t sector = no_sector;    ///< the last valid sector
   std::int8_t direction = 0;          ///< direction of the last edge: +1 forward, -1 backward, 0 none yet
-  std::uint8_t suspect = 0;           ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
+  std::uint8_t suspect = 0;           ///< 1..3: line with an edge that is impossible at steady speed; 0: none
   std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; `suspect` is cleared after 6
-  HallFault fault = HallFault::none;  ///< impossible_code as long as an invalid code is present
+  HallFault fault = HallFault::none;  ///< impossible_code while an invalid code is present
 };
 
 struct HallReading {
-  std::uint8_t sector = no_sector;  ///< no_sector before the first code and during an invalid one
+  std::uint8_t sector = no_sector;  ///< no_sector before the first code and during an invalid code
   std::int8_t moved = 0;            ///< sectors passed since the last call: -1, 0 or 1
   HallFault fault = HallFault::none;
   std::uint8_t line = 0;  ///< 1..3: the line that causes an invalid code; 0: unknown
@@ -63,7 +63,7 @@ constexpr std::uint8_t as_120_degrees(HallArrangement arrangement, std::uint8_t 
   return static_cast<std::uint8_t>((h1 ? 0b100 : 0) | (h3 ? 0b010 : 0) | (h2 ? 0 : 0b001));
 }
 
-/// Number of sectors from one to the other by the shorter rotation: -2..3.
+/// Number of sectors from `from` to `to` by the shorter rotation: -2..3.
 constexpr std::int8_t sectors_between(std::uint8_t from, std::uint8_t to) {
   const std::int8_t ahead = static_cast<std::int8_t>((to + 6 - from) % 6);
   return static_cast<std::int8_t>(ahead > 3 ? ahead - 6 : ahead);
@@ -80,13 +80,11 @@ constexpr std::uint8_t changed_line(std::uint8_t a, std::uint8_t b) {
 
 namespace detail {
 
-/// The line that causes an invalid code, for codes of probes 120 degrees apart; 0: unknown. There are two
-/// cases, which only the times of a steadily running rotor distinguish.
-///
-/// A line that breaks while its level is due to stay is the line that changes now, or the one whose last edge
-/// was false. A line that misses its edge shows nothing for two sectors, until its neighbour's edge makes the
-/// code invalid. The rotor is then two sectors further, and the line is the one that differs from the code
-/// due there.
+/// The line that causes an invalid code, for codes of probes 120 degrees apart; 0: unknown. Only the times of
+/// a steadily running rotor distinguish the two cases:
+/// - A line breaks between its edges. It is the line that changes now, or the line whose last edge was false.
+/// - A line misses its edge. The code stays valid for two sectors, until the next line's edge. The rotor is
+///   then two sectors further, and the broken line is the line that differs from the code due there.
 constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
   const auto differs_from = [&](int sectors_on) {
     const int sector = (state.sector + 12 + sectors_on * state.direction) % 6;
@@ -103,8 +101,9 @@ constexpr std::uint8_t line_of(HallArrangement arrangement, std::uint8_t line) {
   return arrangement == HallArrangement::degrees_60 && line > 1 ? static_cast<std::uint8_t>(5 - line) : line;
 }
 
-/// Takes one line's edge to a neighbouring sector. A steadily running rotor makes no edge within 3/4 of a
-/// sector after the last one, and does not turn back within a sector: such an edge shows that its line broke.
+/// Processes one line's edge to a neighbouring sector. With a steadily running rotor no edge occurs within
+/// 3/4 of a sector after the last edge, and the rotor does not reverse within a sector. Such an edge shows
+/// that its line is broken.
 constexpr void take_edge(const HallConfig& config, HallState& state, std::uint8_t code, std::int8_t passed,
                          SectorTime time) {
   const bool turned = state.direction == -passed;

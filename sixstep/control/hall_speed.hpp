@@ -2,17 +2,17 @@
 // Computes speed, angle within the sector and position from the times of Hall edges.
 //
 //   w = +-k (pi/3)/p timer_Hz/(ticks over the last k edges)
-//   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     the next edge has not come yet
+//   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     the next edge has not occurred yet
 //   fraction = ticks since the last edge/mean ticks of a sector, at most 1
 //
-// Times are readings of a free-running 32-bit counter that may wrap (extend a 16-bit capture register by the
-// number of its overflows). The first edge, a reversal and a time-out restart the history with speed 0,
-// because one edge alone gives no speed.
+// w: mechanical speed, p: pole pairs. Times are readings of a free-running 32-bit counter that may wrap
+// (extend a 16-bit capture register by the number of its overflows). The first edge, a reversal and a
+// time-out restart the history with speed 0, because a single edge gives no speed.
 //
-// A speed over k edges is k/2 sectors old, and up to one sector more before the next edge: on average (k +
-// 1)/2 sectors, or (k + 1)/2 (pi/3)/(p w). The probes' placement errors cancel over k = 6, one electrical
-// turn. At low speed, however, a speed loop is not stable with so old a speed. With a window, the speed is
-// taken over `edges` edges if these came within it, else over one edge.
+// A speed over k edges is k/2 sectors old at an edge, and one sector more before the next edge: on average
+// (k + 1)/2 sectors, or (k + 1)/2 (pi/3)/(p w). The probes' placement errors cancel over k = 6, one
+// electrical turn. At low speed, however, this delay makes a speed loop unstable. With a window, the speed is
+// measured over `edges` edges if they occurred within the window, else over one edge.
 #pragma once
 #include <cstdint>
 
@@ -28,10 +28,10 @@ struct HallSpeedConfig {
   TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: product of speed and ticks of one sector
   std::uint32_t timeout_ticks = 0;  ///< ticks without an edge after which the rotor counts as at rest; below
                                     ///< 2^32 minus one control period
-  std::uint8_t edges = 1;           ///< k, edges over which a speed is taken, 1..6
+  std::uint8_t edges = 1;           ///< k, edges over which the speed is measured, 1..6
   std::uint32_t window_ticks = 0;   ///< k = 1 if `edges` edges took longer than this; 0: k is always `edges`
-  std::uint32_t grain_ticks = 1;    ///< resolution of an edge's time: 1 by capture, ticks of a control period
-                                    ///< by polling
+  std::uint32_t grain_ticks = 1;    ///< resolution of an edge's time: 1 by capture, by polling the ticks of a
+                                    ///< control period
   bool operator==(const HallSpeedConfig&) const = default;
 };
 
@@ -47,7 +47,7 @@ constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known)
   return intervals < most ? intervals : most;
 }
 
-/// Number of sectors over which the speed is taken now; 0: the speed is not known yet.
+/// Number of sectors over which the speed is measured now; 0: the speed is not known yet.
 template <class Scalar>
 constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                           const HallSpeedState& state) {
@@ -57,7 +57,7 @@ constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                                                                            : k;
 }
 
-/// Takes an edge in `direction` (+1, -1) at counter reading `now`.
+/// Adds an edge in `direction` (+1, -1) at counter reading `now`.
 constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::int8_t direction) {
   if (direction == 0) return;
   if (direction != state.direction) state.known = 0;
@@ -68,7 +68,7 @@ constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::in
 }
 
 /// Speed at counter reading `now`, mechanical rad/s. Call it at least once per timeout_ticks, because only
-/// this call ends the history.
+/// this call clears the history.
 template <class Scalar>
 constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedState& state, std::uint32_t now) {
   using T = ScalarTraits<Scalar>;
@@ -83,7 +83,7 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   if (k == 0) return Scalar{};
   const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
   Scalar w = T::per_ticks(T::times(config.sector_rad_s_ticks, k), ticks == 0 ? 1 : ticks);
-  // The bound is below the measured speed only if the mean time of a sector has passed since the last edge.
+  // The bound can be below the measured speed only after the mean time of a sector has passed.
   if (since > ticks / k) {
     const Scalar bound = T::per_ticks(config.sector_rad_s_ticks, since);
     if (bound < w) w = bound;
@@ -96,20 +96,21 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
   return later <= earlier + earlier / 4 && later >= earlier - earlier / 4;
 }
 
-/// Compares the present sector's time with the last ones. The result is known from the fifth edge in one
-/// direction on, if the last sectors' times each differ by at most a quarter from the time before.
+/// Compares the time since the last edge with the last sectors' times. The result is known from the fifth
+/// edge in one direction on, if each of the last sectors' times differs by at most a quarter from the time
+/// before.
 ///
-/// A rotor that starts from rest at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24) makes no edge
-/// that is `soon` from then on. A rotor that slows down at a constant torque makes no edge that is `twice`,
-/// and no two sectors that are `within`. A sector shorter than eight grains is unknown: from eight grains on
-/// (T - g)/(T + g) of a steady rotor is at least 3/4.
+/// From then on, a rotor that starts from rest at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24)
+/// has no edge that is `soon`. A rotor that slows down at a constant torque has no edge that is `twice`, and
+/// no two sectors that are `within`. A sector T shorter than eight grains g is `unknown`: from eight grains
+/// on (T - g)/(T + g) of a steady rotor is at least 3/4.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
   std::uint32_t sector[3]{};
   for (int n = 0; n < 3; ++n) {
     sector[n] = static_cast<std::uint32_t>(state.times[n] - state.times[n + 1]);
-    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 times this time would not fit
+    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2.5 times this time would not fit
   }
   const std::uint32_t last = sector[0];
   if (last / 8 < grain) return SectorTime::unknown;
@@ -145,8 +146,8 @@ struct HallPositionState {
 
 constexpr void hall_position_edge(HallPositionState& state, std::int8_t moved) { state.sectors += moved; }
 
-/// Position, mechanical degrees. Forward, the distance since the last edge is added to the sector's lower
-/// edge; backward, it is subtracted from the upper edge.
+/// Position, mechanical degrees. If the rotor turns forward, the distance since the last edge is added to the
+/// sector's lower edge; if it turns backward, the distance is subtracted from the upper edge.
 template <class Scalar>
 constexpr Scalar hall_position(const HallPositionConfig<Scalar>& config, const HallPositionState& state,
                                std::int8_t direction, Scalar fraction) {

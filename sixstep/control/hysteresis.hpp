@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the current between two levels. The switch turns on below |i_ref| - h and off above |i_ref| + h,
-// and stays as it is between. It starts on (model.md 4).
+// Controls the current between two levels. The switch turns on below |i_ref| - h and off above |i_ref| + h.
+// It does not change in between, and starts on (model.md 4).
 #pragma once
 
 #include "sixstep/control/bridge_command.hpp"
 
 namespace sixstep::control {
 
-/// The comparators are on the board (events without sampling); without them, hysteresis_step() compares once
-/// per control tick.
+/// Events: the board's comparators switch without sampling. Otherwise hysteresis_step() compares once per
+/// control tick.
 template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
   Watch watch = Watch::motor;  ///< current that the board's comparators use; Watch::none: hysteresis_step()
-                               ///< compares the sampled i_m
+                               ///< uses the sampled i_m
   bool operator==(const HysteresisConfig&) const = default;
 };
 

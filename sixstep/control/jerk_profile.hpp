@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a jerk-limited profile: a position setpoint within limits of speed, acceleration and jerk that stops
-// exactly on its target. The target may change at any tick. The profile also gives speed and acceleration,
-// for feed-forward.
+// Computes a jerk-limited profile: a position setpoint within limits of speed, acceleration and jerk that
+// stops exactly on its target. The target may change at any tick. The profile also gives speed and
+// acceleration for feed-forward.
 //
-// Take the mean of a trapezoidal speed over the last M strides. It is a profile whose acceleration has ramps
+// The profile is the mean of a trapezoidal speed over the last M strides. The mean's acceleration has ramps
 // (Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, 4.5; Lambrechts et
-// al., Trajectory planning and feedforward design, 2005). With a the trapezoid's change of speed per stride:
+// al., Trajectory planning and feedforward design, 2005). a[n] is the trapezoid's change of speed in stride
+// n:
 //
-//   v = 1/M sum of the trapezoid's speeds       so |v| and |change of v| keep the trapezoid's limits
-//   change of acceleration = (a[n] - a[n-M])/M  so it keeps a/M if a never has both signs M strides apart
+//   v = 1/M sum of the trapezoid's speeds       |v| and |change of v| keep the trapezoid's limits
+//   change of acceleration = (a[n] - a[n-M])/M  is at most a/M if a has no two signs within M strides
 //
-// Before its acceleration changes sign, the trapezoid keeps its speed for M strides. This takes no extra
-// time, because with limited jerk the acceleration passes through 0 anyway. Each stride takes the fastest v
-// that still stops on the target: after c = M strides at v if the trapezoid gains speed, after c = 0 if it
-// loses speed (profile.hpp, with c strides more). R is the remaining distance:
+// Before its acceleration changes sign, the trapezoid keeps its speed for M strides. The time does not
+// increase, because with limited jerk the acceleration passes through 0 anyway. Each stride uses the fastest
+// speed v from which the profile still stops on the target. It first keeps v for c strides: c = M if the
+// trapezoid gains speed, c = 0 if it loses speed (profile.hpp, with c strides more). R is the remaining
+// distance:
 //
-//   c v + v + (v - a) + .. = R,   v = (R + a m (m + 1)/2)/(m + 1 + c),   m the largest with a m (2 c + m + 1)/2 <= R
+// A move over a distance d takes d/v + v/a + a/j (j: jerk limit) if it is long enough to reach its speed and
+// acceleration limits; no profile is faster. A shorter move takes a little longer than the fastest profile.
+// If the target is nearer than the stopping distance, the profile passes it and returns.
 //
-// A move over a distance d takes d/v + v/a + a/j if it is long enough to reach its speed and its
-// acceleration; no profile is faster. A shorter move takes a little longer than the fastest one. A target
-// nearer than the stopping distance is passed, and the profile returns to it.
+// A stride is one control tick, or so many ticks that M is at most 64. Then 64 stored numbers suffice for any
+// jerk. Between two strides the setpoint is the cubic B-spline of the means: position, speed and acceleration
+// are continuous. The spline's derivatives are B-splines of the differences; each limit therefore holds at
+// every instant. The spline lags by three strides.
 //
-// A stride is one control tick, or as many ticks as make M at most 64: then 64 stored numbers suffice for any
-// jerk. Between two strides the setpoint is the cubic B-spline of the means, so that position, speed and
-// acceleration are continuous. The spline's derivatives are B-splines of the differences, so that each limit
-// holds at every instant. The spline lags by three strides.
-//
-// Speeds and distances are integer counts, with 2^26 for a stride at full speed: sums are exact, nothing
+// Speeds and distances are integer counts. One stride at full speed is 2^26 counts. Sums are exact, nothing
 // drifts, and the final position is exactly the target's number. A new target moves the setpoint at once by
 // at most half a count, 2^-27 of a stride at full speed. From rest, a distance of at most M counts takes one
 // stride. A distance beyond 2^28 strides at full speed is covered in parts.
@@ -48,7 +48,7 @@ inline constexpr std::int64_t jerk_profile_farthest = std::int64_t{1} << 54;  //
 
 inline constexpr double jerk_profile_longest = 64.0 * 65535;  ///< largest number of ticks in M strides
 
-/// jerk_profile() makes it. A part is 1/M of a count. The default never moves.
+/// Configuration; jerk_profile() computes it. A part is 1/M of a count. The default never moves.
 template <class Scalar>
 struct JerkProfileConfig {
   Scalar counts_per_deg{};
@@ -75,9 +75,9 @@ struct JerkProfileState {
   std::int64_t rest{};      ///< distance that the mean has still to go, parts
   std::int64_t mean[3]{};   ///< last speeds of the mean, parts per stride, the newest first
   std::int32_t velocity{};  ///< the trapezoid's speed, counts per stride
-  std::int32_t begun{};     ///< speed before the begin, which cells that are not yet filled stand for
+  std::int32_t begun{};     ///< speed before the begin; it replaces cells that are not filled yet
   std::int32_t cell[jerk_profile_cells]{};
-  /// Polynomial of this stride: distance left in parts, speed, acceleration, change of acceleration.
+  /// Polynomial of this stride: remaining distance in parts, speed, acceleration, change of acceleration.
   Scalar spline[4]{};
   std::uint16_t tick{};           ///< tick within the stride
   std::uint8_t next{}, filled{};  ///< index of the next cell, and number of filled cells
@@ -93,14 +93,14 @@ struct JerkProfileLimits {
                              ///< strides
 };
 
-/// Makes a configuration. It is computed in double, at compile time or on a host. A limit that is not above 0
-/// gives the default.
+/// Computes a configuration in double, at compile time or on a host. A limit that is not above 0 gives the
+/// default.
 template <class Scalar = double>
 constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits, double period_s) {
   constexpr double degrees = 57.295779513082320877;
   if (!(limits.speed_rad_s > 0) || !(limits.acceleration_rad_s2 > 0) || !(period_s > 0)) return {};
-  // The factor is below 1, so that an error in the last digits of a whole number of periods does not add a
-  // period.
+  // The factor is below 1, because otherwise an error in the last digits of a whole number of periods could
+  // add a period.
   const double wanted = between(limits.smoothing_s / period_s * (1 - 1e-12), 0.0, jerk_profile_longest);
   const auto whole = static_cast<std::int32_t>(wanted);
   const std::int32_t smooth = static_cast<double>(whole) < wanted ? whole + 1 : whole < 1 ? 1 : whole;
@@ -123,7 +123,7 @@ constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits
 namespace detail {
 
 /// Converts an integer to Scalar in two halves. Cores with single precision convert 32 bits in one
-/// instruction, but need a library for 64.
+/// instruction; 64 bits would need a library.
 template <class Scalar>
 constexpr Scalar scalar_of(std::int64_t n) {
   constexpr Scalar half = Scalar(4294967296.0);
@@ -134,7 +134,7 @@ constexpr Scalar scalar_of(std::int64_t n) {
   return below ? -x : x;
 }
 
-/// Rounds to the nearest count; its magnitude is at most jerk_profile_farthest.
+/// Rounds to the nearest count, limited to +-jerk_profile_farthest.
 template <class Scalar>
 constexpr std::int64_t counts_of(Scalar x) {
   constexpr Scalar half = Scalar(4294967296.0), most = half * Scalar(4194304.0);
@@ -147,8 +147,8 @@ constexpr std::int64_t counts_of(Scalar x) {
   return below ? -n : n;
 }
 
-/// n/d rounded down, for n >= 0 and a quotient below 2^27. It is computed digit by digit, because cores need
-/// a library to divide 64 bits.
+/// n/d rounded down, for n >= 0 and a quotient below 2^27. Computed digit by digit, because cores need a
+/// library to divide 64 bits.
 constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   std::int32_t q = 0;
   for (std::int8_t bit = 26; bit >= 0; --bit) {
@@ -159,7 +159,7 @@ constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   return q;
 }
 
-/// The fastest v with which c strides at v and the braking after them need at most the distance R.
+/// The fastest v for which c strides at v and the braking after them need at most the distance R.
 constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64_t c) {
   const auto way = [a, c](std::int64_t m) { return m * a * (2 * c + m + 1) / 2; };
   std::int64_t low = 0, high = jerk_profile_speed / static_cast<std::int32_t>(a) + 1;
@@ -172,8 +172,8 @@ constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64
   return v < jerk_profile_speed ? v : jerk_profile_speed;
 }
 
-/// The trapezoid's next speed towards a target at distance R. `gains`, `loses`: the rule about changes of
-/// sign allows it to gain or to lose speed.
+/// The trapezoid's next speed towards a target at distance R. `gains`, `loses`: it may gain or lose speed
+/// without changing the acceleration's sign too early.
 constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_t a, std::int32_t cells,
                                   bool gains, bool loses) {
   const std::int32_t gained = fastest_within(R, a, cells);
@@ -186,8 +186,8 @@ constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_
 template <class Scalar>
 constexpr void trapezoid_stride(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state) {
   const bool back = state.way < 0;
-  // A distance up to `least` is covered in one stride: its acceleration is negligible, and R/(M + 1) would
-  // not be a whole count.
+  // A distance up to `least` is covered in one stride: the acceleration is then negligible, and R/(M + 1)
+  // would not be a whole count.
   const std::int64_t least = config.cells < config.acceleration ? config.cells : config.acceleration;
   if (state.velocity == 0 && state.waits == 0 && state.way <= least && state.way >= -least) {
     state.velocity = static_cast<std::int32_t>(state.way);
@@ -264,7 +264,8 @@ constexpr void begin_profile(const JerkProfileConfig<Scalar>& config, JerkProfil
   state.velocity = state.begun = static_cast<std::int32_t>(v);
   for (std::int64_t& mean : state.mean) mean = M * v;
   state.way =
-      -v * (M + 1) / 2;  // the mean lags the trapezoid by (M - 1)/2 strides, and the spline by one more
+      -v * (M + 1) / 2;  // the mean lags the trapezoid by (M - 1)/2 strides, the spline lags the mean by one
+                         // stride
   state.rest = M * state.way + v * (M * (M - 1) / 2);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the commands of the bridge's legs, one per leg, as a timer's channels take them (model.md 11). This
-// is the second kind of controller output. Six-step gives a pair and one duty (bridge_command.hpp). That
-// struct does not depend on this one, so that a six-step chip stores and copies no more than it needs;
-// as_legs() converts a pair to three commands.
+// Defines the commands of the bridge's legs, one per leg, for a timer's channels (model.md 11). They are the
+// second kind of controller output; the first kind is a pair and one duty for six-step (bridge_command.hpp).
+// BridgeCommand does not depend on this header, so that a six-step chip stores and copies no more than it
+// needs. as_legs() converts a pair to three commands.
 #pragma once
 #include <cstdint>
 
@@ -13,14 +13,13 @@ namespace sixstep::control {
 /// State of a leg during a PWM period.
 enum class LegState : std::uint8_t { off, low, high, pwm };
 
-/// Switches that a pwm leg turns on in its pulse, which lasts `duty` of the period, and in the rest of the
+/// Switches of a pwm leg that are on in the pulse, which lasts `duty` of the period, and in the rest of the
 /// period.
 enum class PwmSwitches : std::uint8_t {
-  complementary,  ///< the upper switch in the pulse, the lower one in the rest; each after the dead time
-  upper,          ///< the upper switch in the pulse, none in the rest
-  lower,          ///< the lower switch in the pulse, none in the rest, as a channel with only its
-                  ///< complementary output
-  lower_first     ///< the lower switch in the pulse, the upper one in the rest; each after the dead time
+  complementary,  ///< pulse: the upper switch; rest: the lower switch; each after the dead time
+  upper,          ///< pulse: the upper switch; rest: none
+  lower,          ///< pulse: the lower switch; rest: none, like a channel with only its complementary output
+  lower_first     ///< pulse: the lower switch; rest: the upper switch; each after the dead time
 };
 
 template <class Scalar>
@@ -34,7 +33,7 @@ struct LegCommand {
 template <class Scalar>
 struct LegCommands {
   bool enabled = false;         ///< false: all six gates off
-  bool fault = false;           ///< the controller has stopped the drive; the bridge is off
+  bool fault = false;           ///< true: the controller has stopped the drive; the bridge is off
   LegCommand<Scalar> leg[3]{};  ///< commands of legs a, b, c
   bool operator==(const LegCommands&) const = default;
 };
@@ -85,7 +84,7 @@ constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, 
   return {LegState::low, PwmSwitches::complementary, Scalar{}};
 }
 
-/// Command of the leg that has left the pair, while it maintains a part of its old current.
+/// Command of the leg that has left the pair, while its switch still feeds its decaying current.
 template <class Scalar>
 constexpr LegCommand<Scalar> overlapping_leg(Scalar overlap) {
   const bool upper = Scalar{} < overlap;

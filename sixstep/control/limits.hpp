@@ -9,20 +9,21 @@
 //   regeneration  braking current <= g (U_limit - U_s), at least 0 A
 //
 // Regeneration: while the motor brakes, i w < 0, the bridge returns current to the bus. If the supply cannot
-// take this current, the bus voltage rises with C dU/dt <= |i|. With |i| <= g (U_limit - U) the voltage
-// approaches a value below U_limit as exp(-g t/C) decays, if a tick is short compared with C/g.
+// absorb this current, it charges the bus capacitor C: C dU/dt <= |i|. With |i| <= g (U_limit - U) the
+// distance from U to U_limit decays at most as fast as exp(-g t/C), if a tick is short compared with C/g.
 //
-// A reference of 0 is not enough, for two reasons. A loop that holds the sampled valley of a chopped current
-// at 0 leaves the mean above 0. And no sample shows reversed pulses that begin and end between two samples.
-// Beyond a limit all gates are therefore off until the next sample, for any chopping and current loop:
+// A reference of 0 is not enough, for two reasons. First, a loop that controls the sampled valley of a
+// chopped current to 0 has a mean above 0. Second, reversed pulses that begin and end between two samples are
+// not measured. Beyond a limit all gates are therefore off until the next sample, for any chopping and
+// current loop:
 //
 //   current       a phase above 5/4 of the limit
 //   speed         |w| above the limit, and the reference does not brake
 //   regeneration  U_s above the limit, and the reference does not drive
 //
-// With all gates off a current only falls, as long as the bus is above the back-EMF. Current, speed and bus
-// voltage therefore exceed a limit by at most their change in one control period
-// (design/loops/limit_bounds.hpp). Faults (faults.hpp) are the second protection.
+// With all gates off a current only falls, if the bus is above the back-EMF. Current, speed and bus voltage
+// therefore exceed a limit by at most their change in one control period (design/loops/limit_bounds.hpp).
+// Faults (faults.hpp) are the second protection.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -57,7 +58,7 @@ constexpr Scalar current_of_torque(Scalar torque_Nm, Gain<Scalar> A_per_Nm) {
 }
 
 namespace detail {
-/// per_room times room, clamped to 0..most: the current allowed at a distance `room` from a limit.
+/// The current allowed at a distance `room` from a limit: per_room times room, clamped to 0..most.
 template <class Scalar>
 constexpr Scalar folded_back(Scalar room, Gain<Scalar> per_room, Scalar most) {
   return room > Scalar{} ? between(ScalarTraits<Scalar>::product(room, per_room), Scalar{}, most) : Scalar{};
@@ -80,8 +81,8 @@ constexpr CurrentWindow<Scalar> current_window(const LimitsConfig<Scalar>& confi
   return window;
 }
 
-/// True if a sampled phase current is above 5/4 of the limit. References within the limit do not cause this,
-/// even with ripple and the loop's overshoot.
+/// True if a sampled phase current exceeds 5/4 of the limit. With references within the limit, ripple and
+/// overshoot stay below 5/4.
 template <class Scalar>
 constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<Scalar>& m) {
   constexpr Gain<Scalar> five_quarters(1.25);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the motor current with one shunt in the DC link. The shunt carries the sum of the currents of the
 // legs connected high (model.md 3): in the on-time the source phase's current, in the off-time no current or
-// the returned current. A sample therefore counts only if it was taken in the on-time, and after the
-// amplifier had time to settle.
+// the returned current. A sample is therefore used only if it was taken in the on-time, after the amplifier
+// settled.
 //
-// During a commutation one phase keeps its current i_k, one current rises and one decays through a diode:
-//   sink changes    the old sink's current returns to the upper rail; the shunt shows i_k minus that current,
-//                   which is the rising current
-//   source changes  the old source conducts through a lower diode; the shunt shows the new source's current,
-//                   which rises
-// In both cases the shunt shows the rising current i_in, and i_m = (i_k + i_in)/2, where i_k is near its last
+// During a commutation one phase keeps its current i_k, a second current rises, and the third decays through
+// a diode:
+//   sink changes    the old sink's current returns to the upper rail. The shunt shows i_k minus the returned
+//                   current, which equals the rising current.
+//   source changes  the old source conducts through a lower diode. The shunt shows the new source's current,
+//                   which is the rising current.
+// In both cases the shunt shows the rising current i_in, and i_m = (i_k + i_in)/2; i_k is near its last
 // value. This block uses this estimate until the rising current has reached i_k, or for a configured number
 // of samples.
 //
-// If the on-time is too short, no sample counts. The last value then decays by a configured factor per tick.
+// If the on-time is too short, no sample is used. The last value then decays by a configured factor per tick.
 #pragma once
 #include <cstdint>
 
@@ -26,8 +27,8 @@ namespace sixstep::control {
 /// With the default every sample is rejected, and the current reads 0.
 template <class Scalar>
 struct OneShuntConfig {
-  Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; a sample counts only above
-                                         ///< this duty
+  Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; a sample is used only
+                                         ///< above this duty
   std::uint8_t commutation_samples = 0;  ///< largest number of samples of a commutation that are corrected
   Scalar fade{};  ///< factor on the last value per tick without a sample: exp(-T_s R/L); 1 holds the value
   bool operator==(const OneShuntConfig&) const = default;
@@ -37,24 +38,25 @@ template <class Scalar>
 struct OneShuntState {
   Scalar driven_A{};             ///< estimate of the current, positive in the direction of the command
   Scalar kept_A{};               ///< current of the phase that conducts throughout the commutation
-  std::uint8_t commutating = 0;  ///< samples of the commutation that are still to come
-  std::uint8_t hidden = 255;     ///< ticks since the last sample that counted, at most 255
+  std::uint8_t commutating = 0;  ///< number of remaining samples of the commutation
+  std::uint8_t hidden = 255;     ///< ticks since the last sample that was used, at most 255
   bool reversed = false;
 };
 
-/// Call it when a Hall edge has changed the pair while command and sign stayed, before the next sample.
+/// Call it before the next sample, if a Hall edge has changed the pair while command and sign did not change.
 template <class Scalar>
 constexpr void one_shunt_commutation(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state) {
   state.kept_A = state.driven_A;
   state.commutating = config.commutation_samples;
 }
 
-/// Takes one sample under a command of this |duty| and sign. Returns i_m, A, positive for positive torque.
+/// Processes one sample under a command of this |duty| and sign. Returns i_m, A, positive for positive
+/// torque.
 template <class Scalar>
 constexpr Scalar one_shunt_step(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state,
                                 bool reversed, Scalar duty, Scalar sample_A) {
   using T = ScalarTraits<Scalar>;
-  if (reversed != state.reversed) {  // source and sink have changed places
+  if (reversed != state.reversed) {  // source and sink are exchanged
     state.driven_A = -state.driven_A;
     state.commutating = 0;
   }
@@ -75,7 +77,7 @@ constexpr Scalar one_shunt_step(const OneShuntConfig<Scalar>& config, OneShuntSt
   return reversed ? -state.driven_A : state.driven_A;
 }
 
-/// Sets the phase currents of a Measurement: the pair carries i_m, the third phase none.
+/// Sets the phase currents of a Measurement: the pair carries i_m, the third phase carries no current.
 template <class Scalar>
 constexpr void set_phase_currents(Measurement<Scalar>& measured, Pair positive, Scalar motor_current_A) {
   const auto of = [&](Leg leg) {

@@ -22,8 +22,8 @@ struct PiState {
 };
 
 /// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped to low..high. The clamped u is the state, so that the
-/// integral cannot wind up. If a feed-forward term is added afterwards, subtract it from both ends, so that
-/// the sum stays within the limit.
+/// integral cannot wind up. If a feed-forward term is added to u, subtract it from `low` and `high`: the sum
+/// then stays within the limit.
 template <class Scalar>
 constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar low,
                          Scalar high) {
@@ -32,8 +32,8 @@ constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
-/// Takes an error without the limit and without the integral part: u[n] = u[n-1] + d1 (e[n] - e[n-1]). It is
-/// for a loop whose output is not applied.
+/// Adds an error without limit and without the integral part: u[n] = u[n-1] + d1 (e[n] - e[n-1]). Used for a
+/// loop whose output is not applied.
 template <class Scalar>
 constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
   state.u = state.u + config.d1 * (error - state.e);
@@ -42,8 +42,8 @@ constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state,
 }
 
 /// In fixed point the configuration stores K_i instead of d0. d1 and d0 nearly cancel, and their rounded
-/// difference would keep few digits of K_i. The law is the same, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) +
-/// K_i e[n-1].
+/// difference would contain few digits of K_i. The law is the same: u[n] = u[n-1] + d1 (e[n] - e[n-1]) + K_i
+/// e[n-1].
 template <class Storage, int FractionBits>
 struct PiConfig<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
@@ -52,9 +52,9 @@ struct PiConfig<Fixed<Storage, FractionBits>> {
   Scalar limit{};
 };
 
-/// The sum has guard bits, so that increments below a signal's last bit count. In Q15 an increment must reach
-/// 2^-13 of that bit: an error of 1 bit is integrated if K_i >= 2^-13 (2^-29 in 32 bits). design/scaling
-/// checks this.
+/// The sum has guard bits: it adds increments below a signal's last bit. In Q15 an increment must reach 2^-13
+/// of the last bit: an error of 1 bit is integrated if K_i >= 2^-13 (2^-29 in 32 bits). design/scaling checks
+/// this.
 template <class Storage, int FractionBits>
 struct PiState<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;

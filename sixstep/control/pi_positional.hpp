@@ -4,17 +4,17 @@
 //   v[n] = K e[n] + I[n] + feed_forward,   u[n] = v[n] within the limit
 //   I[n+1] = I[n] + K_i e[n] + K_b (u[n] - v[n])
 //
-// At the limit u - v is multiplied out, because K e may be larger than any number of the format:
+// v: output before the limit, I: integral. At the limit u - v is expanded, because K e may exceed the format:
 //
 //   I[n+1] = I[n] + (K_i - K_b K) e[n] + K_b (u[n] - feed_forward - I[n])
 //
-// K e alone may therefore saturate (at 16 times the signal's range): u is then at its limit, and the integral
-// does not depend on K e. The integral stays below limit + |feed_forward| + |K_i/K_b - K| |e|. design/scaling
-// proves that this fits.
+// K e may therefore saturate (at 16 times the signal's range): u is then at its limit, and the integral does
+// not depend on K e. The integral stays below limit + |feed_forward| + |K_i/K_b - K| |e|. design/scaling
+// proves that this bound does not exceed the format.
 //
-// Unlike the velocity form, this form does not lose a proportional kick after saturation. K_b sets how fast
-// the integral follows the limit: not at all at 0 (it winds up), at once at 1. Without saturation both forms
-// have the same transfer function, with d1 = K and d0 = K_i - K.
+// Unlike the velocity form, this form does not lose a proportional kick after saturation. K_b determines how
+// fast the integral follows the limit: at 0 not at all (it winds up), at 1 at once. Without saturation both
+// forms have the same transfer function, with d1 = K and d0 = K_i - K.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -43,8 +43,8 @@ struct PiPositionalState {
   Accumulator<Scalar> integral{};
 };
 
-/// One tick, clamped to low..high instead of to the limit, for bounds that change. The feed-forward may be
-/// larger than a signal.
+/// One tick, clamped to low..high instead of +-limit, for bounds that change. The feed-forward may exceed the
+/// range of a signal.
 template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
                                     PiPositionalState<Scalar>& state, Scalar error,

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the position loop's setpoint from a profile, and feeds the profile's speed and acceleration forward
+// Computes the position loop's setpoint by a profile, and feeds the profile's speed and acceleration forward
 // to the inner loops:
 //
 //   w_ref = K_p (x_ref - x) + v_ref            without v_ref the loop lags by v/K_p
 //   y = y_speed + J' a_ref + B' v_ref + c' sgn v_ref
 //
-// y is the speed controller's output: a fraction of the full torque, or a duty. J', B' and c' are the shaft's
-// inertia, friction and Coulomb torque, each divided by the full torque. For a duty they are these torques
-// times R/(K_t U), and B' contains K_t/U more for the back-EMF (Ellis, Control System Design Guide, 2012, 8).
-// An unknown torque, for example a load, is left to the speed controller. Only PI laws get the feed-forward:
-// the observers of other laws would estimate it as a load.
+// x is the position; x_ref, v_ref and a_ref are position, speed and acceleration of the profile; K_p is the
+// position gain. y is the speed controller's output: a fraction of the full torque, or a duty. J', B' and c'
+// are the shaft's inertia, friction and Coulomb torque, each divided by the full torque. If y is a duty, they
+// are multiplied by R/(K_t U) instead, and K_t/U is added to B' for the back-EMF (Ellis, Control System
+// Design Guide, 2012, 8). The speed controller compensates unknown torques, such as a load. Only PI laws
+// receive the feed-forward: the observers of other laws would estimate it as a load.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -35,8 +36,9 @@ constexpr Scalar torque_ahead(const MotionFeedForwardConfig<Scalar>& config,
 }
 
 /// A drive contains the profile if SIXSTEP_POSITION_PROFILE is defined before the first header. sixstep's own
-/// build defines it, and so does an exported header whose drive has a profile. Without it a drive saves 2 KB
-/// of flash and, in `float`, 352 bytes of RAM. All parts of one program must define it, or none.
+/// build defines it, and so does an exported header whose drive has a profile. A drive without the profile
+/// needs 2 KB less flash and, in `float`, 352 bytes less RAM. All translation units of one program must agree
+/// on the definition.
 #ifdef SIXSTEP_POSITION_PROFILE
 inline constexpr bool position_profile_is_there = true;
 #else
@@ -62,7 +64,7 @@ struct ProfiledPositionConfig<Scalar, false> {
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledPositionState {
   JerkProfileState<Scalar> profile{};
-  bool runs = false;  ///< true: the profile made the setpoint of this tick
+  bool runs = false;  ///< true: the profile computed the setpoint of this tick
 };
 template <class Storage, int FractionBits>
 struct ProfiledPositionState<Fixed<Storage, FractionBits>, true> {};
@@ -93,7 +95,7 @@ constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
   return jerk_profile_step(config.profile, state.profile, setpoint).position_deg;
 }
 
-/// u_PI + ahead, within low..high. At an end of this window the sum is exactly that end.
+/// u_PI + ahead, within low..high. At a limit of this window the sum is exactly that limit.
 template <class Scalar>
 constexpr Scalar pi_beside(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar ahead,
                            Scalar low, Scalar high) {

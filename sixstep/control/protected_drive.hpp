@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The complete drive of a product: registers are its input, a bridge command its output. In addition to
-// drive.hpp it converts ADC counts, decodes the Hall pins, measures speed and position from them, monitors
-// faults and runs the state machine. Firmware calls protected_step() once per control tick and
+// The complete drive of a product: registers are its input, a bridge command is its output. In addition to
+// drive.hpp it converts ADC counts, decodes the Hall pins, measures speed and position from the Hall edges,
+// monitors faults and runs the state machine. Firmware calls protected_step() once per control tick and
 // protected_on_hall() in the Hall interrupt.
 #pragma once
 #include <cstdint>
@@ -20,8 +20,8 @@ namespace sixstep::control {
 enum class CurrentSensing : std::uint8_t { phases, one_shunt };
 
 /// Alignment before the run: a fixed pair pulls the rotor, to prove that phases and Hall probes are wired as
-/// configured. The pair of sector s holds the rotor where its torque is 0. This is 90 degrees after the
-/// middle of s, on the edge between sectors s + 1 and s + 2. By default there is no alignment.
+/// configured. The pair of sector s pulls the rotor to the angle where the pair's torque is 0: 90 degrees
+/// after the middle of s, on the edge between sectors s + 1 and s + 2. By default there is no alignment.
 template <class Scalar>
 struct AlignConfig {
   Scalar current_A{};
@@ -41,14 +41,14 @@ struct ProtectedConfig {
                                        ///< used
   AdcConfig<Scalar> bus_adc{};         ///< the offset of the bus converter is not measured
   OneShuntConfig<Scalar> shunt{};
-  HallConfig hall{};  ///< with more than 1 stable sample, the tick evaluates edges and not the interrupt
+  HallConfig hall{};  ///< if stable_samples is above 1, the tick evaluates edges, not the interrupt
   HallSpeedConfig<Scalar> speed{};
   HallPositionConfig<Scalar> position{};
   AdvanceConfig<Scalar> advance{};
   FaultConfig<Scalar> faults{};
   AlignConfig<Scalar> align{};
   Scalar brake_current_A{};  ///< current against the rotation while braking; 0: the drive coasts instead
-  /// |w| up to which braking shorts the windings: choose it below brake_current_A R_tt/K_t. 0: never.
+  /// |w| up to which braking short-circuits the windings: choose it below brake_current_A R_tt/K_t. 0: never.
   Scalar short_below_rad_s{};
   Scalar standing_rad_s{};  ///< |w| up to which the rotor counts as standing, and braking ends
   bool operator==(const ProtectedConfig&) const = default;
@@ -104,8 +104,8 @@ constexpr void take_hall(const ProtectedConfig<Scalar>& config, ProtectedState<S
   hall_position_edge(state.position, reading.moved);
 }
 
-/// Converts counts to a Measurement. `hall` is the code to commutate for: the code of the next sector within
-/// the advance angle before its edge, and 000 if the sector is unknown.
+/// Converts counts to a Measurement. `hall` is the code for the commutation: the next sector's code if its
+/// edge is within the advance angle, and 000 if the sector is unknown.
 template <class Scalar>
 constexpr Measurement<Scalar> measure(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                                       const BoardInput& input) {
@@ -148,8 +148,8 @@ constexpr void calibrate(const ProtectedConfig<Scalar>& config, ProtectedState<S
   state.calibrated = done;
 }
 
-/// True when the rotor has stayed long enough where the pair pulls it. If it does not do so in time, this is
-/// a fault.
+/// True when the rotor has stayed for settled_ticks in the sectors to which the pair pulls it. A rotor that
+/// does not arrive in time is a fault.
 template <class Scalar>
 constexpr bool aligned(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state) {
   const AlignConfig<Scalar>& align = config.align;
@@ -193,9 +193,9 @@ constexpr Scalar limited_setpoint(Scalar x, Scalar limit) {
   return x >= -limit && x <= limit ? x : x > limit ? limit : x < -limit ? -limit : Scalar{};
 }
 
-/// Brakes with a constant current against the rotation. At low speed Hall edges come too seldom to detect
-/// standstill. Both lower switches then short the driven pair, whose torque decreases to 0 with the speed and
-/// never reverses.
+/// Brakes with a constant current against the rotation. At low speed Hall edges are too rare to detect
+/// standstill. The two lower switches then short-circuit the driven pair, whose torque decreases to 0 with
+/// the speed and never reverses.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& brake(const ProtectedConfig<Scalar>& config,
                                              ProtectedState<Scalar>& state, const Measurement<Scalar>& m,

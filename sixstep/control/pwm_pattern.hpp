@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects which of the pair's two switches the duty chops while the other one is on: the patterns of
-// six-step's unipolar PWM. A pattern's name says what a switch does in the 120 degrees for which it carries
+// Selects which of the pair's two switches the duty chops while the other switch is on: the patterns of
+// six-step's unipolar PWM. A pattern's name describes a switch in the 120 degrees for which it carries
 // current: H_PWM-L_ON, H_ON-L_PWM, PWM-ON, ON-PWM, and PWM-ON-PWM (Wei, Hu and Zhang, A novel PWM scheme to
 // eliminate the diode freewheeling of the inactive phase in BLDC motor, IEEE PESC 2004).
 //
-// One leg of a pair was in the pair before and stays; the other leg has just entered. PWM-ON chops the
-// entering leg, ON-PWM the staying one. PWM-ON-PWM chops the entering leg until the middle of the sector, and
-// from there the staying leg.
+// One leg of a pair was already in the pair before and stays; the other leg has just entered. PWM-ON chops
+// the entering leg, ON-PWM the staying leg. PWM-ON-PWM chops the entering leg until the middle of the sector,
+// then the staying leg.
 //
 // Purpose: the free phase's terminal has the star point's voltage plus the free phase's back-EMF. In the
 // off-time of the upper switch the star point is at the lower rail, and a back-EMF below zero drives a
 // current through the free leg's lower diode. In the off-time of the lower switch the star point is at the
 // upper rail, and a back-EMF above zero drives a current through the upper diode.
 //
-// The back-EMF of the free phase crosses zero in the middle of the sector. Before, it has the sign that
-// causes no current if the entering leg is chopped, and after it the sign that causes none if the staying leg
-// is chopped. With PWM-ON-PWM the free phase of a driving motor therefore conducts in no off-time. All
-// patterns except the first two heat all six switches alike.
+// The back-EMF of the free phase crosses zero in the middle of the sector. Chopping the entering leg causes
+// no current before this instant, chopping the staying leg causes none after it. With PWM-ON-PWM the free
+// phase of a driving motor therefore conducts in no off-time. The last three patterns distribute the losses
+// equally over all six switches.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -38,7 +38,7 @@ struct PwmPatternConfig {
 template <class Scalar>
 struct PwmPatternState {
   StayingPhase staying{};
-  Accumulator<Scalar> passed{};  ///< distance since the sector's begin, in half sectors, at most one
+  Accumulator<Scalar> passed{};  ///< distance since the sector's begin, in half sectors, at most 1
 };
 
 /// Switch to chop. Call it after every commutation and command. Before the first commutation the rotor is
@@ -60,8 +60,8 @@ constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, P
   return lower ? ChoppedSwitch::lower : ChoppedSwitch::upper;
 }
 
-/// Call it once per tick, before chopped_switch(). It adds the rotor's motion in its sector, up to the
-/// sector's middle.
+/// Call it once per tick, before chopped_switch(). It adds the rotor's motion to state.passed, up to the
+/// middle of the sector.
 template <class Scalar>
 constexpr void move_in_sector(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
                               std::uint8_t sector, Scalar speed_rad_s) {

@@ -5,9 +5,9 @@
 //                 with the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], which is 0 at zero
 //                 error. The positional form keeps its integral; its output changes by the change of K times
 //                 the error. An observer and a sliding surface continue from their states.
-//   other law     The new law of the speed loop begins at the output that the old one holds; at zero error
+//   other law     The speed loop's new law begins at the output of the old law at zero error. At zero error
 //                 the output does not change (in a positional form only if its setpoint is not weighted).
-//   other mode    A loop of both modes keeps its state. A loop of the new mode alone begins at rest, with
+//   other mode    A loop of both modes keeps its state. A loop of the new mode only begins at rest, with
 //                 output 0. A setpoint that slews or has a profile starts at the measurement
 //                 (drive_extras.hpp). The bridge keeps the last command until the next tick.
 //   other limits  A position profile with other limits continues from its position and speed, without
@@ -29,7 +29,7 @@ constexpr bool runs_current_loop(const DriveConfig<Scalar>& config) {
          (runs_speed_loop(config) && config.speed_control == SpeedControl::cascade);
 }
 
-/// Resets the loops that the mode before did not run.
+/// Resets the loops that did not run in the mode before.
 template <class Scalar>
 constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   if (!runs_current_loop(config)) {
@@ -45,7 +45,7 @@ constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Sca
   }
 }
 
-/// Output that the speed loop gives at zero error.
+/// Output of the speed loop at zero error.
 template <class Scalar>
 constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   using T = ScalarTraits<Scalar>;
@@ -60,7 +60,7 @@ constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const Driv
   return T::signal(T::accumulator(Scalar{}) + state.speed.u);
 }
 
-/// Starts a new law of the speed loop with the output that the old one held.
+/// Starts a new law of the speed loop with the output of the old law at zero error.
 template <class Scalar>
 constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                const DriveConfig<Scalar>& next) {
@@ -107,8 +107,7 @@ constexpr void retune(DriveConfig<Scalar>& config, DriveState<Scalar>& state,
   config = next;
 }
 
-/// Replaces thresholds, limits and the inner drive. Loops that braking or alignment are using keep their
-/// states.
+/// Replaces thresholds, limits and the inner drive. Loops in use by braking or alignment keep their states.
 template <class Scalar>
 constexpr void retune(ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                       const ProtectedConfig<Scalar>& next) {

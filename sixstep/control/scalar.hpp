@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arithmetic that the control blocks require of their number type. The blocks are templates over one Scalar;
-// signals are Scalars. Four quantities that a fixed-point signal cannot hold have their own types:
+// Arithmetic that the control blocks require of their number type. The blocks are templates over one Scalar,
+// which is the type of signals. Four quantities do not fit into a fixed-point signal and have their own
+// types:
 //
 //   Gain         output per input; may exceed the range of a signal
 //   Divisor      a constant that divides a signal once per tick; a chip multiplies by its reciprocal
 //   Accumulator  a sum over many ticks, whose increments may be far below a signal's last bit
 //   TickRatio    a signal times timer counts, to be divided by timer counts
 //
-// For float and double all these types are the Scalar itself, and every function below gives the same bits as
-// the plain expression. fixed.hpp defines types and functions for fixed point.
+// For float and double all these types are the Scalar itself, and every function below returns the same bits
+// as the plain expression. fixed.hpp defines types and functions for fixed point.
 //
-// Compilers: C++20 is required. For the AVR use clang 19 or later: clang 14 to 16 compile a drive wrongly for
-// it, without a warning; 17 and 18 were never tested. avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have
-// no C++20. SIXSTEP_ANY_COMPILER disables the check. Define it for a compiler that tools/check_target.sh
-// proof, or your own test on the chip, has shown to be correct.
+// Compilers: C++20 is required. For the AVR use clang 19 or later. Clang 14 to 16 compile a drive for the AVR
+// wrongly, without a warning; 17 and 18 were never tested. avr-gcc 5 and 7, of Debian 12 and the Arduino IDE,
+// do not support C++20. SIXSTEP_ANY_COMPILER disables the check. Define it for a compiler that has passed
+// `tools/check_target.sh proof` or your own test on the chip.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error \

@@ -29,7 +29,7 @@ constexpr Scalar slew_step(const SlewConfig<Scalar>& config, SlewState<Scalar>& 
   else if (x - state.y < -config.step)
     state.y = state.y - config.step;
   else
-    state.y = x;  // not y + (x - y), which rounding may take beyond x
+    state.y = x;  // not y + (x - y), which may exceed x by rounding
   return ScalarTraits<Scalar>::signal(state.y);
 }
 

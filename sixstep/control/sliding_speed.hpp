@@ -5,17 +5,17 @@
 //
 //   m[n+1] = m[n] + q (r - y),   s = m - y,   u = (q/b) (r - y) + R sat(s/P)
 //
-// m is the speed that a drive without load would have: each sample leaves the fraction 1 - q of its error. m
-// begins at the measured speed, so that the setpoint is followed on the surface s = 0 from the first sample
-// on. b is the speed that full torque adds in a sample, and l the load as a fraction of full torque. Then,
-// inside the limit,
+// m is the speed of a drive without load: each sample reduces its error to the fraction 1 - q. r is the
+// setpoint, y the measured speed. m begins at the measured speed: the drive is on the surface s = 0 from the
+// first sample on. b is the speed that full torque adds in a sample, and l the load as a fraction of full
+// torque. Inside the limit
 //
-//   |s| > P   s changes by b (R - l) per sample: from s_0 the layer is reached after (|s_0| - P)/(b (R - l))
+//   |s| > P   s changes by b (R - l) per sample: s reaches the layer from s_0 after (|s_0| - P)/(b (R - l))
 //             samples
-//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: it ends at P l/R, where R sat(s/P) is the load, and y = r
+//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: s ends at P l/R, where R sat(s/P) equals the load, and y = r
 //
-// At a limit m is changed so that u is exactly that limit, as far as the layer allows. Outside of the layer m
-// moves no further away from the speed. So nothing winds up.
+// At a limit m changes so that u is exactly the limit, as far as the layer allows. Outside of the layer m
+// does not move further away from the speed, and therefore does not wind up.
 //
 // This law exists in floating point only: its scaling in fixed point is not proved.
 #pragma once

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selects the chopping so that the current is smooth through d = 0. With ideal soft chopping no current flows
-// at d -> 0+, and d -> 0- is a full short-circuit brake (model.md 4b): a loop that crosses zero at speed
-// meets a jump of 2 K_e w/R_tt. Complementary chopping applies d U_s at both signs, without a jump. But it
-// always switches both transistors of a leg, which costs dead time and switching loss, and at light load the
-// current reverses.
+// at d -> 0+, and d -> 0- is a full short-circuit brake (model.md 4b): for a loop that crosses zero at speed,
+// the voltage jumps by 2 K_e w, the current by 2 K_e w/R_tt. Complementary chopping applies d U_s at both
+// signs, without a jump. But it always switches both transistors of a leg, with dead time and switching loss,
+// and at light load the current reverses.
 //
-// While the driven current flows in the direction of the command during the whole period, both choppings are
+// While the driven current flows in the direction of the command during the whole period, both choppings form
 // the same circuit (the lower diode conducts in place of the lower switch). The chopping is therefore soft if
 // s i_m is above `soft_above_A`, complementary if it is below `complementary_below_A`, and unchanged between
 // the two. Choose the lower level above half of the current's peak-to-peak ripple, U_s T_s/(4 L_tt)/2 at d =
-// 1/2: then the change makes no jump either.
+// 1/2: then the change of chopping does not cause a jump.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the operating state of a drive: off, calibrate, align, run, brake, fault. This file has the
-// transitions only; protected_drive.hpp does the work of each state.
+// Selects the operating state of a drive: off, calibrate, align, run, brake, fault. This file contains only
+// the transitions; protected_drive.hpp performs the actions of each state.
 //
 //   off --start--> calibrate --offsets measured--> align --rotor in place--> run
 //   run --stop--> brake --standing--> off;  brake --start--> run;  calibrate, align --stop--> off
 //   any --fault--> fault --clear, causes gone--> off
 //
-// Offsets are measured once, and again after a fault. The alignment may be left out.
+// Offsets are measured once, and again after a fault. The alignment is optional.
 #pragma once
 #include <cstdint>
 
@@ -14,8 +14,8 @@ namespace sixstep::control {
 
 enum class Activity : std::uint8_t { off, calibrate, align, run, brake, fault };
 
-/// Requests of the user, as levels. Only `clear` acts at its change from false to true, so that a held button
-/// does not restart a faulty drive again and again.
+/// Requests of the user, as levels. Only `clear` acts at its change from false to true: a button that stays
+/// pressed does not restart a faulty drive repeatedly.
 struct Request {
   bool run = false;
   bool clear = false;
@@ -24,7 +24,7 @@ struct Request {
 struct ActivityInput {
   Request request{};
   bool calibrated = false;  ///< offsets are known
-  bool aligned = false;     ///< the rotor is where it was pulled, or there is no alignment
+  bool aligned = false;     ///< true: the rotor has reached its alignment, or there is no alignment
   bool standing = false;    ///< the rotor is slow enough to end the braking
   bool faulty = false;      ///< a fault is latched
 };
@@ -32,11 +32,11 @@ struct ActivityInput {
 struct ActivityState {
   Activity activity = Activity::off;
   bool clear_was = false;
-  bool run_released = true;  ///< after a fault `run` must become false before it counts again
+  bool run_released = true;  ///< true: `run` was false since the last fault; only then it starts the drive
 };
 
-/// True if faults must be cleared now. Call it before activity_step, and give activity_step the faults that
-/// remain.
+/// True if faults must be cleared now. Call it before activity_step, and pass activity_step the remaining
+/// faults.
 constexpr bool clear_requested(ActivityState& state, const Request& request) {
   const bool rising = request.clear && !state.clear_was;
   state.clear_was = request.clear;

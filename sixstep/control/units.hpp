@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts a board's constants from SI units to signals at compile time: x becomes x/base, rounded once. A
-// base is the value for which a signal's 1.0 stands, in A, V, rad/s or degrees; in floating point every base
-// is 1. The quotients are those of design/scaling/product_scaling.hpp, so that a converter or threshold
-// written in firmware has the bits that are proved there. (On the AVR, where double has 32 bits, the last of
-// 16 bits may round in the other direction; an exported drive consists of integers.)
+// base is the SI value of a signal's 1.0, in A, V, rad/s or degrees; in floating point every base is 1.
+// design/scaling/product_scaling.hpp computes the same quotients. A converter or threshold written in
+// firmware therefore has the bits for which the scaling is proved. (On the AVR, where double has 32 bits, the
+// last of 16 bits may round in the other direction; an exported drive consists of integers.)
 //
-// A chip never divides by a base: all functions are consteval. A value that the format cannot hold does not
-// compile ("does_not_fit").
+// All functions are consteval, so that a chip never divides by a base. A value outside of the format's range
+// does not compile ("does_not_fit").
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/hall_speed.hpp"
@@ -16,7 +16,7 @@ namespace sixstep::control {
 
 namespace detail {
 
-void does_not_fit();  // not constexpr and defined nowhere, so that a call stops the compiler
+void does_not_fit();  // not constexpr and nowhere defined: a call is a compile error
 
 template <class Scalar>
 struct FormatEnds {  // range of floating point: no SI number reaches its ends
@@ -30,7 +30,7 @@ template <class Storage, int FractionBits>
 struct FormatEnds<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
   static constexpr double digit = static_cast<double>(Scalar::from_raw(1));
-  /// True if the format holds x. The number one digit above the largest is accepted: 1.0 in Q15 and Q31.
+  /// True if x is within the format. The number one digit above the largest is accepted: 1.0 in Q15 and Q31.
   static constexpr bool holds(double x) {
     return x <= static_cast<double>(Scalar::max()) + digit && x >= static_cast<double>(Scalar::min());
   }
@@ -60,12 +60,12 @@ struct Units {
   /// format.
   consteval Scalar plain(double x) const { return signal(x); }
 
-  /// AdcConfig::per_eighth of a converter with x A per count; volts_per_count() is for x V per count.
+  /// AdcConfig::per_eighth of a converter with x A per count; volts_per_count() returns it for x V per count.
   consteval Gain<Scalar> amperes_per_count(double x) const { return per_eighth(x, current_A); }
   consteval Gain<Scalar> volts_per_count(double x) const { return per_eighth(x, voltage_V); }
 
   /// Configuration of the speed from Hall edges, timed by a free-running timer (hall_speed.hpp). `edges`:
-  /// 1..6; 6 are one electrical turn.
+  /// 1..6; 6 edges are one electrical turn.
   consteval HallSpeedConfig<Scalar> hall_speed(int pole_pairs, double timer_Hz, std::uint32_t timeout_ticks,
                                                std::uint8_t edges) const {
     constexpr double pi = 3.14159265358979323846;

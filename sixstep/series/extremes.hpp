@@ -17,8 +17,8 @@ Real magnitude_of(const Coefficients<Real>& c, int degree) {
   return sum;
 }
 
-/// Calls visit(s) at every sign change in (0, 1), in ascending order. `scale` is the polynomial's natural
-/// size, from which the level of rounding follows.
+/// Calls visit(s) at every sign change in (0, 1), in ascending order. `scale` is the typical magnitude of the
+/// polynomial, which determines the level of rounding.
 template <class Real, class Visit>
 void for_each_sign_change(const Coefficients<Real>& c, int degree, Real scale, Visit&& visit) {
   const Real noise = Real(1e-15) * scale;

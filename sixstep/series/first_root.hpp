@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where a guard that should stay >= 0 first goes below zero. The root is exact to rounding, and none is
-// missed. A cheap bound comes first, then Newton's method if the guard is strictly monotone, else Bernstein
-// subdivision.
+// Finds where a guard that should stay >= 0 first goes below zero. The root is exact to rounding, and no root
+// is missed. A cheap bound is tried first, then Newton's method if the guard is strictly monotone, else
+// Bernstein subdivision.
 #pragma once
 #include <array>
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace sixstep::series {
 
-/// Result for a guard that does not fall below zero: a value after every segment's end. It is a number
-/// because an optional costs the run loop 2 % of its time.
+/// Result for a guard that does not fall below zero: a value beyond every segment's end. It is a number
+/// because an optional would cost 2 % of the run loop's time.
 template <class Real>
 inline constexpr Real no_root = 2;
 
-/// The sign with which a guard leaves its start. Coefficients within `noise` count as zero, and the first
-/// other coefficient gives the sign. `order` is that coefficient's index (degree + 1 if all coefficients are
+/// The sign of a guard just after its start. Coefficients within `noise` count as zero; the first other
+/// coefficient has this sign. `order` is the index of this coefficient (degree + 1 if all coefficients are
 /// noise: the guard stays at zero).
 struct Leading {
   int order = 0;
@@ -34,10 +34,10 @@ inline Leading leading(const Coefficients<Real>& c, int degree, Real noise) {
 
 namespace detail {
 
-/// Bounds that decide whether a polynomial falls, rises or stays away from zero over [0, length].
+/// Bounds that show whether a polynomial falls, rises or stays away from zero over [0, length].
 template <class Real>
 struct Outline {
-  Real at_end = 0, tail = 0;  ///< value at length; sum of |q_j| length^j except the first
+  Real at_end = 0, tail = 0;  ///< value at length; sum of |q_j| length^j without j = 0
   Real slope_rest = 0;        ///< sum_{j >= 2} j |q_j| length^(j-1)
 };
 
@@ -78,8 +78,8 @@ struct Local {
   Real value = 0, slope = 0, bend = 0;  ///< bend: half the second derivative
 };
 
-/// Evaluates c at s. Even and odd powers are separate, y = e(s^2) + s o(s^2): two chains in parallel, each
-/// half as long.
+/// Evaluates c at s. Even and odd powers are separate, y = e(s^2) + s o(s^2): two parallel chains of half the
+/// length.
 template <class Real>
 inline Local<Real> local(const Real* c, int degree, Real s) {
   const Real t = s * s;
@@ -105,12 +105,12 @@ inline Local<Real> local(const Real* c, int degree, Real s) {
           e.slope + 4 * (t * e.bend) + s * (3 * o.slope + 4 * (t * o.bend))};
 }
 
-/// Finds the only root in (low, high], where c(low) > 0 >= c(high). Newton's method starts from `guess`, and
+/// Finds the only root in (low, high], where c(low) > 0 >= c(high). Newton's method starts from `guess`;
 /// bisection keeps it inside. The last step includes the curvature; its relative error is about 2 (bend/slope
 /// step)^2.
 template <class Real>
 Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
-  // If a step is this small, and the curvature's correction too, another step would change only rounding.
+  // If the step and the curvature's correction are this small, another step would change only rounding.
   constexpr Real small = Real(sizeof(Real) > 8 ? 3e-7L : 4e-6L);
   const Real last_step = small * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
@@ -133,7 +133,7 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   return s;
 }
 
-/// The root of a falling, nearly straight polynomial to fourth order, so that one Newton step then suffices.
+/// The root of a falling, nearly straight polynomial to fourth order; after it one Newton step suffices.
 /// Reversion of a series: Abramowitz and Stegun 3.6.25.
 template <class Real>
 Real near_root(const Real* c, int degree) {
@@ -146,8 +146,7 @@ Real near_root(const Real* c, int degree) {
 
 template <class Real>
 Coefficients<Real> to_bernstein(const Real* c, int degree, Real length) {
-  // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences, so that no binomials are
-  // stored.
+  // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences, without stored binomials.
   Coefficients<Real> scaled{}, b{};
   Real power = 1, choose = 1;
   for (int j = 0; j <= degree; ++j) {
@@ -192,8 +191,8 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
 }
 
 /// Finds the first root in [0, length] by halving, left part first. A piece with one sign change of its
-/// coefficients holds one root, a piece with none holds none (Descartes). A piece too narrow for another
-/// split touches zero within rounding; this counts as the root.
+/// coefficients contains one root, a piece without a sign change contains none (Descartes). A piece too
+/// narrow for another split touches zero within rounding; it counts as the root.
 template <class Real>
 Real subdivide(const Real* c, int degree, Real length) {
   constexpr int depth_limit = 50;
@@ -225,7 +224,7 @@ Real subdivide(const Real* c, int degree, Real length) {
 }  // namespace detail
 
 /// Upper bound of |y(s) - y(0)| over [0, 1]. The sums of even and odd terms are separate because the
-/// processor computes them in parallel.
+/// processor then computes them in parallel.
 template <class Real>
 inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   Real even = 0, odd = 0;
@@ -235,9 +234,9 @@ inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   return even + odd;
 }
 
-/// True if a guard surely stays above zero, from its first two terms and a bound of the sum of all others.
-/// Either both ends of the straight line are far enough from zero, or the line rises from zero so steeply
-/// that the other terms cannot make it fall. False means undecided.
+/// True if a guard certainly stays above zero, from its first two terms and a bound `rest` of the sum of all
+/// others. Either both ends of the straight line are far enough from zero, or the line rises so steeply from
+/// zero that the other terms cannot make the guard fall. False means undecided.
 template <class Real>
 inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
   const Real lowest = slope < 0 ? start + slope : start, margin = rest + 2 * noise;
@@ -246,11 +245,11 @@ inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
 
 /// First s in [0, length], length <= 1, at which the polynomial goes below zero. The result is 0 if the
 /// polynomial falls at the start, and no_root if it never goes below zero. `noise` is the rounding level of
-/// the guard: leading coefficients within it count as zero and are divided out. So a restart on the boundary
-/// does not repeat the event, and needs no dead time.
+/// the guard: leading coefficients within it count as zero and are divided out. A restart on the boundary
+/// therefore does not repeat the event, and needs no dead time.
 template <class Real>
 Real first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
-  // The most frequent case comes first: all other terms together are smaller than the value at the start.
+  // The most frequent case is tried first: the sum of all other terms is smaller than the value at the start.
   if (c[0] > noise && c[0] > tail_bound(c, degree)) return no_root<Real>;
 
   const Leading start = leading(c, degree, noise);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers at the nodes of a quadrature rule, two per instruction. A file compiled for AVX can define
-// SIXSTEP_FOUR_LANES, which gives four per instruction at four nodes. The sums of different nodes do not wait
-// for each other. Each number results from the same operations in the same order as in scalar code, so that
-// the bits are the same.
+// SIXSTEP_FOUR_LANES: the rule with four nodes then uses four per instruction. The sums of different nodes
+// are computed in parallel. Each number results from the same operations in the same order as in scalar code,
+// and has the same bits.
 #pragma once
 
-// Code that depends on the number of lanes has a different name in each case, so that a program can hold both.
+// Code that depends on the number of lanes has a different name in each case, so that a program can contain
+// both.
 #ifdef SIXSTEP_FOUR_LANES
 #define SIXSTEP_LANES four_lanes
 #else
@@ -58,7 +59,8 @@ template <class Real>
 
 inline namespace SIXSTEP_LANES {
 
-/// One number per node. With an odd number of nodes the last lane is unused, and no sum includes it.
+/// One number per node. With an odd number of nodes the last lane is unused; weighted() sets it to zero
+/// before a sum.
 template <int points, class Real>
 struct Nodes {
   static constexpr int pairs = (points + 1) / 2;
@@ -99,7 +101,7 @@ struct Nodes {
   }
 };
 
-/// The sum over all lanes, including an unused one: even and odd nodes are summed separately, then both sums
+/// The sum over all lanes, also over an unused lane. Even and odd nodes are summed separately, then both sums
 /// are added.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real total(const Nodes<points, Real>& v) {
@@ -121,7 +123,7 @@ template <int points, class Real>
   return Pair<Real>{sum_a[0], sum_b[0]} + Pair<Real>{sum_a[1], sum_b[1]};
 }
 
-/// Four sums, as total() computes them.
+/// Four sums, computed like total().
 template <class Real>
 struct Four {
   Real of[4];

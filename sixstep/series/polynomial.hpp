@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Taylor coefficients of one segment in the segment's own time: s in [0, 1] is the fraction of its length h, so
-// that coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment have the same degree.
+// Taylor coefficients of one segment in the segment's own time s in [0, 1], the fraction of its length h.
+// Coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment have the same degree.
 #pragma once
 #include <array>
 
 namespace sixstep::series {
 
-/// Degree 16 reaches rounding level over about half a time constant. A higher degree costs time and does not
-/// lengthen segments (model.md 12).
+/// With degree 16 the rounding level is reached over about half a time constant. A higher degree costs time
+/// and does not lengthen segments (model.md 12).
 inline constexpr int max_degree = 16;
 
 template <class Real>
 using Coefficients = std::array<Real, max_degree + 1>;
 
-/// y(s) - y(0). The leading value is left out so that a compensated sum can add the increment.
+/// y(s) - y(0). y(0) is omitted so that a compensated sum can add the increment.
 template <class Real>
 inline Real increment(const Coefficients<Real>& c, int degree, Real s) {
   Real sum = 0;
@@ -27,8 +27,8 @@ inline Real evaluate(const Coefficients<Real>& c, int degree, Real s) {
 }
 
 /// Coefficient n of the product of two series (Cauchy); n is a compile-time constant and the sum is unrolled.
-/// The newest coefficients come last, so that a recurrence sums all others while the newest are still being
-/// computed.
+/// The newest coefficients are last in the sum: a recurrence can sum all others while the newest are still
+/// being computed.
 template <int n, class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
   if constexpr (n == 0) {
@@ -41,9 +41,9 @@ inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& 
   }
 }
 
-/// Coefficient n >= 1 of (a - a[0]) b. The newest coefficient of b does not enter, so that a recurrence never
-/// waits for this sum. The sum begins with a product, because an addition to zero would be one more operation
-/// to wait for.
+/// Coefficient n >= 1 of (a - a[0]) b. It does not depend on the newest coefficient of b: a recurrence never
+/// waits for this sum. The sum begins with a product, because an addition to zero would be another operation
+/// in the chain.
 template <int n, class Real>
 inline Real increment_product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
   if constexpr (n == 1) {
@@ -72,7 +72,7 @@ inline Real half_increment_square_term(const Coefficients<Real>& a) {
   return sum;
 }
 
-/// Coefficient n of the product of two series, for n that is known only at run time.
+/// Coefficient n of the product of two series, if n is known only at run time.
 template <class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
   Real sum = 0;
@@ -116,8 +116,8 @@ inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from
   return c;
 }
 
-/// Adds dy to the running sum y and keeps the rounding error in `low` (Kahan), so that a million segments
-/// lose nothing.
+/// Adds dy to the running sum y and stores the rounding error in `low` (Kahan), so that a million segments
+/// lose no digits.
 template <class Real>
 inline void add_compensated(Real& y, Real& low, Real dy) {
   const Real term = dy + low;

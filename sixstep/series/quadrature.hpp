@@ -2,12 +2,13 @@
 // Integrals over a segment without divisions. Products are integrated from a few values of their factors by
 // Gauss-Legendre, which is exact for polynomials of degree 2 points - 1 (Abramowitz and Stegun 25.4.29).
 //
-// Products of two series of degree n have degree 2 n, but fewer points suffice. Taylor coefficients of a solution
-// are at most M x^j/j!, with x the fastest rate times the length, and end where M x^n/n! is u M, u = 2^-53. A
-// product f then has |f^(j)| <= M^2 (2 x)^j e^(2 x), and the rule's error is E f^(2 points)/(2 points)! with
-// E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points), its error for s^(2 points). For
-// 2 points = n that is at most (pi/2) e^(2 x) 2^-n u M^2: u M^2/128 at n = 8, where x = 0.04, and less at any
-// other degree that the engine uses (7 to 16).
+// Products of two series of degree n have degree 2 n, but fewer points suffice. x is the fastest rate times
+// the segment's length, M the magnitude of the solution and u = 2^-53. Taylor coefficients of a solution are
+// at most M x^j/j!, and a series ends at the degree n with x^n/n! = u. A product f therefore has
+// |f^(j)| <= M^2 (2 x)^j e^(2 x). The rule's error is E f^(2 points)/(2 points)!, with its error for
+// s^(2 points), E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points). For 2 points = n the
+// error is at most (pi/2) e^(2 x) 2^-n u M^2: u M^2/128 at n = 8 with x = 0.04, and less at any other degree
+// that the engine uses (7 to 16).
 #pragma once
 #include <array>
 #include <bit>
@@ -20,7 +21,7 @@
 
 namespace sixstep::series {
 
-/// 1/(n + 1), rounded once. A product with it replaces a division, which takes five times as long.
+/// 1/(n + 1), rounded once. A product with it is five times as fast as a division.
 template <class Real>
 inline constexpr Coefficients<Real> reciprocals = [] {
   Coefficients<Real> out{};
@@ -39,7 +40,7 @@ inline Real whole_integral(const Coefficients<Real>& c, int degree) {
 /// Number of points with which products of two series of this degree are exact enough (see above).
 constexpr int points_for(int degree) { return degree < 5 ? 3 : (degree + 1) / 2; }
 
-/// Nodes and weights over [0, 1]: roots of the Legendre polynomial, with more digits than a double holds.
+/// Nodes and weights over [0, 1]: roots of the Legendre polynomial, with more digits than a double has.
 template <int points>
 struct Gauss {
   std::array<long double, points> node, weight;
@@ -104,7 +105,7 @@ template <int points, class Real>
   return to * as_nodes<points, Real>(gauss<points>.node);
 }
 
-/// Values of a series at all nodes; the sums of different nodes do not wait for each other.
+/// Values of a series at all nodes; the sums of different nodes are computed in parallel.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_at(const Coefficients<Real>& c, int degree,
                                                             const Nodes<points, Real>& s) {
@@ -113,7 +114,7 @@ template <int points, class Real>
   return v;
 }
 
-/// Returns v if `wanted`, else zero, whatever v is. There is no branch, because a branch would often be
+/// Returns v if `wanted`, else zero, also if v is NaN. There is no branch, because a branch would often be
 /// mispredicted.
 template <class Real>
 [[gnu::always_inline]] inline Real only_if(bool wanted, Real v) {
@@ -124,9 +125,9 @@ template <class Real>
 }
 
 /// Values of a series whose degree needs exactly `points` points. Even and odd powers are summed separately,
-/// which halves the waiting. The number of orders is always even: an odd degree gets one zero term more,
-/// because a varying number would be mispredicted. Call the function for one series after the other: with all
-/// series order by order, the compiler would store and load all coefficients.
+/// which halves the latency. The number of terms is always even: an odd degree has an additional zero term,
+/// because a varying number would be mispredicted. Call the function for one series after the other: if all
+/// series were summed order by order, the compiler would store and load all coefficients.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_of_fitting(const Coefficients<Real>& c, int degree,
                                                                     const Nodes<points, Real>& s) {
@@ -144,8 +145,8 @@ template <int points, class Real>
   return v;
 }
 
-/// Integral over [0, 1] from the values at its nodes. The integral over [0, to] is `to` times the result for
-/// its nodes.
+/// Integral over [0, 1] from the values at the nodes. For [0, to], use the nodes of [0, to] and multiply the
+/// result by `to`.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real weighted_sum(const Nodes<points, Real>& v) {
   const auto weighted = as_nodes<points, Real>(gauss<points>.weight) * v;
@@ -159,7 +160,7 @@ template <int points, class Real>
   return weighted_sum<points>(a * b);
 }
 
-/// Values times the rule's weights, to be summed by totals(); an unused lane is zero.
+/// Values times the rule's weights, for the sum by totals(); an unused lane is zero.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> weighted(const Nodes<points, Real>& v) {
   auto weight = as_nodes<points, Real>(gauss<points>.weight);

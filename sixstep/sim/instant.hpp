@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time is counted, not summed: an integer count of picoseconds (int64 holds 106 days) plus an offset within
-// the picosecond. Instants from a file are whole ticks; PWM edges and located events have an offset.
+// Time is counted, not summed: an integer count of picoseconds (an int64 can count 106 days) plus an offset
+// within the picosecond. Instants from a file are whole ticks; PWM edges and located events have an offset.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Instant {
 
   constexpr bool operator==(const Instant&) const = default;
   friend constexpr bool operator<(const Instant& a, const Instant& b) {
-    // Equal ticks are rare: the branch is predicted well and avoids reading the offsets.
+    // Equal ticks are rare: the processor predicts the branch well and does not read the offsets.
     // mutant: a.offset < b.offset => a.offset <= b.offset
     return a.ticks != b.ticks ? a.ticks < b.ticks : a.offset < b.offset;
   }
@@ -26,7 +26,7 @@ struct Instant {
   friend constexpr bool operator<=(const Instant& a, const Instant& b) { return !(b < a); }
   friend constexpr bool operator>=(const Instant& a, const Instant& b) { return !(a < b); }
 
-  /// The instant later by `count` ticks, which need not be an integer.
+  /// The instant that is later by `count` ticks, which need not be an integer.
   Instant plus_ticks(double count) const {
     const double sum = offset + count;
     auto whole = static_cast<std::int64_t>(sum);
@@ -47,8 +47,8 @@ inline Instant to_instant(double seconds) {
   return {static_cast<std::int64_t>(std::floor(seconds * ticks_per_second + 0.5)), 0.0};
 }
 
-/// Time from one instant to a later one, s. Its error is the rounding of the difference; large times do not
-/// increase it.
+/// Time from one instant to a later instant, s. Its error is the rounding of the difference; it does not grow
+/// with the instants.
 inline double seconds_between(const Instant& from, const Instant& to) {
   // mutant: (to.offset - from.offset) => 0.0
   return (static_cast<double>(to.ticks - from.ticks) + (to.offset - from.offset)) / ticks_per_second;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run loop. Known instants are scheduled; only instants that depend on the state are searched.
+// The run loop. Known instants are scheduled; only instants that depend on the state are searched for.
 //
 //   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> end there -> observe -> advance -> apply ONE event
 //
 // A System provides
 //   Instant now() const                    the present instant
 //   Instant next_known() const             the next scheduled instant, > now after act()
-//   bool act()                             does everything that is due now, by its own clocks (never by the planned end of
-//                                          a step); false if a fault stops the run
+//   bool act()                             executes everything that is due now, by its own clocks (never by
+//                                          the planned end of a step); false if a fault stops the run
 //   double expand(double h)                makes the discrete state consistent and the polynomials valid over the
 //                                          returned length, <= h; negative if no consistent state exists
 //   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay
 //                                          >= 0; guards that snap a state come first, because they win a tie
 //   void end_at(Real s)                    ends the segment at the fraction s of the expanded length
-//   void advance(Real s, Instant to)       advances the state to there
+//   void advance(Real s, Instant to)       advances the state to the segment's end, at the instant `to`
 //   void apply(id)                         applies the one located event
-// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion. It
-// may also provide done(); true ends the run after the present event.
+// An Observer provides segment(system, s), which is called before the system advances over [0, s] of its
+// expansion. It may also provide done(): if it returns true, the run ends after the present event.
 #pragma once
 #include <cstdint>
 
@@ -43,8 +43,8 @@ struct NoObserver {
   void segment(const System&, Real) {}
 };
 
-/// Largest number of steps in a row without progress of time. Steps of zero length are allowed; more of them
-/// in a row stop the run (pitfall 7).
+/// Largest number of successive steps without progress of time. Steps of zero length are allowed; more of
+/// them in a row stop the run (pitfall 7).
 inline constexpr int stalled_limit = 100;
 
 template <class System, class Observer>

@@ -28,14 +28,15 @@ constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rat
 /// Samples in a period of the multisine.
 constexpr double fewest_samples = 64, most_samples = 262144, usual_samples = 4096;
 
-/// The scenario with the settings that its events have left at the end.
+/// The scenario with the settings that its events have set until the end.
 study::Scenario as_at_the_end(const study::Scenario& s) {
   const std::vector<const study::At*> events = study::in_order(s);
   return study::settled(s, events.empty() ? nullptr : events.back());
 }
 
-/// Refuses a reference that never rests. A reference that moves until the run's end has its final value
-/// there. The drive's remaining error then decays in the multisine's first period, as after a step.
+/// Returns a problem for a reference that never rests. A reference that moves until the run's end has its
+/// final value at this instant. The remaining error of the drive then decays in the multisine's first period,
+/// as after a step.
 base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
@@ -50,7 +51,7 @@ base::Problems still_moving(const study::Scenario& run) {
            "set duration_s = " + base::written(*rests_s) + ", or make it constant: shape = \"constant\""}};
 }
 
-/// `run` is the scenario as written, `s` is the same with the settings at the run's end.
+/// `run` is the scenario as written, `s` is the same scenario with the settings at the run's end.
 base::Problems not_measurable(const study::Scenario& run, const study::Scenario& s) {
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
@@ -108,7 +109,7 @@ Multisine multisine_for(const std::optional<design::LoopFigures>& figures, doubl
 }
 
 /// The event that adds the multisine to the reference after the end of the run. Its values change in the
-/// middle between two samples, so that each sample reads one value.
+/// middle between two samples; each sample therefore reads an unambiguous value.
 study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   study::Reference r;
   r.shape = study::Shape::csv;
@@ -165,9 +166,9 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
   return output;
 }
 
-/// A problem if the drive drifts. A linear drift is the same in each period, so that the answers of all
-/// periods are equal; but it adds to the answer at the lines. A drift per period of w times the amplitude
-/// adds about w/line of the multisine's line to the answer.
+/// Returns a problem if the drive drifts. A linear drift is the same in each period: the periods do not
+/// differ, but the drift adds to the response at the lines. A drift per period of w times the amplitude adds
+/// about w/line of the multisine's line to the response.
 base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output, double duration_s) {
   constexpr double most_way = 0.05;
   const std::size_t N = b.signal.samples, periods = output.size() / N;
@@ -194,7 +195,7 @@ double amplitude_of(const BodeOrder& order, double stands_at) {
   return order.amplitude.value_or(std::fabs(stands_at) / 20);
 }
 
-/// Sets operating point and signal, and computes the linear loop there. It does not run anything yet.
+/// Sets operating point and signal, and computes the linear loop there, without a run.
 base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& order) {
   const std::vector<study::Stretch> waveform = study::reference_waveform(s);
   const study::Scenario& last = b.at_end;
@@ -226,7 +227,7 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
 }
 
 /// Shifts each measured phase by whole turns until it is nearest to the designed phase, which is exact and
-/// continuous over the lines. A wrong phase at one line then cannot shift later lines by a turn.
+/// continuous over the lines. A wrong phase at one line can then not shift later lines by a turn.
 void lay_beside_the_designed(BodeStudy& b) {
   if (!b.designed) return;
   std::vector<double> angles;

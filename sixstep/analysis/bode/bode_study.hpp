@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the frequency response of a drive's outermost loop in the switching simulation. The scenario runs
-// as written; from its end on, a multisine is added to the reference's final value. The controlled quantity
-// at the controller's samples, divided by the multisine, is the closed loop's response. For comparison, the
-// linear loop is computed on which the gains were designed.
+// as written. From its end on, a multisine is added to the reference's final value. The response of the
+// closed loop is the controlled quantity at the controller's samples, divided by the multisine. For
+// comparison, the linear loop that the design of the gains uses is computed.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -26,15 +26,16 @@ struct BodeOrder {
 
 struct BodeStudy {
   study::Scenario scenario;  ///< the scenario as it was run, including the multisine
-  study::Scenario at_end;    ///< the scenario with the settings that the events have left at the end
+  study::Scenario at_end;    ///< the scenario with the settings that the events have set until the end
   control::Mode mode = control::Mode::current;
   double stands_at = 0.0,
-         amplitude = 0.0;                ///< of the operating point and of the multisine, in the mode's unit
+         amplitude = 0.0;                ///< values of the operating point and of the multisine, in the
+                                         ///< mode's unit
   double begin_s = 0.0, period_s = 0.0;  ///< start of the multisine; control period
   double pole_pairs = 1.0;
   Multisine signal;
   std::vector<LoopPoint> points;
-  /// Fraction of the answer's rms at frequencies that are no line: ripple, commutation, other nonlinear
+  /// Fraction of the response's rms at frequencies that are not a line: ripple, commutation, other nonlinear
   /// effects.
   double beside = 0.0;
   /// Fraction of the evaluated samples at which no phase carries current.
@@ -46,15 +47,15 @@ struct BodeStudy {
                                                ///< reference's final value
   std::optional<design::LoopFigures> figures;  ///< figures of `designed`, lag included
 
-  /// Phase of the designed L at each point, unwrapped over all points. Each measured phase is taken in the turn
-  /// nearest to it.
+  /// Phase of the designed L at each point, unwrapped over all points. Each measured phase is shifted by
+  /// whole turns to be nearest to it.
   std::vector<double> designed_phase_rad;
 
   /// The designed L at a frequency, including the sensor's lag; empty if `designed` is empty.
   std::optional<design::Complex> designed_at(double w_rad_s) const;
 };
 
-/// Problems: those of the scenario, and
+/// Problems of the scenario, and of
 /// - a mode without a loop,
 /// - a reference that does not rest at the end,
 /// - a setpoint with a slew limit,

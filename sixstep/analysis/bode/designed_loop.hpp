@@ -15,7 +15,7 @@ struct DesignedLoop {
                                          ///< loops
   std::string not_linear;                ///< why `loop` is empty
   std::optional<design::SpeedLag> lag;   ///< delay of the measured speed by the sensor, in speed mode; empty:
-                                         ///< none
+                                         ///< no delay
 };
 
 /// `speed_rad_s`: the speed at which the sensor's lag is computed; 0: no lag.

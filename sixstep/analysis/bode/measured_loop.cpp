@@ -10,8 +10,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// The place between two points where a value falls below a level. The value is linear over the logarithm of
-/// the frequency.
+/// The point, between two measured points, where a value falls below a level. The value is interpolated
+/// linearly over the logarithm of the frequency.
 struct Fall {
   const LoopPoint& before;
   const LoopPoint& after;

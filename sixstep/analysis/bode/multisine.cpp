@@ -13,7 +13,7 @@ using design::Complex;
 
 namespace {
 
-/// exp(j 2 pi n/N) for n = 0 .. N - 1. Every phase that a line has at a sample is one of these.
+/// exp(j 2 pi n/N) for n = 0 .. N - 1. A line's phase at a sample is always one of these values.
 std::vector<Complex> roots_of_one(std::size_t count) {
   std::vector<Complex> roots(count);
   for (std::size_t n = 0; n < count; ++n) {

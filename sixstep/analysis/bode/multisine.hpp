@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a signal with all its power at chosen frequencies, and computes a system's response at them. The response
-// is exact because every period is whole.
+// Computes a signal with all its power at chosen frequencies, and a system's response at these frequencies.
+// The response is exact because every period is whole.
 //
 //   r[n] = A/peak sum_k cos(2 pi l_k n/N + phi_k),    phi_k = -pi k (k - 1)/K
 //
-// Schroeder's phases keep the peak low (M. R. Schroeder, IEEE Trans. Inf. Theory 16, 1970). Lines l_k are
-// odd, so that answers to the square of the input lie between them (R. Pintelon, J. Schoukens, System
-// Identification, 2012, 2.4 and 4.3).
+// A: amplitude, N: samples in a period, l_k, phi_k: number and phase of line k, K: number of lines, peak:
+// maximum of the sum. Schroeder's phases reduce this maximum (M. R. Schroeder, IEEE Trans. Inf. Theory 16,
+// 1970). Lines l_k are odd: responses to the square of the input then lie between the lines (R. Pintelon, J.
+// Schoukens, System Identification, 2012, 2.4 and 4.3).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -29,16 +30,17 @@ std::vector<double> samples_of(const Multisine& signal);
 
 struct LineAnswer {
   design::Complex gain;    ///< output over input at each line, mean over the periods
-  double coherence = 0.0;  ///< 1: all periods are equal; noise alone gives about 1/periods
-  double scatter = 0.0;    ///< standard deviation of the mean |gain|, over |gain|
+  double coherence = 0.0;  ///< 1: all periods are equal; noise without a response gives about 1/periods
+  double scatter = 0.0;    ///< standard deviation of the mean |gain|, divided by |gain|
 };
 
 struct Answer {
   std::vector<LineAnswer> lines;
-  double beside = 0.0;  ///< fraction of the output's rms, without its mean, at frequencies that are no line
+  double beside = 0.0;  ///< fraction of the output's rms, without its mean, at frequencies that are not a
+                        ///< line
 };
 
-/// The response to `signal`. `output` begins after the transient; only its whole periods are evaluated.
+/// The response to `signal`. `output` begins after the transient; only whole periods of it are evaluated.
 Answer answer_to(const Multisine& signal, const std::vector<double>& output);
 
 }  // namespace sixstep::analysis

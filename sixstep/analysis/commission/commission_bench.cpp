@@ -17,8 +17,8 @@ namespace sixstep::analysis {
 namespace {
 
 /// A usual board: offset and noise of the converters in counts, dead time, diodes, and switches with a tenth
-/// of the phase's resistance. The current range is twice the test's current, and the bus range a quarter
-/// above the bus.
+/// of the phase's resistance. The current range is twice the test current. The bus range is 1.25 times the
+/// bus voltage.
 constexpr double offset_counts = 12.3, noise_counts = 1.0, dead_s = 0.5e-6, channel_part = 0.1, diode_V = 0.7,
                  most_diode_ohm = 0.01, current_room = 2.0, bus_room = 1.25;
 constexpr int adc_bits = 12;
@@ -30,7 +30,7 @@ struct Paces {
   double tau_s = 0.0;  ///< L/R
   double swing_rad_s =
       0.0;                 ///< angular frequency of the rotor's swing in the static field of the test current
-  double calming_s = 0.0;  ///< time in which that swing decays by the factor e
+  double calming_s = 0.0;  ///< time constant of the decay of this swing
   double spin_turns_s2 = 0.0;     ///< electrical acceleration in turns/s^2 by the test current
   double half_emf_turns_s = 0.0;  ///< speed at which the back-EMF is half of the voltage vector
 };
@@ -46,13 +46,14 @@ Paces paces_of(const design::MotorModel& m, double flux_Vs, double R_ohm, double
           .half_emf_turns_s = R_ohm * I_A / (2 * flux_Vs) / base::turn_rad};
 }
 
-/// Settings of the test, long enough for these time scales and never shorter than the usual settings.
+/// Settings of the test that fit these time scales, and are never shorter than the usual settings.
 control::CommissioningWish wish_of(const Paces& p, double I_A) {
   control::CommissioningWish w;
   w.test_A = I_A;
   w.settle_s = std::max(w.settle_s, 6 * p.calming_s);
   w.step_s = std::max(w.step_s, 12 * p.tau_s);
-  // The factor 18 keeps six times the turn's speed below a third of the swing's frequency (hall_survey.hpp).
+  // With the factor 18, six times the turn's speed is below a third of the swing's frequency
+  // (hall_survey.hpp).
   w.slow_turns_s = std::min(w.slow_turns_s, p.swing_rad_s / (18 * base::turn_rad));
   w.fastest_turns_s = std::max(w.fastest_turns_s, 2 * p.half_emf_turns_s);
   w.spin_up_s = std::max(w.spin_up_s, 5 * w.fastest_turns_s / p.spin_turns_s2);
@@ -130,8 +131,8 @@ base::Result<double> voltage_of(const CommissionSubject& subject, const design::
   return V;
 }
 
-/// Largest current at which a salient rotor stays aligned with the field: a third of the current at which its
-/// reluctance torque exceeds the magnet's, (L_q - L_d) I > psi.
+/// Largest current at which a salient rotor stays aligned with the field. At the current I with (L_q - L_d) I
+/// = psi the reluctance torque exceeds the magnet's torque; the result is a third of I.
 double salient_most_A(const study::GeneralPlant& plant) {
   const CommissionTruth t = truth_of(plant, 0.0);
   return t.beyond_L_H > 0.0 ? t.flux_linkage_Vs / t.beyond_L_H / 3 : HUGE_VAL;
@@ -142,10 +143,10 @@ struct TestCurrentFrom {
   TestCurrent from = TestCurrent::asked_for;
 };
 
-/// The test's current: twice the nominal current, which a motor withstands for seconds, or half of the
-/// largest current that the bus can drive if that is less. With a smaller current, the voltage of dead time
+/// The test current: twice the nominal current, which a motor withstands for seconds, or half of the largest
+/// current that the bus can drive, if half of it is smaller. With a smaller current, the voltage of dead time
 /// and diodes would be a large part of the vector. Along a phase the vector reaches half of the bus
-/// (field_vector.hpp); a tenth of that is reserved for dead time and diodes.
+/// (field_vector.hpp); a tenth of this half is reserved for dead time and diodes.
 base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const design::MotorModel& motor,
                                          double V) {
   const double R = motor.machine.R_ohm;

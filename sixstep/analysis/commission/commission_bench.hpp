@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the test bench for commissioning (control/commissioning/): a usual board, the motor with a free shaft, and
-// the settings of the test for this motor: current, durations, speeds. The chip gets the board's data and
-// these settings, but no data of the motor.
+// Creates the test bench for commissioning (control/commissioning/): a usual board, the motor with a free
+// shaft, and the settings of the test for this motor (current, durations, speeds). The chip receives the
+// board's data and these settings, but no data of the motor.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,17 +19,17 @@ struct CommissionSubject {
   design::Sheet sheet{};              ///< sheet of the motor
   std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
   std::optional<double> current_A{};  ///< test current; empty: chosen as TestCurrent says
-  rig::Wiring wires{};                ///< how phases and Hall lines are plugged in
+  rig::Wiring wires{};                ///< connections of phases and Hall lines
   double hall_offset_deg = 0.0;       ///< offset common to all edges, electrical degrees
   int seed = 0;                       ///< seed of the converters' noise
 };
 
-/// Origin of the test's current.
+/// Origin of the test current.
 enum class TestCurrent : std::uint8_t {
   asked_for,
   twice_nominal,
-  twice_tenth_of_stall,  ///< the sheet has no nominal current (design/loops/operating_limits.hpp)
-  half_of_most  ///< half of the current that bus and rotor allow, because the other choices exceed it
+  twice_tenth_of_stall,  ///< twice a tenth of the stall current: the sheet has no nominal current
+  half_of_most           ///< half of the current that bus and rotor allow, because the other values exceed it
 };
 
 /// The motor's true values at the board's terminals, with the winding at `degC`.
@@ -38,7 +38,8 @@ struct CommissionTruth {
   double R_ohm = 0.0;            ///< resistance of a phase with its switch or diode, as the chip measures it
   double L_H = 0.0;              ///< inductance of a phase, along the magnet's axis
   double flux_linkage_Vs = 0.0;  ///< flux linkage of the fundamental, peak
-  bool sine = true;  ///< no harmonics of the back-EMF: a standing field holds the rotor in its direction
+  bool sine = true;  ///< true: the back-EMF has no harmonics; the rotor then aligns with a standing field
+                     ///< exactly
   double cogging_Nm = 0.0;  ///< sum of the orders' peaks
   double beyond_L_H = 0.0;  ///< L_q - L_d: inductance across the magnet's axis minus that along it
 };
@@ -52,7 +53,7 @@ struct CommissionBench {
   TestCurrent from = TestCurrent::asked_for;  ///< how wish.test_A was chosen
   bool nominal_printed = true;                ///< whether the sheet has a nominal current
   double noise_A = 0.0;                       ///< noise of each current's sample, rms
-  double longest_s = 0.0;                     ///< time after which the chip should have ended
+  double longest_s = 0.0;                     ///< time in s after which the chip must have ended
 };
 
 /// Problems name `voltage_V`, `current_A` or `hall_offset_deg`, or come from the sheet. A motor that cannot

@@ -13,7 +13,7 @@ namespace {
 constexpr double deviations = 3.0;
 constexpr double per_rad = 180 / base::pi;
 
-/// Errors by the converters' noise: of the difference of the two levels' means, in counts; and of the area of
+/// Errors by the converters' noise: in the difference of the two levels' means, in counts; and in the area of
 /// the steps between the levels, in ticks.
 struct OfNoise {
   double level_counts, area_ticks;
@@ -25,7 +25,8 @@ struct OfNoise {
     const double along = noise * std::sqrt(2.0 / 3.0);
     level_counts = along * std::sqrt(2.0 / (n / 4 * pairs));
     // The area contains the tails with weight three and the rest with weight one (level_steps.hpp). With N
-    // ticks in all tails, its variance is that of 24 N samples; the result is divided by the 2 pairs steps.
+    // ticks in all tails, its variance equals the variance of 24 N samples; the result is divided by the 2
+    // pairs steps.
     area_ticks = along * std::sqrt(6.0 * n * pairs) / (2 * pairs * apart);
   }
 };
@@ -41,16 +42,16 @@ double of_motor_deg(const CommissionBench& b) {
   return (b.truth.sine ? 0.0 : trapezoid_deg) + base::atan2(aside, std::sqrt(1 - aside * aside)) * per_rad;
 }
 
-/// Angle error by dead time and diodes: their voltage has the signs of the currents, up to 30 degrees from
-/// the vector.
+/// Angle error by dead time and diodes. Their voltage has the signs of the currents; its angle differs by up
+/// to 30 degrees from the vector.
 double of_drop_deg(const control::CommissioningState& found) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), applied = found.magnet.applied;
   return applied > lost ? base::atan2(0.5 * lost, applied - lost) * per_rad : 0.0;
 }
 
 /// Error by unknown signs, as a fraction of the back-EMF. The voltage of dead time and diodes has the
-/// currents' signs. Where a current is within its ripple and noise of zero, its sign is unknown, so that
-/// `lost` is wrong in that part of a turn.
+/// currents' signs. If |current| is smaller than its ripple and noise, its sign is unknown, and `lost` is
+/// wrong in this part of a turn.
 double of_signs(const CommissionBench& b, const control::CommissioningState& found,
                 const control::Commissioned<double>& si) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), emf = found.magnet.emf,
@@ -69,7 +70,7 @@ CommissionBounds bounds_of(const CommissionBench& b, const control::Commissionin
   const control::CommissioningConfig config = control::commissioning_config(b.board, b.wish);
   CommissionBounds out;
   // Angle of one count of the capture timer, in both directions and at both ends. Without a measured winding,
-  // the other bounds stay 0.
+  // the bounds other than edge_deg are 0.
   const double count_deg = 360.0 * b.wish.slow_turns_s / b.board.timer_Hz;
   out.edge_deg = 6 * count_deg + of_drop_deg(found) + of_motor_deg(b);
   if (!found.winding.usable) return out;
@@ -77,7 +78,7 @@ CommissionBounds bounds_of(const CommissionBench& b, const control::Commissionin
   const double bus = 0.5 * b.board.V_per_count / b.voltage_V;
   const OfNoise noise(b, config.steps, apart);
   out.R_part = (4.0 / 3.0 + noise.level_counts) / apart + bus;
-  // The ripple within a period hides at most (T/tau)^2/4 of the step.
+  // The ripple within a period changes the measured step by at most (T/tau)^2/4 of it.
   const double ticks = found.winding.tau / 65536.0;
   out.L_part = out.R_part + base::log(2 * apart) / apart + 1 / (4 * ticks * ticks) + noise.area_ticks / ticks;
   if (found.magnet.emf <= 0 || found.magnet.flux <= 0) return out;

@@ -41,9 +41,9 @@ void note(const Rig& rig, const CommissionBench& b, double t_s, CommissionStudy&
   s.rows.push_back(row);
 }
 
-/// The rotor's angle in the frame of the board, whose legs may be connected to other phases. A cyclic order
-/// shifts the angle by thirds of a turn. Two swapped wires reverse it, because they mirror the d axis;
-/// theta_e leads the d axis by 150 degrees.
+/// The rotor's angle in the frame of the board, whose legs may be connected to other phases. A cyclic
+/// exchange of the phases shifts the angle by thirds of a turn. Two swapped wires reverse the angle, because
+/// they mirror the d axis; theta_e leads the d axis by 150 degrees.
 double on_board_deg(const rig::Wiring& wires, double theta_e_deg) {
   const double at_a = 120.0 * static_cast<double>(wires.phase(0));
   return wires.phases < rig::WireOrder::acb ? theta_e_deg - at_a : 300.0 + at_a - theta_e_deg;
@@ -71,8 +71,8 @@ void compare_edges(CommissionStudy& s) {
   s.shown_offset_deg = ahead;
 }
 
-/// Whether the Hall table turns the motor in the board's forward direction: each sector that was found equals
-/// the sector at the pins.
+/// True if the Hall table turns the motor in the board's forward direction: each sector found equals the
+/// sector at the pins.
 bool turns_by(const CommissionStudy& s) {
   for (std::size_t sector = 0; sector < 6; ++sector)
     if (std::fabs(apart(s.edges[sector].true_deg - 60.0 * static_cast<double>(sector))) >

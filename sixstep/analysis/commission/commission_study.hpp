@@ -16,10 +16,10 @@ namespace sixstep::analysis {
 /// - the capture timer's count,
 /// - the angle by which dead time and diodes turn the field.
 ///
-/// Two errors cannot be measured by the chip, and the bench adds them: a trapezoid's field adds 1.12 degrees,
-/// and cogging shifts the rotor.
+/// The chip cannot measure two errors; the bench adds them: a trapezoid's field adds 1.12 degrees, and
+/// cogging shifts the rotor.
 struct CommissionBounds {
-  double R_part = 0.0, L_part = 0.0, flux_part = 0.0;  ///< relative to the value found
+  double R_part = 0.0, L_part = 0.0, flux_part = 0.0;  ///< relative to the measured value
   double edge_deg = 0.0;  ///< electrical degrees, of each Hall edge and of the offset
 };
 CommissionBounds bounds_of(const CommissionBench& bench, const control::CommissioningState& found);
@@ -59,7 +59,7 @@ struct CommissionStudy {
   bool lines_found() const { return state.probes.verdict == control::HallSurvey::good; }
   /// Largest error of the six edges, degrees.
   double worst_edge_deg() const;
-  /// Whether all was found, each value is within its bounds, and the Hall table turns the motor.
+  /// True if every value was found and is within its bounds, and the Hall table turns the motor.
   bool holds() const;
 };
 
@@ -68,7 +68,8 @@ struct CommissionOrder {
   std::function<bool()> keep_going{};  ///< false ends the study early with a Problem "was interrupted"
 };
 
-/// Problems are those of the bench. A value that the chip did not find is no Problem; `state` shows it.
+/// Returns the Problems of the bench. A value that the chip did not find is no Problem; `state` contains the
+/// reason.
 base::Result<CommissionStudy> study_commission(const CommissionOrder& order);
 
 }  // namespace sixstep::analysis

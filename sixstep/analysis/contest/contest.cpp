@@ -15,7 +15,7 @@ ContestValues values_of(const RunRecord& record) {
   return record->end == RunEnd::refused ? no_contest_values() : contest_values_of(gauges_of(record));
 }
 
-/// The worse of two figures. NaN is worst: the drive ended before the figure.
+/// The worse of two figures. NaN is the worst value: the drive ended before the figure.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 Plan plan_of(const std::vector<ContestEntry>& entries, std::size_t drives, std::uint64_t seed) {
@@ -30,7 +30,7 @@ Plan plan_of(const std::vector<ContestEntry>& entries, std::size_t drives, std::
 }
 
 /// The scenario that determines the table's columns. The entries differ from the bench in their [[spread]],
-/// but not from each other.
+/// but all entries have the same [[spread]].
 const study::Scenario& with_columns(const ContestBench& bench, const std::vector<ContestEntry>& entries) {
   const auto first = std::find_if(entries.begin(), entries.end(), [](const ContestEntry& entry) {
     return static_cast<bool>(entry.scenario);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares controllers: the figures of each on the course, nominal and over the sheet's tolerances.
+// Compares controllers: the figures of each controller on the course, for the nominal drive and over the
+// sheet's tolerances.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,14 +11,14 @@
 
 namespace sixstep::analysis {
 
-/// A contestant and its scenario, or the Problem that says why this motor has no such scenario.
+/// A contestant and its scenario, or the Problem with the reason why this motor has no scenario for it.
 struct ContestEntry {
   const Contestant* who = nullptr;
   std::vector<ContestKey> keys;
   base::Result<study::Scenario> scenario;
 };
 
-/// The nominal drive on the course, for pictures: a value per instant.
+/// The nominal drive's traces on the course, for pictures: one value per instant.
 struct ContestTrace {
   std::vector<double> t_s, speed_rad_s, torque_Nm, current_A;
 };
@@ -28,17 +29,17 @@ ContestValues no_contest_values();
 struct ContestRow {
   std::optional<RunRecord> nominal{};
   ContestTrace trace{};
-  /// Lowest speed in rad/s that the nominal drive holds (lowest_speed.hpp). Empty if it does not hold even
-  /// the course's low speed.
+  /// Lowest speed in rad/s that the nominal drive holds (lowest_speed.hpp). Empty if it does not hold the
+  /// course's low speed.
   std::optional<double> lowest_rad_s{};
   ContestValues values = no_contest_values();  ///< figures of the nominal drive
-  std::optional<ContestValues> worst{};        ///< largest over nominal and all drives; empty without drives
-  std::size_t drives = 0, held = 0;  ///< number of drives within the tolerances, and how many of them meet
+  std::optional<ContestValues> worst{};        ///< worst over nominal and all drives; empty without drives
+  std::size_t drives = 0, held = 0;  ///< number of drives within the tolerances; number of them that meet
                                      ///< every requirement
   bool nominal_held = false;
 };
 
-/// The drives of all entries are one plan with one table: the contestants are the values of its only key.
+/// The drives of all entries are one plan with one table. The only key of the plan is the contestant.
 struct Contest {
   ContestBench bench;
   std::vector<ContestEntry> entries;
@@ -54,7 +55,7 @@ Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::s
 /// The largest peak current in A of a start within the torque limit. Commutations add up to half of the
 /// limit's current to it, and the PWM adds its ripple.
 double most_peak_A(const ContestBench& bench);
-/// Whether a row's figures may count as the best: its nominal drive follows the course, with a start current
+/// True if a row's figures may count as the best: its nominal drive follows the course, with a start current
 /// within most_peak_A(). A larger current would be an unfair advantage.
 bool may_win(const Contest& contest, std::size_t row);
 
@@ -64,7 +65,7 @@ GaugeValues gauges_of(const RunRecord& record);
 /// Stores the run of an entry's nominal drive.
 void take_nominal(Contest& contest, std::size_t entry, const base::Result<study::Outcome>& result);
 /// Stores the figures of a drive within the tolerances. Its number in the plan selects the entry. Only
-/// figures that are worse than the stored ones are kept.
+/// figures that are worse than the stored figures are kept.
 void take_drive(Contest& contest, const RunRecord& record);
 
 }  // namespace sixstep::analysis

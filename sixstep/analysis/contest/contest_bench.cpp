@@ -14,10 +14,9 @@
 namespace sixstep::analysis {
 namespace {
 
-/// The course's high speed as a fraction of the speed up to which the bus drives the nominal current.
+/// The course's high speed, as a fraction of the speed up to which the bus drives the nominal current.
 constexpr double high_part = 0.6;
-/// Part of the high speed within which start and load step count as settled.
-/// Means must lie within this part of the reference.
+/// Means must lie within this fraction of the reference: at the high speed, at the slow speed.
 constexpr double holds_high = 0.02, holds_slow = 0.05;
 constexpr double electrical_turns = 10.0;
 
@@ -42,8 +41,8 @@ bool is_grave(const design::DriveDesign& d) {
   return std::any_of(d.warnings.begin(), d.warnings.end(), [](const design::Warning& w) { return w.grave; });
 }
 
-/// Designs the drive with the design's settling time. If a warning is grave, the shortest of 2, 5, 10 ..
-/// times this time is used that has no grave warning.
+/// Designs the drive with the design's settling time. If this design has a grave warning, uses the shortest
+/// of 2, 5, 10 .. times this time without a grave warning.
 base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, const ContestSpec& c) {
   design::DesignSpec spec = wanted(c);
   base::Result<design::DriveDesign> first = design::design_drive(motor, spec);
@@ -71,13 +70,14 @@ Course course_of(const design::DriveDesign& d) {
   c.slow_rad_s = plain(d.lowest_speed_rad_s);
   c.calm_s = plain(std::max(settle, electrical_turns * turn / c.high_rad_s));
   c.slow_calm_s = plain(std::max(settle, electrical_turns * turn / c.slow_rad_s));
-  // The torque that limit and bus allow at the end of the start; commutation takes about half of it.
+  // Mean torque during the start: half of the torque that limit and bus allow at its end, because commutation
+  // reduces it, minus half of the load.
   const double drives =
       0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.high_rad_s) / R) - c.load_Nm / 2;
   const double start = J * c.high_rad_s / std::max(drives, 0.2 * c.load_Nm);
   c.load_at_s = plain(start + 5 * settle + c.calm_s);
   c.slow_at_s = plain(c.load_at_s + 5 * settle);
-  const double fall = J * (c.high_rad_s - c.slow_rad_s) / c.load_Nm;  // time in which the load alone brakes
+  const double fall = J * (c.high_rad_s - c.slow_rad_s) / c.load_Nm;  // time in which only the load brakes
                                                                       // the motor
   c.end_s = plain(c.slow_at_s + fall + 5 * settle + c.slow_calm_s);
   return c;
@@ -148,8 +148,8 @@ void add_course(const Course& c, study::Scenario& s) {
   s.record = {};
 }
 
-/// Sets the keys that all scenarios share, and those that suit every controller: the angle between Hall
-/// edges, the range of the converters, pulses in the middle of the period.
+/// Sets the keys that all scenarios share, and keys that suit every controller: the angle between Hall edges,
+/// the range of the converters, pulses in the middle of the period.
 void make_common(const design::DriveDesign& d, bool board, study::Scenario& s) {
   s.pwm.alignment = study::Alignment::centre;
   s.control.speed.torque_limit_Nm = base::shortened(d.torque_limit_Nm, 4, base::Towards::down);
@@ -225,8 +225,8 @@ std::vector<std::pair<std::string, double>> contest_values(const ContestBench& b
   const design::DriveDesign& d = bench.design;
   const design::MotorModel& m = d.motor;
   const Course& c = bench.course;
-  // The outgoing phase's current falls under the voltage (U + 2 e)/3, where e is the back-EMF of a phase
-  // (K_t/2 w) at the high speed.
+  // The leaving phase's current falls under the voltage (U + 2 e)/3, with the back-EMF e = K_t/2 w of a phase
+  // at the high speed.
   const double falls_V = (d.bus_V + m.K_t_Nm_A * c.high_rad_s) / 3;
   const double commutes_s = m.machine.L_H * d.nominal_current_A / falls_V;
   const study::SpeedLoop& speed = bench.scenario.control.speed;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures by which controllers are compared. The [[compare]] list of a scenario of the course measures
-// gauges, in this order. A figure of the table is a sum of gauges, in some cases minus another gauge.
-// Examples: the bridge's loss is conduction plus switching; the dip at a commutation is mean minus least
-// torque.
+// Figures by which controllers are compared. The [[compare]] list of the course's scenarios measures gauges,
+// in this order. A figure of the table is a sum of gauges, in some cases minus another gauge. Examples: the
+// bridge's loss is conduction plus switching; the dip at a commutation is mean torque minus least torque.
 #pragma once
 #include <array>
 #include <iterator>
@@ -67,7 +66,7 @@ inline constexpr ContestGauge contest_gauges[] = {
     {"swing of the low speed", MetricKind::peak_to_peak, Signal::speed, CoursePart::slow},
 };
 
-/// Whether a figure is shown with the transients or with the steady state.
+/// Group of the table in which a figure is shown: transients or steady state.
 enum class ContestGroup : std::uint8_t { moving, steady };
 
 struct ContestFigure {
@@ -156,7 +155,7 @@ inline constexpr ContestFigure contest_figures[] = {
      {Gauge::slow_ripple, Gauge::none, Gauge::none}},
 };
 
-/// Indices in contest_figures that rules and pictures use.
+/// Indices in contest_figures, for rules and pictures.
 inline constexpr std::size_t peak_figure = 2, ripple_figure = 7, loss_figure = 13;
 static_assert(contest_figures[peak_figure].name == "peak" &&
               contest_figures[ripple_figure].name == "ripple rms" &&

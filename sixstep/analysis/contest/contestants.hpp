@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of the controllers that are compared, one row each. A row names the keys in which its scenario differs
-// from the common one (contest_bench.hpp); nothing else may differ.
+// The list of the compared controllers, one row each. A row contains the keys in which its scenario differs
+// from the common scenario (contest_bench.hpp). Everything else is equal.
 #pragma once
 #include <span>
 #include <string_view>
@@ -9,13 +9,13 @@ namespace sixstep::analysis {
 
 struct Contestant {
   std::string_view name;
-  /// "key = value", separated by "; ", as for --set. contest_values() gives the values of <band_A> and other
-  /// names. A table in braces replaces the table of the common scenario.
+  /// "key = value", separated by "; ", as for --set. contest_values() computes the values of <band_A> and
+  /// other names. A table in braces replaces the table of the common scenario.
   std::string_view keys;
   std::string_view sentence;  ///< the difference and its effect, as a sentence that begins with "it"
   /// The drive in data/cores/ that consists of the same blocks; empty: its cost is not counted yet.
   std::string_view core_drive = "";
-  /// For a user's own controller: largest number of instructions of a step, and bytes of flash, if they are
+  /// For a user's own controller: largest number of instructions of a step, and bytes of flash; empty: not
   /// counted (text/contest/own_cost.hpp).
   std::string_view tick = "", flash_bytes = "";
 };

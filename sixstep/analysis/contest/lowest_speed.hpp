@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the lowest speed at which a controller still turns the motor against the full load. The reference
 // halves repeatedly from the course's low speed; each step is long enough to settle and to measure. A speed
-// counts as held if its mean is within a twentieth of the reference, and the motor is never slower than half
-// of the reference or faster than one and a half times the reference.
+// counts as held under two conditions: its mean is within a twentieth of the reference, and every speed is
+// between half and one and a half times the reference.
 #pragma once
 #include <optional>
 #include <span>
@@ -16,10 +16,11 @@ namespace sixstep::analysis {
 /// Six speeds in rad/s, from the course's low speed down to 1/32 of it.
 std::vector<double> slow_speeds(const Course& course);
 
-/// The scenario of a contestant that runs at each of these speeds in turn, with three requirements for each.
+/// The scenario of a contestant with these speeds one after the other, and three requirements for each speed.
 study::Scenario slow_scenario(const study::Scenario& contestant, const ContestBench& bench);
 
-/// The slowest speed in rad/s that is held together with all faster ones. Empty if the first one is not held.
+/// The slowest speed in rad/s that is held together with all faster speeds. Empty if the first speed is not
+/// held.
 std::optional<double> lowest_speed_rad_s(const Course& course, std::span<const study::Verdict> verdicts);
 
 }  // namespace sixstep::analysis

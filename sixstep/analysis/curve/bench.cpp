@@ -12,14 +12,14 @@ namespace sixstep::analysis {
 
 namespace {
 
-/// Largest number of control periods of a chopped point's settling time (operating_point.cpp): some seconds
-/// of computing for each of its runs.
+/// Largest number of control periods in the settling time of a point with chopping (operating_point.cpp).
+/// Each run of such a point takes some seconds.
 constexpr double most_periods = 1e6;
 
 /// Least duty, corresponding to a pulse of 30 ps in 30 us.
 constexpr double least_duty = 1e-6;
 
-/// Refuses numbers that are each allowed but together take too long to simulate.
+/// Adds problems for values that are allowed individually, but together take too long to simulate.
 void check_pace(const Bench& b, base::Problems& problems) {
   const plant::Machine& m = b.motor.machine;
   const auto refuse = [&](const char* where, double value, const std::string& limit, const char* cure) {

@@ -23,11 +23,11 @@ struct Bench {
   std::function<bool()> keep_going{};
 };
 
-/// Whether keep_going ends the work, and the Problem of a computation that it ended.
+/// True if keep_going ends the work; and the Problem of a computation that keep_going has ended.
 inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
 inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
 
-/// Passes a run's segments to `observer`, which must not end the run, and calls keep_going every 256 segments.
+/// Passes a run's segments to `observer`, which must not end the run. Calls keep_going every 256 segments.
 template <class Observer>
 struct Asking {
   const std::function<bool()>& keep_going;
@@ -42,7 +42,7 @@ struct Asking {
 base::Problems check(const Bench& bench);
 
 /// Mean voltage across the driven pair in V while current flows throughout. It is d U, or (2 |d| - 1) U with
-/// hard chopping, where both switches chop and the current flows back into the bus during the off part of a
+/// hard chopping: both switches chop, and the current flows back into the bus during the off part of a
 /// period.
 inline double mean_voltage_V(const Bench& b) {
   if (b.chopping != control::Chopping::hard) return b.duty * b.voltage_V;
@@ -51,7 +51,7 @@ inline double mean_voltage_V(const Bench& b) {
 
 /// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with u = mean_voltage_V(), in N m:
 /// smooth current, no commutation time, no friction, ideal devices. Soft and hard chopping cannot drive the
-/// current backwards, so that the line ends at zero torque there.
+/// current backwards; the line then ends at zero torque.
 inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
   const double K_t = b.motor.K_t_Nm_A, R_tt = 2 * b.motor.machine.R_ohm;
   const double line = K_t * (mean_voltage_V(b) - K_t * speed_rad_s) / R_tt;
@@ -59,7 +59,7 @@ inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
   return one_way && line * b.duty < 0 ? 0.0 : line;
 }
 
-/// Speed in rad/s at which that line reaches zero torque; 0 if the mean voltage does not drive the motor.
+/// Speed in rad/s at which this line reaches zero torque; 0 if the mean voltage does not drive the motor.
 inline double ideal_no_load_rad_s(const Bench& b) {
   const double reached = mean_voltage_V(b) / b.motor.K_t_Nm_A;
   return reached * b.duty > 0 ? reached : 0.0;

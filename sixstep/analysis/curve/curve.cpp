@@ -17,7 +17,7 @@ std::optional<double> scaled_point(const std::optional<base::Quantity>& q, doubl
   return q ? std::optional(q->value * factor) : std::nullopt;
 }
 
-/// Problems with the temperatures of motor and air.
+/// Problems of the temperatures of motor and air.
 base::Problems check_temperatures(const CurveRequest& r) {
   base::Problems problems;
   const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
@@ -103,7 +103,7 @@ std::optional<double> printed_current(const design::MotorModel& motor) {
   return std::nullopt;
 }
 
-/// The sources of the sheet's ratings, each once; the data sheet itself is left out.
+/// The sources of the sheet's ratings, each once, except the data sheet itself.
 std::string rated_in(const design::Sheet& sheet) {
   std::string all;
   for (const auto* rating : {&sheet.nominal_torque_mNm, &sheet.nominal_speed_rpm, &sheet.nominal_current_A}) {

@@ -12,8 +12,7 @@
 
 namespace sixstep::analysis {
 
-/// Largest number of points of a curve: they take some hundred megabytes, and no screen or table shows as
-/// many rows.
+/// Largest number of points of a curve: some hundred megabytes. No screen or table can show as many rows.
 inline constexpr int most_points = 200'000;
 
 struct CurveRequest {
@@ -24,9 +23,9 @@ struct CurveRequest {
   double ambient_degC = design::sheet_degC;
 };
 
-/// The sheet's nominal point, and the curve's point of the same torque. The points are compared at equal
-/// torque because a load determines the torque, and the speed then differs from motor to motor. A comparison
-/// of the torques at the printed speed would magnify the same difference by the curve's steepness.
+/// The sheet's nominal point, and the curve's point of equal torque. The comparison is at equal torque,
+/// because a load determines the torque; the speed then differs from motor to motor. A comparison of the
+/// torques at the printed speed would magnify the same difference by the curve's steepness.
 struct NominalPoint {
   std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< values as printed
   std::string from;                         ///< source of these values if it is not the data sheet
@@ -38,7 +37,7 @@ struct NominalPoint {
 /// Loss of speed per torque, rad/s per N m, from no load to the nominal point.
 struct SpeedDrop {
   double ideal = 0.0;               ///< R_tt/K_t^2, the speed-torque gradient of data sheets
-  std::optional<double> printed{};  ///< this gradient as printed
+  std::optional<double> printed{};  ///< this gradient as printed in the sheet
   std::optional<double> sheet{};    ///< gradient between the printed no-load and nominal points
   std::optional<double> curve{};    ///< gradient between the same torques on the curve
 };
@@ -46,22 +45,22 @@ struct SpeedDrop {
 /// Durations for which short-time limits are given, s.
 inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
 
-/// Thermal limits of the winding at one speed, given as the shaft torque of a drive that holds the current
-/// constant. Block current flows through two phases: P = I^2 R_tt. The torque is K_t I minus friction, with
-/// K_t at the resulting temperature of the magnets. Friction warms the housing. The temperature of the
-/// curve's own motor has no influence. NaN if the winding exceeds its limit without any current, by ambient
-/// temperature or friction alone.
+/// Thermal limits of the winding at one speed, as the shaft torque of a drive with a constant current. Block
+/// current flows through two phases: P = I^2 R_tt. The torque is K_t I minus friction, with K_t at the
+/// resulting temperature of the magnets. Friction warms the housing. The motor temperature of the curve has
+/// no influence. NaN if the winding exceeds its limit without any current, by ambient temperature or
+/// friction.
 struct ThermalLimits {
   double continuous_A = 0.0, continuous_Nm = 0.0;
   std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< for short_times_s, starting at ambient
                                                                    ///< temperature
 };
 
-/// Temperatures of a curve's point in steady operation. The current is assumed constant while the copper
-/// warms up.
+/// Temperatures at a curve's point in steady operation. The current is assumed to stay constant while the
+/// copper warms up.
 struct Warming {
   std::optional<double> winding_degC;   ///< final temperature; empty: it rises without end
-  std::optional<double> permissible_s;  ///< permissible time from ambient temperature on; empty: without
+  std::optional<double> permissible_s;  ///< permissible time, starting at ambient temperature; empty: no
                                         ///< limit
 };
 
@@ -70,20 +69,20 @@ struct Curve {
   NoLoad no_load{};
   Marks marks{};
   std::optional<NominalPoint> nominal{};
-  std::optional<design::ThermalModel> thermal{};  ///< by which all limits are: design::safe_thermal_model()
+  std::optional<design::ThermalModel> thermal{};  ///< the model for all limits: design::safe_thermal_model()
   std::vector<ThermalLimits> limits{};            ///< one per point; empty without thermal lines
-  std::vector<Warming> warming{};                 ///< one per point, like the element above
-  std::string worse_ends{};  ///< the values in which `thermal` differs from the sheet's own: "key = 5.3"
+  std::vector<Warming> warming{};                 ///< one per point; empty without thermal lines
+  std::string worse_ends{};  ///< values in which `thermal` differs from the sheet's own model: "key = 5.3"
   std::optional<design::ThermalModel>
       by_values{};                   ///< the sheet's own values where `thermal` differs from them
   base::Problems thermal_missing{};  ///< why `thermal` is empty
 };
 
-/// First step of a curve: the no-load point, and the speeds whose points can be computed independently. In
-/// order, these are:
+/// First step of a curve: the no-load point, and the speeds of points that can be computed independently. The
+/// order of the speeds is:
 /// - the speeds of the curve's points, without no load;
 /// - the speeds of the sweep for the marks, without no load;
-/// - the sheet's nominal speed, if there is one.
+/// - the sheet's nominal speed, if the sheet has a nominal speed.
 struct CurvePlan {
   NoLoad no_load;
   std::vector<double> speeds_rad_s;

@@ -10,12 +10,11 @@
 
 namespace sixstep::analysis {
 
-/// A shaft with constant speed: 1/J = 0 makes dw/dt exactly zero, whatever the torque is. The caller
-/// subtracts friction from the torque afterwards, because friction cannot act on the currents at a given
-/// speed.
+/// A shaft with constant speed: 1/J = 0, and dw/dt is exactly zero for any torque. The caller subtracts
+/// friction from the torque afterwards, because friction cannot act on the currents at a given speed.
 inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
 
-/// Starts without current. The default angle is the middle of a sector, so that neither direction starts on
+/// Starts without current. The default angle is the middle of a sector: in neither direction the start is on
 /// an edge.
 inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s,
                                      double sectors = 0.5) {
@@ -38,7 +37,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     commutate();
   }
 
-  /// Like OpenLoop::run_for(), so that a template can run both classes.
+  /// Like OpenLoop::run_for(): a template can use both classes.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
     Asking<Observer> asking{keep_going_, observer};
@@ -64,7 +63,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     std::int64_t target;
     SumsRecorder* recorder;
     const std::function<bool()>& keep_going;
-    std::uint32_t& asked;  // counter kept from call to call, because a sector has only a few segments
+    std::uint32_t& asked;  // counter kept between calls, because a sector has only a few segments
     void segment(const FullOn& system, double s) {
       if (recorder) recorder->segment(system, s);
     }
@@ -78,7 +77,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     plant::Gates gates;
     gates.high[static_cast<std::size_t>(pair.source)] = true;
     gates.low[static_cast<std::size_t>(pair.sink)] = true;
-    plant_.set_gates(gates);  // two different legs, so that no leg is shorted
+    plant_.set_gates(gates);  // two different legs: no leg is shorted
   }
 
   std::function<bool()> keep_going_;

@@ -11,7 +11,7 @@ namespace {
 using Sweep = std::vector<OperatingPoint>;
 using Value = std::function<double(const OperatingPoint&)>;
 
-/// Computes the points of a search. The first point that cannot be computed ends the search.
+/// Computes the points of a search. A point that cannot be computed ends the search.
 struct Search {
   const Bench& bench;
   base::Problems problems{};
@@ -25,7 +25,7 @@ struct Search {
     into = *point;
     return true;
   }
-  /// Precision of a speed, as a part of the no-load speed.
+  /// Precision of a speed, as a fraction of the no-load speed.
   double near(double full_on, double chopped) const {
     const bool full = bench.duty == 1 || bench.duty == -1;
     return full ? full_on : chopped;
@@ -62,8 +62,8 @@ std::optional<OperatingPoint> greatest(Search& search, const Sweep& sweep, const
   return best;
 }
 
-/// Root between two neighbours of different sign: false position in which the value of the retained end is
-/// halved (Illinois method).
+/// Root between two neighbours of different sign by false position. The value of the retained end is halved
+/// (Illinois method).
 std::optional<OperatingPoint> root(Search& search, const OperatingPoint& a, const OperatingPoint& b,
                                    const Value& value, double goal) {
   double low = a.speed_rad_s, high = b.speed_rad_s, f_low = value(a), f_high = value(b);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds speeds that lie between the curve's points:
 // - the speed of greatest efficiency,
-// - the speed from which on the winding stays below its limit without end,
+// - the speed above which the winding stays below its limit permanently,
 // - the speed of the sheet's nominal torque.
 //
-// They are a maximum and roots on a separate sweep, so that the number of drawn points has no influence.
+// They are a maximum and roots on a separate sweep. The number of drawn points therefore has no influence.
 #pragma once
 #include <optional>
 #include <vector>
@@ -31,14 +31,15 @@ struct MarksWanted {
   std::optional<double> torque_Nm;
 };
 
-/// The sweep has equal steps from standstill to no load, small enough for one maximum and one root between
-/// neighbours.
+/// The sweep has equal steps from standstill to no load. The steps are small enough for one maximum and one
+/// root between neighbours.
 inline constexpr int sweep_steps = 16;
 std::vector<double> sweep_speeds(double no_load_rad_s);
 
-/// `sweep` holds the points at the sweep's speeds. The searches are independent, and `for_each` runs them. At
-/// full duty, the speed of the flat maximum is found to 1e-6 of the no-load speed and that of a root to 1e-9.
-/// With chopping they are found to 2e-3 and 1e-4, because a point's mean is known only within its interval.
+/// `sweep` contains the points at the sweep's speeds. The searches are independent, and `for_each` runs them.
+/// At full duty, the speed of the flat maximum is exact to 1e-6 of the no-load speed, the speed of a root to
+/// 1e-9. With chopping they are exact to 2e-3 and 1e-4, because a point's mean is known only within an
+/// interval.
 base::Result<Marks> find_marks(const Bench& bench, const MarksWanted& wanted,
                                const std::vector<OperatingPoint>& sweep, const ForEach& for_each);
 

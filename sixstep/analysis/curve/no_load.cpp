@@ -31,7 +31,9 @@ class NoLoadSearch {
       return false;
     }
     into = {speed, direction_ * point->shaft_torque_Nm, *point};
-    if (speed == 0) into.torque -= bench_.motor.shaft.coulomb_Nm;  // dry friction against the first motion
+    if (speed == 0)
+      into.torque -= bench_.motor.shaft.coulomb_Nm;  // dry friction acts against the begin of
+                                                     // the motion
     return true;
   }
 
@@ -63,7 +65,7 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   return false;
 }
 
-/// False position in which the value of the retained end is halved (Illinois method). It ends when the speed
+/// False position; the value of the retained end is halved (Illinois method). The search ends when the speed
 /// changes by 1e-11 or less, or when zero lies within the torque's interval.
 bool narrow(NoLoadSearch& search, Sample low, Sample high, Sample& found, double& slope) {
   constexpr int most = 100;
@@ -115,8 +117,8 @@ void run_free(const Bench& b, OpenLoop& system, double settle_s, double mean_s, 
   note_means(b, recorder.sums(), angle_of(system.plant()) - from, settle_s, out);
 }
 
-/// Runs the free rotor as above, but averages over a whole number of sectors, because the rotor's swing in a
-/// part of a sector would change the means.
+/// Runs the free rotor like the function above, but averages over a whole number of sectors, because the
+/// rotor's swing in a part of a sector would change the means.
 void run_free(const Bench& b, FullOn& system, double settle_s, double mean_s, NoLoad& out) {
   system.run_for(settle_s);
   const std::int64_t first = system.edges();
@@ -140,7 +142,9 @@ base::Result<NoLoad> no_load(const Bench& b) {
   if (!narrow(search, low, high, found, slope)) return search.problems;
   NoLoad out;
   out.point = found.point;
-  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // the remaining shaft power is only rounding
+  if (out.point.supplied_W > 0)
+    out.point.efficiency = 0.0;  // the remaining shaft power is only a rounding
+                                 // error
   out.slope_Nm_s = slope;
   out.half_width_rad_s = found.point.half_width_Nm / std::fabs(slope);
   out.time_constant_s = b.motor.shaft.J_kg_m2 / std::fabs(slope);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the no-load speed of a motor in two ways: as the held speed at which the shaft needs no torque from
-// outside, and by a free rotor.
+// Finds the no-load speed of a motor in two ways: as the imposed speed at which the shaft needs no external
+// torque, and as the speed of a free rotor.
 #pragma once
 #include "sixstep/analysis/curve/operating_point.hpp"
 
 namespace sixstep::analysis {
 
 struct NoLoad {
-  OperatingPoint point;           ///< at a held speed, with mean shaft torque 0
-  double half_width_rad_s = 0.0;  ///< quasi-periodic: the torque's half width over the slope
+  OperatingPoint point;           ///< at an imposed speed, with mean shaft torque 0
+  double half_width_rad_s = 0.0;  ///< quasi-periodic orbit: the torque's half width divided by the slope
   double slope_Nm_s = 0.0;        ///< slope of the shaft torque over speed at that point, negative
   double free_speed_rad_s = 0.0;  ///< mean of a free rotor
   double free_winding_current_A = 0.0;
@@ -20,9 +20,9 @@ struct NoLoad {
 
 inline constexpr double longest_free_s = 20.0;
 
-/// Finds the no-load point. A free rotor then starts at that speed, runs for 20 time constants J/|slope| and
-/// is averaged over two more, within longest_free_s. A Problem if friction holds the rotor, or if nothing
-/// slows it down.
+/// Finds the no-load point. A free rotor then starts at the no-load speed, runs for 20 time constants
+/// J/|slope|, and is averaged over two more time constants, within longest_free_s. Returns a Problem if
+/// friction holds the rotor, or if nothing slows it down.
 base::Result<NoLoad> no_load(const Bench& bench);
 
 }  // namespace sixstep::analysis

@@ -26,7 +26,7 @@ double sector_seconds(const Bench& b, double speed) {
   return base::sector_rad / (b.motor.machine.pole_pairs * std::fabs(speed));
 }
 
-/// The Problem of a run that stopped before its end or its edge.
+/// The Problem of a run that stopped before its end or its target edge.
 base::Problem ended_early(double speed, sim::Stop stop) {
   if (stop == sim::Stop::end || stop == sim::Stop::observer) return interrupted_work();
   return {"speed " + base::written(speed) + " rad/s", "",
@@ -59,8 +59,8 @@ OperatingPoint point_of(const Bench& b, double speed, const Sums& sums) {
   return p;
 }
 
-/// At speed 0 the rotor just begins to turn in the driven direction: dry friction is subtracted from the
-/// torque, but at most the whole torque.
+/// At speed 0 the rotor is about to turn in the driven direction: dry friction is subtracted from the torque,
+/// but at most the whole torque.
 double friction_at(const plant::Shaft& shaft, double speed, double torque_Nm) {
   if (speed != 0) return friction_Nm(shaft, speed);
   return std::copysign(std::min(shaft.coulomb_Nm, std::fabs(torque_Nm)), torque_Nm);
@@ -76,9 +76,9 @@ void take_to_shaft(const Bench& b, OperatingPoint& p) {
     p.efficiency = p.supplied_W / p.shaft_W;
 }
 
-/// The currents of a steady state one sector later. Sixty degrees are half a turn minus a third of a turn. So
-/// x_a(theta + 60 deg) = -x_b(theta), and in the same way x_b -> -x_c, x_c -> -x_a, for every quantity of a
-/// symmetric machine and bridge.
+/// The currents in steady state one sector later. Sixty degrees are half a turn minus a third of a turn. For
+/// every quantity of a symmetric machine and bridge, therefore, x_a(theta + 60 deg) = -x_b(theta), and in the
+/// same way x_b -> -x_c, x_c -> -x_a.
 PerLeg<double> one_sector_on(const PerLeg<double>& i, bool forward) {
   return forward ? PerLeg<double>{-i[1], -i[2], -i[0]} : PerLeg<double>{-i[2], -i[0], -i[1]};
 }
@@ -94,7 +94,7 @@ class SectorMap {
  public:
   SectorMap(const Bench& b, double speed) : system_(b, imposed_speed(), speed), forward_(speed > 0) {}
 
-  /// Runs to the next sector start, and returns how far the currents are from those one sector before.
+  /// Runs to the next sector start, and returns the distance of the currents from those one sector before.
   double apply(sim::Stop& stop, SumsRecorder* recorder = nullptr) {
     stop = system_.run_to_edge(system_.edges() + 1, recorder);
     const PerLeg<double> now = system_.plant().state().i;
@@ -110,10 +110,11 @@ class SectorMap {
   bool forward_;
 };
 
-/// Time constants after which a chopped run is averaged: exp(-20) = 2e-9 of the start is left.
+/// Time constants after which a run with chopping is averaged: exp(-20) = 2e-9 of the initial deviation
+/// remains.
 constexpr double forgotten = 20.0;
 
-/// Upper limit of tried sectors. 37 L/R would be as long as this, and no motor's L/R is fifty thousand
+/// Upper limit of simulated sectors. 37 L/R would have to last this long; no motor's L/R lasts fifty thousand
 /// sectors.
 constexpr std::int64_t most_sectors = 2'000'000;
 
@@ -122,7 +123,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   const double q = base::exp(-forgetting_rate(b) * sector_seconds(b, speed));
   const double noise = map.system().plant().constants().amp_noise;
   sim::Stop stop = sim::Stop::observer;
-  map.apply(stop);  // from the start to the first edge
+  map.apply(stop);  // from the start angle to the first edge
   double moved = 0.0;
   do moved = map.apply(stop);
   while (stop == sim::Stop::observer && moved > noise && map.system().edges() < most_sectors);
@@ -135,7 +136,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   p.sectors = map.system().edges();
   p.residual_A = moved;
   p.precise = repeats;
-  p.error_bound_A = (q * moved + noise) / (1 - q);  // rounding counts as another step of its own size
+  p.error_bound_A = (q * moved + noise) / (1 - q);  // rounding counts as another step of the size `noise`
   take_to_shaft(b, p);
   return p;
 }
@@ -158,8 +159,8 @@ Interval interval(const std::vector<Sums>& parts, Of&& of) {
 
 plant::Shaft held() { return {.J_kg_m2 = 1.0, .locked = true}; }
 
-/// Duration of one batch, s: pairs of sectors (soft chopping repeats every 120 degrees, not every 60), or
-/// periods of a held rotor. It is at least 40 PWM periods and 4 time constants.
+/// Duration of one batch, s: whole pairs of sectors (soft chopping repeats every 120 degrees, not every 60),
+/// or whole periods with a held rotor. It is at least 40 PWM periods and 4 time constants.
 double batch_seconds(const Bench& b, double speed) {
   const double least = std::max(40 * b.pwm_period_s, 4 / forgetting_rate(b));
   const double unit = speed != 0 ? 2 * sector_seconds(b, speed) : b.pwm_period_s;
@@ -178,17 +179,16 @@ double goal_Nm(const Bench& b) {
   return half_width_goal * std::fabs(b.duty) * b.motor.K_t_Nm_A * b.voltage_V / (2 * b.motor.machine.R_ohm);
 }
 
-/// Start of batch n, s: the start has decayed, and the PWM period is at a phase that the golden ratio spreads
-/// evenly for any number of batches.
+/// Begin of batch n, s: the initial deviation has decayed. The golden ratio spreads the phase of the PWM
+/// period evenly for any number of batches.
 double begin_of(const Bench& b, int n) {
   constexpr double golden = 0.6180339887498949;
   const double phase = n * golden - std::floor(n * golden);
   return (std::ceil(forgotten / forgetting_rate(b) / b.pwm_period_s) + phase) * b.pwm_period_s;
 }
 
-/// Angle in sectors at which the rotor must start, so that it is in the middle of a sector when the batch
-/// begins. All batches begin at the same angle and last whole sectors, so that they differ only in the PWM's
-/// phase.
+/// Angle in sectors at which the rotor must start to be in the middle of a sector when the batch begins. All
+/// batches begin at the same angle and last whole sectors; they differ only in the PWM's phase.
 double start_of(const Bench& b, double speed, double begin_s) {
   const double turned = speed != 0 ? begin_s / sector_seconds(b, speed) : 0.0;
   const double start = speed > 0 ? 0.5 - turned : 0.5 + turned;
@@ -197,7 +197,8 @@ double start_of(const Bench& b, double speed, double begin_s) {
 
 Gathered gather(const Bench& b, double speed) {
   Gathered out;
-  std::deque<OpenLoop> runs;  // a deque, because each run must keep its address: its rig refers to it
+  std::deque<OpenLoop> runs;  // a deque, because its elements keep their addresses: each rig refers to its
+                              // run
   for (int n = 0; n < batches && out.stop == sim::Stop::end; ++n) {
     const double begin_s = begin_of(b, n);
     const plant::Shaft shaft = speed != 0 ? imposed_speed() : held();
@@ -241,7 +242,7 @@ base::Result<OperatingPoint> chopped(const Bench& b, double speed) {
   return p;
 }
 
-/// The point at rest. At full duty the current of a held rotor is U over the loop's resistance.
+/// The point at rest. At full duty the current of a held rotor is U divided by the loop's resistance.
 OperatingPoint stall(const Bench& b) {
   const double R_s = b.motor.machine.R_ohm;
   const double i = b.duty * b.voltage_V / (2 * (R_s + b.devices.R_on_ohm));

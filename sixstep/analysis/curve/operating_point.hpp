@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes one point of the torque-speed curve: the steady state of motor and bridge at a constant speed.
 //
-// The effect of the start decays. Two runs at the same speed and gates differ by d with L d|d|^2/dt <= -2 R
-// |d|^2: the back-EMF cancels, and switches and diodes are resistors or valves, which only take energy from a
-// difference. So there is one steady state, and any run comes closer to it by at least the factor q =
-// exp(-R_s t/L_s) within t.
+// The effect of the initial state decays. Two runs at the same speed and gates differ by the currents d with
+// L d|d|^2/dt <= -2 R |d|^2: the back-EMF cancels, and switches and diodes are resistors or valves, which
+// only dissipate. Therefore there is one steady state. Within the time t, any run reduces its distance to
+// this state at least by the factor q = exp(-R_s t/L_s).
 // - Duty 1: the steady state repeats every sector, with phases exchanged. It is the fixed point of the map
-//   from one sector start to the next. Applying the map reduces the distance by q. After a step of size r, at
-//   most q/(1 - q) r remains (Banach), which is the point's error bound.
-// - Chopped: PWM and rotor are not synchronous, so that the currents never quite repeat. The point has mean
-//   values over batches that start at different phases, with a confidence interval from their scatter.
-// - Standstill: the limit of slow rotation. Without back-EMF the current does not depend on the angle, so
-//   that the mean over all angles has a closed form. LockedRotor has the values of a rotor held at one angle.
+//   from one sector start to the next. Each application of the map reduces the distance by q. After a step of
+//   size r, the distance is at most q/(1 - q) r (Banach), which is the point's error bound.
+// - Chopped: PWM and rotor are not synchronous; the currents never repeat exactly. The point's values are
+//   means over batches that start at different phases, with a confidence interval from their scatter.
+// - Standstill: the limit of slow rotation. Without back-EMF the current does not depend on the angle; the
+//   mean over all angles therefore has a closed form. LockedRotor contains the values of a rotor held at one
+//   angle.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -23,11 +24,11 @@ namespace sixstep::analysis {
 
 enum class Orbit : std::uint8_t { standstill, periodic, quasi_periodic };
 
-/// A rotor held at one angle: two phases carry all of the current, and the angle decides the torque.
+/// A rotor held at one angle: two phases carry all of the current, and the torque depends on the angle.
 struct LockedRotor {
   double phase_rms_A = 0.0;                                ///< rms current of each of the two phases
   double least_torque_Nm = 0.0, greatest_torque_Nm = 0.0;  ///< least and greatest magnitude over all angles
-  double ripple_Nm = 0.0;  ///< within a PWM period at the angle where the torque is least, peak to peak
+  double ripple_Nm = 0.0;  ///< within a PWM period, peak to peak, at the angle of least torque
 };
 
 /// Mean values over the steady state. Powers are positive for a motor: supplied = copper + devices + air gap,
@@ -43,10 +44,11 @@ struct OperatingPoint {
   double motor_current_A = 0.0;    ///< mean of |i_m|, i_m = (i_p - i_n)/2 of the positive pair (model.md 3)
   double phase_rms_A = 0.0, phase_peak_A = 0.0;
   double supplied_W = 0.0, copper_W = 0.0, devices_W = 0.0, friction_W = 0.0, shaft_W = 0.0;
-  /// As a motor, shaft power over supplied power; as a generator, supplied power over shaft power; empty
-  /// otherwise.
+  /// Motor: shaft power divided by supplied power. Generator: supplied power divided by shaft power.
+  /// Otherwise empty.
   std::optional<double> efficiency;
-  double energy_residual = 0.0;  ///< supplied - copper - devices - air gap - stored, over the largest energy
+  double energy_residual = 0.0;  ///< (supplied - copper - devices - air gap - stored)/largest of these
+                                 ///< energies
 
   std::optional<LockedRotor> locked;  ///< only at standstill
 
@@ -62,21 +64,22 @@ struct OperatingPoint {
   bool precise = true;
 };
 
-/// Batch means: `batches` runs differ in the phase of the PWM period at which the rotor passes one angle; the
-/// phases are spread evenly. After its start has decayed, each run is averaged from that angle on over the
-/// same whole number of sectors. The scatter of the averages gives Student's interval at this level for the
-/// mean over all phases.
+/// Batch means: `batches` runs differ in the phase of the PWM period at which the rotor passes one angle. The
+/// phases are spread evenly. After its initial deviation has decayed, each run is averaged from this angle on
+/// over the same whole number of sectors. The scatter of the averages gives Student's interval at this level
+/// for the mean over all phases.
 ///
-/// One long run would also reach all phases, but arbitrarily slowly if PWM and sectors are nearly
-/// synchronous, and batches within this run would not show this.
+/// A single long run would also reach all phases, but arbitrarily slowly if PWM and sectors are nearly
+/// synchronous. Batches within this run would not show the error.
 ///
-/// While the torque's half width is above half_width_goal K_t |d| U/R_tt, all runs are continued for the same
+/// While the torque's half width is above half_width_goal K_t |d| U/R_tt, all runs are continued by their
+/// present length, at most `doublings` times. If PWM and sectors are synchronous, the interval stays wide.
 /// time again, at most `doublings` times. If PWM and sectors are synchronous, the interval stays wide.
 inline constexpr double confidence_level = 0.99;
 inline constexpr int batches = 20, doublings = 8;
 inline constexpr double half_width_goal = 5e-5;
 
-/// Problems: those of check(bench), a speed that is not finite, or a run that could not continue (a defect).
+/// Problems of check(bench), a speed that is not finite, or a run that could not continue (a defect).
 base::Result<OperatingPoint> operating_point(const Bench& bench, double speed_rad_s);
 
 }  // namespace sixstep::analysis

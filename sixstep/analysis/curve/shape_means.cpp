@@ -6,8 +6,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Sector 0 drives a against b (model.md 3). A trapezoid's g is linear on each piece, so that the ends of a piece
-/// give all its means.
+/// Sector 0 drives a against b (model.md 3). A trapezoid's g is linear on each piece; the values at the ends
+/// of a piece therefore determine its means.
 ShapeMeans trapezoid(double flat_deg) {
   const plant::EmfSector<double> sector = plant::trapezoid_table<double>(flat_deg)[0];
   ShapeMeans out{.low = 2.0, .high = 0.0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the torque of a slowly turning rotor from the current of a held one, by means over the angle of the
-// driven pair's shape g = f_p - f_n.
+// Computes the torque of a slowly turning rotor from the current of a held rotor, by means over the angle of
+// the driven pair's shape g = f_p - f_n.
 #pragma once
 #include "sixstep/analysis/curve/operating_point.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"
@@ -14,11 +14,11 @@ struct ShapeMeans {
 };
 ShapeMeans shape_means(const plant::Machine& machine);
 
-/// Sets torque and ripple of all times and angles together: at standstill T = K_e g(theta) i_m(t) with theta
-/// and t independent.
+/// Sets torque and ripple over all instants and angles: at standstill T = K_e g(theta) i_m(t) with
+/// independent theta and t.
 void spread_over_angles(const design::MotorModel& motor, const Sums& sums, OperatingPoint& p);
 
-/// The torque of the same current with a held rotor; its ripple is that at the angle of least torque.
+/// The torque of the same current with a held rotor; its ripple is taken at the angle of least torque.
 LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums);
 
 }  // namespace sixstep::analysis

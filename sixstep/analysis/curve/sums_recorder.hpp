@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates currents, torque and energies over part of a run, exactly on the segments' polynomials, and
-// finds their extremes. The results serve as mean values, ripple and energy balance of an operating point.
+// finds their extremes. The mean values, ripple and energy balance of an operating point are computed from
+// the results.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,8 @@
 
 namespace sixstep::analysis {
 
-/// Integrals over time of the named quantities, in SI units; energies in J.
+/// Integrals of the named quantities over time, in SI units: `torque` is the integral of T_e in N m s.
+/// Energies are in J.
 struct Sums {
   double seconds = 0.0;
   double supplied = 0.0, copper = 0.0, devices = 0.0, air_gap = 0.0, magnetic = 0.0;
@@ -94,7 +96,8 @@ class SumsRecorder {
     return squares / (2 * plant.constants().inv_L);
   }
 
-  /// Widens [low, high] to the values of y over [0, s]. Most segments cannot widen it, and are not searched.
+  /// Widens [low, high] to the values of y over [0, s]. A bound first excludes the segments that cannot widen
+  /// it.
   static void widen(const study::Series& c, int degree, double s, double& low, double& high) {
     const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
     if (low <= c[0] - reach && c[0] + reach <= high) return;

@@ -26,11 +26,11 @@ double where(Below below, double p, double low, double high) {
   return 0.5 * (low + high);
 }
 
-/// Probability that a vector of the given true length, read with standard deviation 1 in each coordinate, is
-/// read as at most r long: Rice's distribution, as the integral over the coordinate along the vector.
+/// Probability that a vector of the given true length is measured as at most r long, with standard deviation
+/// 1 in each coordinate: Rice's distribution, as the integral over the coordinate along the vector.
 double length_below(double r, double length) {
   if (r <= 0.0) return 0.0;
-  constexpr int steps = 60;  // error 1e-9, because the sum converges as for a periodic function
+  constexpr int steps = 60;  // error 1e-9: the sum converges as for a periodic function
   const double from = std::max(-r, length - 9.0), to = std::min(r, length + 9.0);
   if (from >= to) return r < length ? 0.0 : 1.0;
   // With x = middle + half sin(a), the integrand is smooth in a, although it has a square root at the ends.
@@ -93,12 +93,13 @@ Interval length_95(double length, double deviation) {
   if (!(deviation > 0.0)) return {length, length, length};
   const double r = length / deviation;
   if (r > 30.0) return around(length, z_95 * deviation);
-  // The longer the true vector is, the less often its reading is as short as r.
+  // The longer the true vector is, the smaller is the probability of a measured length up to r.
   const auto longer = [&](double p) {
     if (length_below(r, 0.0) <= p) return 0.0;
     return where([&](double a) { return 1.0 - length_below(r, a); }, 1.0 - p, 0.0, r + 10.0);
   };
-  // A length that is by chance far below its noise says little about the true length.
+  // A length that is by chance far below its noise does not bound the true length; the upper bound is at
+  // least r + 1.
   return {length, longer(0.975) * deviation, std::max(longer(0.025), r + 1.0) * deviation};
 }
 

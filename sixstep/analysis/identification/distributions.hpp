@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normal, Student's and Rice's distribution for intervals, with the same bits on every platform.
+// Normal, Student's and Rice's distributions for intervals, with the same bits on every platform.
 #pragma once
 #include <span>
 
@@ -11,23 +11,22 @@ namespace sixstep::analysis {
 double normal_cdf(double x);
 
 /// Half width of Student's central 95 % interval, in standard deviations: 3.18 for 3 degrees of freedom, 1.96
-/// for many. Fewer than 3 count as 3. From the expansion of Abramowitz and Stegun 26.7.5; within 1 % at 3,
-/// 1e-4 from 6 on.
+/// for a large number. Fewer than 3 count as 3. By the expansion of Abramowitz and Stegun 26.7.5; the error
+/// is within 1 % at 3, and 1e-4 from 6 on.
 double student_95(double degrees_of_freedom);
 
-/// One of several normal distributions from which a number may be drawn.
+/// One of several normal distributions of a mixture.
 struct Component {
   double weight = 0.0, mean = 0.0, deviation = 0.0;
 };
 
-/// Mean of the mixture and its central 95 %. The weights sum to 1. A component with deviation 0 has one
-/// certain value.
+/// Mean of the mixture and its central 95 %. The weights sum to 1. A component with deviation 0 is a single
+/// value.
 Interval mixture_95(std::span<const Component> mixture);
 
-/// Interval of a plane vector's true length, from the length that was read with the given standard deviation
-/// in each coordinate. A vector of noise alone has a length too; its interval reaches down to 0. Each bound
-/// leaves 2.5 % (Rice's distribution inverted). The interval then contains a true length of 0 at least as
-/// often as it should.
+/// Interval of a plane vector's true length, from the measured length and the standard deviation of each
+/// coordinate. A vector of pure noise has a length too; its interval extends to 0. Each bound excludes 2.5 %
+/// (Rice's distribution inverted). The interval contains a true length of 0 in at least 95 % of cases.
 Interval length_95(double length, double deviation);
 
 /// Like length_95() above, but with Student's width, for a standard deviation that was estimated.

@@ -5,7 +5,7 @@
 namespace sixstep::analysis {
 
 /// A value, and bounds that contain the true value with a probability of 95 %. tests/analysis/identification/
-/// counts how often they do over a thousand drawn recordings.
+/// counts over a thousand simulated recordings how often the bounds contain it.
 struct Interval {
   double value = 0.0, low = 0.0, high = 0.0;
 

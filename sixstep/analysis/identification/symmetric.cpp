@@ -16,8 +16,8 @@ double Symmetric::square(std::span<const double> weights) const {
 }
 
 std::optional<Cholesky> Cholesky::of(const Symmetric& matrix) {
-  constexpr double least_pivot = 1e-13;  // relative to 1: below this, a direction is only rounding, and no
-                                         // row determines it
+  constexpr double least_pivot = 1e-13;  // relative to 1: a smaller pivot is only rounding, and no row
+                                         // determines its direction
   const std::size_t n = matrix.size();
   Cholesky out;
   out.lower_ = Symmetric(n);

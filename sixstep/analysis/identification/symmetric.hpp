@@ -8,8 +8,8 @@
 
 namespace sixstep::analysis {
 
-/// A symmetric matrix that holds all n x n values. The caller fills both halves, or the lower half and then
-/// calls mirror().
+/// A symmetric matrix that stores all n x n values. Fill both halves, or fill the lower half and call
+/// mirror().
 class Symmetric {
  public:
   explicit Symmetric(std::size_t size = 0) : size_(size), values_(size * size) {}
@@ -29,8 +29,8 @@ class Symmetric {
   std::vector<double> values_;
 };
 
-/// Factors M = L L'. Each unknown is scaled by its own diagonal, because unknowns may differ by many powers
-/// of ten.
+/// Factors M = L L'. Each unknown is scaled by its own diagonal element, because unknowns may differ by many
+/// powers of ten.
 class Cholesky {
  public:
   /// Empty if the matrix is not positive definite within rounding.

@@ -7,7 +7,7 @@
 
 namespace sixstep::analysis {
 
-/// A bound without which the figure's least value would be smaller.
+/// A bound that the optimum touches: without it, the figure's least value would be smaller.
 struct Limit {
   std::string what;    ///< a requirement's figure, or a key
   bool upper = false;  ///< true: its upper bound; false: its lower bound
@@ -19,12 +19,12 @@ struct Optimum {
   std::vector<double> values;      ///< the same values as numbers, in the keys' units
   /// The worst value of each figure over all drives.
   std::vector<double> figures;
-  bool holds = false;  ///< every drive meets every requirement
-  /// The search ended by itself. Otherwise its points were used up or it was stopped, and more points may find a
-  /// smaller figure.
+  bool holds = false;  ///< true: every drive meets every requirement
+  /// True if the search ended by itself. Otherwise it used all allowed points or was stopped; more points may
+  /// find a smaller figure.
   bool converged = false;
   std::vector<Limit> limits;
-  std::size_t evaluations = 0, at = 0;  ///< number of points that were tried, and index of the best one
+  std::size_t evaluations = 0, at = 0;  ///< number of points that were tried, and index of the best point
 };
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Permutes numbers without a table: the place of a number is computed from this number alone.
+// Permutes numbers without a table: the new position of a number is computed from this number only.
 #pragma once
 #include <bit>
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace sixstep::analysis {
 
-/// Place of `n` in the permutation of 0 .. count - 1 that seed and stream select: a Feistel network of six rounds
-/// over the least even number of bits that hold count, repeated until the result is below count (Luby and Rackoff
-/// 1988; Black and Rogaway 2002, "cycle walking").
+/// Position of `n` in the permutation of 0 .. count - 1 that seed and stream select: a Feistel network of six
+/// rounds over the least even number of bits for `count`, repeated until the result is below count (Luby and
+/// Rackoff 1988; Black and Rogaway 2002, "cycle walking").
 constexpr std::uint64_t permuted(std::uint64_t n, std::uint64_t count, std::uint64_t seed,
                                  std::uint64_t stream) {
   const auto half = static_cast<unsigned>(std::bit_width(count - 1) + 1) / 2;

@@ -24,8 +24,8 @@ double on_range(const Axis& axis, double u) {
   return axis.from + u * (axis.to - axis.from);
 }
 
-/// The place of point n on each axis: the digits of n, if each axis is a digit with as many values as the
-/// axis has steps; the last axis changes fastest.
+/// The position of point n on each axis. The positions are the digits of n, with the number of an axis's
+/// steps as the base of its digit; the last axis changes fastest.
 std::vector<double> on_grid(const Plan& plan, std::size_t n) {
   std::vector<double> at(plan.axes.size());
   for (std::size_t k = plan.axes.size(); k-- > 0;) {
@@ -38,8 +38,8 @@ std::vector<double> on_grid(const Plan& plan, std::size_t n) {
   return at;
 }
 
-/// Saltelli's points. Block n/(k + 2) has point A, then B, then A with one coordinate of B, for each
-/// coordinate. A and B are the halves of one point of Sobol's sequence.
+/// Saltelli's points. Block n/(k + 2) contains point A, then B, then for each coordinate A with this
+/// coordinate of B. A and B are the halves of one point of Sobol's sequence.
 double of_saltelli(const Plan& plan, std::size_t n, std::size_t axis) {
   const std::size_t k = plan.axes.size(), row = n / (k + 2), column = n % (k + 2);
   const bool of_b = column == 1 || column == axis + 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the runs of a plan: the varied keys of one scenario, their values, and the points that combine them.
-// Run n depends on the plan and n alone: it is the same in any order and on any machine.
+// Run n depends only on the plan and n: it is the same in any order and on any machine.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,12 +30,12 @@ struct Axis {
 };
 
 enum class Sampling : std::uint8_t {
-  grid,             ///< every value of each axis with every value of the others, the last axis fastest
+  grid,             ///< every value of each axis with every value of the other axes, the last axis fastest
   latin_hypercube,  ///< each axis has as many parts as there are points, and each part has one point
   sobol,            ///< a sequence that fills the space evenly at any length
   monte_carlo,      ///< random points
-  /// For Sobol indices: base points in blocks of k + 2 runs for k axes: A, B, and A with one column of B at a
-  /// time.
+  /// For Sobol indices: base points in blocks of k + 2 runs for k axes: A, B, and for each axis A with the
+  /// column of B.
   saltelli
 };
 
@@ -50,11 +50,11 @@ struct Plan {
   bool operator==(const Plan&) const = default;
 };
 
-/// Problems: no axes, the same key twice, a range whose end is not finite, a logarithmic range through 0, more
-/// than 10^9 runs. `where` is "vary[0].from", "points" and the like.
+/// Problems: no axes, the same key twice, a range whose end is not finite, a logarithmic range through 0,
+/// more than 10^9 runs. `where` is "vary[0].from", "points" and similar.
 base::Problems check(const Plan& plan);
 
-/// Number of points; each is run once per drive. Assumes that check() found nothing.
+/// Number of points; each point is run once per drive. The plan must have passed check().
 std::size_t points_of(const Plan& plan);
 std::size_t runs_of(const Plan& plan);
 
@@ -69,7 +69,7 @@ std::string_view bare(std::string_view value);
 /// The value of an axis at u, from 0 at its beginning to 1 at its end, as a file writes it.
 std::string on_axis(const Axis& axis, double u);
 
-/// Place of point n on each axis, 0 to 1; the listed values divide an axis into equal parts.
+/// Position of point n on each axis, 0 to 1; the listed values divide an axis into equal parts.
 std::vector<double> coordinates(const Plan& plan, std::size_t point);
 
 }  // namespace sixstep::analysis

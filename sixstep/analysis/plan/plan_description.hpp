@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the keys of a plan file: names, units, ranges and meanings. Defaults are those of the structs.
+// Defines the keys of a plan file: names, units, ranges and meanings. The structs define the defaults.
 #pragma once
 #include <optional>
 #include <string>

@@ -40,7 +40,7 @@ bool is_column_of(const FigureColumn& column, const study::ComparisonResult& c) 
   return !column.required && column.name == c.figure && column.unit == c.unit;
 }
 
-/// The figures in the columns' order; empty if the run has other figures.
+/// The figures in the columns' order; empty if the run's figures differ from the columns.
 std::optional<std::vector<double>> figures_of(const study::Outcome& outcome, const PlanColumns& columns) {
   std::vector<double> figures;
   figures.reserve(columns.figures.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of a plan's runs. It has a row per run, and a column per varied key, per value of [[spread]] and per
-// figure of merit. The columns are known before the first run.
+// Table of a plan's runs. It has a row per run, and columns for each varied key, each value of [[spread]] and
+// each figure of merit. The columns are known before the first run.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,13 +25,13 @@ struct FigureColumn {
   bool required = false;  ///< true: a requirement; false: only compared
   std::optional<double> min, max;
 
-  /// Whether the figure holds as in the verdict of a single run: it has a value within its bounds. A compared
-  /// figure always holds.
+  /// True if the figure meets its requirement, as in the verdict of a single run: it has a value within its
+  /// bounds. Always true for a compared figure.
   bool holds(double x) const { return !required || (x == x && (!min || x >= *min) && (!max || x <= *max)); }
   bool operator==(const FigureColumn&) const = default;
 };
 
-/// A column of an input: a key of the plan, or one that deviates by [[spread]].
+/// A column of an input: a key of the plan, or a key that deviates by [[spread]].
 struct InputColumn {
   std::string key, unit;
   bool operator==(const InputColumn&) const = default;
@@ -47,7 +47,7 @@ struct PlanColumns {
 /// Shared by a table and all of its rows.
 using TableColumns = std::shared_ptr<const PlanColumns>;
 
-/// The unit of a scenario's key; empty if it has none.
+/// The unit of a scenario's key; empty if the key has no unit.
 using UnitOfKey = std::function<std::string(const std::string& key)>;
 
 /// The columns of a plan's table. `scenario` has its [[spread]], before any value deviates.
@@ -56,7 +56,7 @@ TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const
 /// A value drawn by [[spread]], with its key.
 struct Strayed {
   std::string key;
-  double value = 0.0;  ///< in the key's unit; NaN if it could not be drawn
+  double value = 0.0;  ///< in the key's unit; NaN if no value could be drawn
 };
 
 /// The scenario of a planned run, and the values that [[spread]] has drawn for it.
@@ -65,7 +65,7 @@ struct PlannedRun {
   std::vector<Strayed> strayed;
 };
 
-/// Drive number `drive` of the series that the nominal scenario's [[spread]] describes.
+/// Drive number `drive` of the series that the nominal scenario's [[spread]] defines.
 PlannedRun planned_drive(const study::Scenario& nominal, std::uint64_t seed, std::size_t drive);
 
 enum class RunEnd : std::uint8_t { whole, fault, refused };
@@ -76,11 +76,11 @@ inline constexpr base::Choice<RunEnd> run_ends[] = {
     {"refused", RunEnd::refused, "could not start: no figures"},
 };
 
-/// The values of a row. RunRecord joins them with the columns, which say what each value means.
+/// The values of a row. RunRecord combines them with the columns, which define the meaning of each value.
 struct RunValues {
   std::size_t number = 0;
   std::vector<std::string> point;  ///< value of each key, as a file writes it
-  std::vector<double> strayed;     ///< in the keys' units; NaN if it could not be drawn
+  std::vector<double> strayed;     ///< in the keys' units; NaN if no value could be drawn
   RunEnd end = RunEnd::whole;
   std::string problem;                 ///< text of a fault or a refusal, in one line
   std::vector<std::string> remarks{};  ///< remarks of the outcome
@@ -91,14 +91,14 @@ struct RunValues {
 /// A row with its columns. of() checks that each column has exactly one value; a row does not change afterwards.
 class RunRecord {
  public:
-  /// A Problem if there are more or fewer values of a kind than columns.
+  /// A Problem if the number of values of a kind differs from its number of columns.
   static base::Result<RunRecord> of(TableColumns columns, RunValues values);
-  /// The row of a run without figures: it could not start, or ended with the program.
+  /// The row of a run without figures, which could not start or ended with the program.
   static RunRecord without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
                                    RunEnd end, std::string problem);
 
   const PlanColumns& columns() const { return *columns_; }
-  /// Whether this is a row of that table.
+  /// True if this is a row of the table with these columns.
   bool fits(const TableColumns& columns) const { return columns_ == columns || *columns_ == *columns; }
   const RunValues& operator*() const { return values_; }
   const RunValues* operator->() const { return &values_; }
@@ -110,12 +110,12 @@ class RunRecord {
   RunValues values_;
 };
 
-/// The row of a run. Its values are found by the names of deviating keys and figures. If these names are not
-/// those of the columns, the row becomes that of a run which could not start, with the reason.
+/// The row of a run. Its values are found by the names of deviating keys and figures. If these names differ
+/// from the columns, the row is a run that could not start, with the reason.
 RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector<std::string> point,
                     const base::Result<PlannedRun>& planned, const base::Result<study::Outcome>& result);
 
-/// Whether the run reached its end and meets every requirement.
+/// True if the run reached its end and meets every requirement.
 bool passed(const RunRecord& record);
 
 }  // namespace sixstep::analysis

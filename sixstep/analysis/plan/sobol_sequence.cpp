@@ -13,7 +13,7 @@ constexpr int bits = 32;
 using Directions = std::array<std::uint32_t, bits>;
 
 /// A primitive polynomial over the field of two elements, with its coefficients as bits, and the first
-/// direction numbers.
+/// direction numbers m_k.
 struct Primitive {
   std::uint32_t polynomial;
   std::uint32_t first[9];
@@ -87,7 +87,7 @@ constexpr Primitive primitives[] = {
 };
 static_assert(std::size(primitives) + 1 == sobol_dimensions);
 
-/// Direction numbers by Bratley and Fox: m_k = m_(k-s) xor, over the polynomial's coefficients, 2^i a_i
+/// Direction numbers by Bratley and Fox: m_k = m_(k-s) xor, over the polynomial's coefficients a_i, 2^i a_i
 /// m_(k-i).
 constexpr Directions directions_of(const Primitive& p) {
   const int degree = std::bit_width(p.polynomial) - 1;

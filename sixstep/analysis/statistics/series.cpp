@@ -10,7 +10,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Whether two remarks differ in their numbers alone: then they are the same remark of two runs.
+/// True if two remarks differ only in their numbers: they are then the same remark of two runs.
 bool differs_in_numbers_alone(const std::string& a, const std::string& b) {
   const auto words = [](std::string text) {
     std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; });

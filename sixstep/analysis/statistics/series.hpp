@@ -12,19 +12,19 @@
 
 namespace sixstep::analysis {
 
-/// Distance from the nearer bound in the figure's unit, negative beyond it. Minus infinity for a figure whose
-/// event never occurs or that has no value; infinity without a bound.
+/// Distance from the nearer bound in the figure's unit; negative beyond the bound. Minus infinity if the
+/// figure has no value or its event never occurs; infinity without a bound.
 double margin(const FigureColumn& column, double x);
 
 struct SpreadFigure {
   FigureColumn column;
-  std::size_t holds = 0;  ///< number of runs whose value meets the requirement, including runs that a fault
-                          ///< stopped
-  /// For a requirement: the run with the least margin(), the first if several have it. Runs that could not
-  /// start do not count.
+  std::size_t holds = 0;  ///< number of runs whose value meets the requirement, including runs stopped by a
+                          ///< fault
+  /// For a requirement: the run with the least margin(), the first if there are several. Runs that could not
+  /// start are skipped.
   std::optional<std::size_t> worst;
-  double least_margin = 0.0;  ///< margin of that run
-  bool missed = false;        ///< whether a run that could start does not meet the requirement
+  double least_margin = 0.0;  ///< margin of the worst run
+  bool missed = false;        ///< true: a run that could start does not meet the requirement
   Statistics statistics;
 };
 
@@ -34,11 +34,11 @@ struct Casualty {
   std::string problem;
 };
 
-/// A remark that some runs have, perhaps with other numbers in it.
+/// A remark of some runs, possibly with different numbers in its text.
 struct SeriesRemark {
-  std::string text;                  ///< text as its first run has it
-  std::vector<std::size_t> numbers;  ///< numbers of the runs that have it
-  bool differs = false;              ///< some of them have it with other numbers in its text
+  std::string text;                  ///< text in the first run
+  std::vector<std::size_t> numbers;  ///< numbers of the runs with this remark
+  bool differs = false;              ///< true: the numbers in the text differ between runs
 };
 
 struct Series {
@@ -53,7 +53,7 @@ struct Series {
 
 Series series_of(const PlanColumns& columns);
 
-/// Adds a row; rows come in the order of the runs' numbers. If a fault stopped a run, its figures count with
+/// Adds a row; rows must be in the order of the runs' numbers. If a fault stopped a run, its figures have
 /// their values at the stop.
 void add(Series& series, const RunRecord& record);
 

@@ -19,8 +19,7 @@ bool Statistics::all_finite() const {
 
 std::optional<double> Statistics::mean() const {
   if (values_.empty() || !all_finite()) return {};
-  // The mean is computed from differences to the first value, which keeps the digits of figures that hardly
-  // differ.
+  // Differences to the first value keep the digits of figures that hardly differ.
   double sum = 0.0;
   for (const double x : values_) sum += x - values_[0];
   return values_[0] + sum / static_cast<double>(values_.size());

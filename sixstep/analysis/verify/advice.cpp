@@ -20,8 +20,8 @@ using design::DesignSpec;
 using design::DriveDesign;
 using design::Warning;
 
-/// Largest number of control periods of all trials together: some seconds of computing to make a design
-/// usable, one second to improve it.
+/// Largest number of control periods of all trials together: some seconds of computing for an unusable
+/// design, one second for a usable one.
 constexpr double rescue_periods = 4e6, advice_periods = 8e5;
 bool is_grave(const std::vector<Warning>& warnings) {
   return std::any_of(warnings.begin(), warnings.end(), [](const Warning& w) { return w.grave; });
@@ -31,17 +31,17 @@ bool warns_of(const std::vector<Warning>& warnings, Concern of) {
   return std::any_of(warnings.begin(), warnings.end(), [of](const Warning& w) { return w.of == of; });
 }
 
-/// Whether only a run can show the concern.
+/// True if only a run can show the concern.
 bool of_a_run(Concern of) { return of >= Concern::settling; }
 
-/// Whether a changed design may remove a warning, judged in closed form without a run.
+/// True if a changed design may remove a warning, judged in closed form without a run.
 bool promises(const std::vector<Warning>& found, const DriveDesign& next) {
   return std::any_of(found.begin(), found.end(), [&](const Warning& w) {
     return w.cure.empty() && (of_a_run(w.of) || !warns_of(next.warnings, w.of));
   });
 }
 
-/// Number of runs of a study, as whole runs. A position's gain needs a search.
+/// Number of runs of a study, in runs of full length. A position's gain needs a search.
 double runs_of_study(const DesignOrder& order) {
   const double motors =
       order.tolerances.empty() ? 1.0 : static_cast<double>(variations(order.tolerances).size());
@@ -61,11 +61,11 @@ void add_cure(std::string& cure, const std::string& words) {
   cure += (cure.empty() ? "with " : ", or with ") + words + " this warning does not appear";
 }
 
-/// Finds changes for a usable design that remove one of its warnings and add none.
+/// Finds changes of a usable design that remove one of its warnings and add none.
 void advise_usable(const DesignOrder& order, DesignStudy& s) {
   TrialBudget budget{advice_periods};
   std::vector<DesignSpec> changes = single_changes(order, s.design);
-  // This change is inserted first, so that each warning is tried with its own longest period first.
+  // This change is inserted first: each warning's own longest period is then tried before other changes.
   if (const auto longer = longer_of_periods(order.spec, s.design)) changes.insert(changes.begin(), *longer);
   for (const DesignSpec& spec : changes) {
     const std::optional<DriveDesign> d = in_closed_form(order, spec);
@@ -86,14 +86,14 @@ bool holds(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget
   return study && study->usable();
 }
 
-/// Whether the bus is above the sheet's nominal voltage. A lower bus changes the drive, so that it is offered
-/// only if nothing else helps.
+/// True if the bus is above the sheet's nominal voltage. A lower bus changes the drive; it is advised only if
+/// no other change succeeds.
 bool above_nominal(const DesignSpec& spec, const DriveDesign& d) {
   return spec.voltage_V && d.motor.nominal_voltage_V > 0.0 && *spec.voltage_V > d.bus_V &&
          *spec.voltage_V > d.motor.nominal_voltage_V;
 }
 
-/// Changes that may make the design usable, the likeliest first.
+/// Changes that may make the design usable, in the order of their likelihood.
 std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = single_changes(order, d);
   for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
@@ -114,8 +114,8 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
 std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = rescues(order, d);
   if (order.subject.board) {
-    // The board's program requires its period. So slower loops at this period come first, and other periods
-    // last.
+    // The board's program requires its period. Slower loops at this period therefore come first, and other
+    // periods last.
     const auto keeps_period = [&](const DesignSpec& s) { return s.period_s == order.spec.period_s; };
     const auto slower_alone = [&](const DesignSpec& s) {
       return keeps_period(s) && s.mode == Mode::current && s.settle_s != order.spec.settle_s;
@@ -127,14 +127,14 @@ std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const Dr
   return all;
 }
 
-/// Result of a search for a change. Slower loops may take longer to simulate than the budget of an advice.
+/// Result of a search for a change. Slower loops may need more simulation time than the budget of an advice.
 struct Rescue {
-  std::string words;      ///< the first change that makes the design usable; empty if none does
+  std::string words;      ///< the first change that makes the design usable; empty if there is none
   bool too_long = false;  ///< a change, or its run over the tolerances, was too long to try
 };
 
-/// Tries each change first with the sheet's motor alone, because this is quick and most changes fail there. A
-/// position is then designed in full, as the user will do it.
+/// Tries each change first with the sheet's motor only, because this is quick and most changes fail at this
+/// step. A position is then designed with the full search, as in the user's own study.
 Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   const bool position = order.spec.mode == Mode::position;
   TrialBudget budget{rescue_periods}, whole_searches{4 * GainSearch{}.periods};
@@ -142,7 +142,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   alone.tolerances.clear();
   if (position) alone.gain = {.quick = true, .longest_periods = 6e5, .periods = 1.5e6};
   Rescue out;
-  std::string nominal;  // first change that holds for the sheet's motor
+  std::string nominal;  // first change that succeeds with the sheet's motor
   const auto rescued = [&](const DesignSpec& spec, const DriveDesign& next) {
     if (!position && !(periods_of(alone, next) <= budget.periods)) out.too_long = true;
     if (!holds(alone, spec, budget)) return false;
@@ -158,7 +158,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
     if (order.keep_going && !order.keep_going()) return out;
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
-    // Changes that would take most of the budget are tried after the short ones.
+    // Changes that would need most of the budget are tried after the short trials.
     if (periods_of(order, *next) > rescue_periods / 4 && !position) {
       dear.emplace_back(spec, *next);
       continue;
@@ -173,7 +173,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   return out;
 }
 
-/// A smaller step, for a setpoint that no loop can reach: a tenth below the reached value.
+/// A smaller step, for a setpoint that no loop can reach: 0.9 times the reached step.
 std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   const double first = s.scenario.reference.values.front(), held = s.outcome.verdicts.front().measured;
   DesignOrder next = order;
@@ -184,7 +184,7 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   return "usable with step = " + base::written(*next.subject.step);
 }
 
-/// Words for the changes that were all tried without success.
+/// Text for the case that all tried changes failed.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
   std::string text = "no tried change makes it usable: chopping, period, sensor, slower loops, less torque";
   if (too_long) text += "; changes that take longer to simulate were left out";
@@ -194,7 +194,7 @@ std::string nothing_tried(const DriveDesign& d, bool too_long) {
   return text;
 }
 
-/// Words for a cause on the board: without this board the same loops are usable.
+/// Text for a cause on the board: without this board the same loops are usable.
 std::string board_is_the_cause(const DesignOrder& order) {
   if (!order.subject.board) return {};
   const study::Scenario &board = *order.subject.board, usual;
@@ -242,7 +242,7 @@ void advise_unusable(const DesignOrder& order, DesignStudy& s) {
 
 }  // namespace
 
-/// Number of control periods of a study. For a position, the gain counts as at most braking_gain().
+/// Number of control periods of a study. For a position, the gain is limited to braking_gain().
 double periods_of(const DesignOrder& order, DriveDesign d) {
   if (d.spec.mode == Mode::position) {
     double& gain = d.loops.back().gains.d1;
@@ -275,7 +275,7 @@ void advise(const DesignOrder& order, base::Problems& problems) {
       std::find_if(d->warnings.begin(), d->warnings.end(), [](const Warning& w) { return w.grave; });
   if (const std::string words = rescue(order, *d).words; !words.empty())
     problems.front().cure = "take " + words;
-  else if (grave != d->warnings.end())  // the gain has no influence
+  else if (grave != d->warnings.end())  // a gain would not remove this problem
     problems.front().cure = "correct the design's first problem: " + grave->what;
 }
 

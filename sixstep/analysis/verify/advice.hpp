@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds changes that improve a design. It designs, runs and judges the design again with one or several
-// changes. It advises only changes that were tried and found better.
+// changes, and advises only changes that were better in such a run.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,9 +19,9 @@ std::optional<DesignStudy> tried(const DesignOrder& order, const design::DesignS
                                  TrialBudget& budget);
 
 /// Adds advice to the warnings of a study: changes that make an unusable design usable, or changes that
-/// remove a warning of a usable design without causing another one.
+/// remove a warning of a usable design without a new warning.
 void advise(const DesignOrder& order, DesignStudy& study);
-/// Adds advice to the problems of a position mode for which no gain was found.
+/// Adds advice to the problems of a design in position mode without a gain.
 void advise(const DesignOrder& order, base::Problems& problems);
 
 }  // namespace sixstep::analysis

@@ -13,7 +13,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Peak to peak swing of the speed at the end of the test without its load; empty if the run was ended early.
+/// Peak to peak swing of the speed at the end of the test without its load; empty if the run ended early.
 std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s) {
   study::Scenario idle = s.scenario;
   idle.load.torque_Nm = 0.0;
@@ -28,7 +28,7 @@ std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s)
   return swing ? std::optional(swing->measured) : std::nullopt;
 }
 
-/// The keys that make a pulse too short to be measured.
+/// The keys because of which a pulse is too short for a measurement.
 std::string hiding(const study::Scenario& s) {
   if (s.pwm.minimum_pulse_s >= study::least_shown_duty(s) * s.pwm.period_s) return "pwm.minimum_pulse_s";
   return std::string("sensors.shunt_settle_s") +

@@ -75,7 +75,7 @@ study::Sensors board_sensors(const design::DriveDesign& d, std::optional<double>
 
 namespace {
 
-/// Largest current in A that a drive requests; for a current loop including the overshoot of the given step.
+/// Largest current in A that a drive requests, for a current loop with the overshoot of the given step.
 double measured_current_A(const design::DriveDesign& d, std::optional<double> step) {
   if (d.spec.mode != control::Mode::current) return d.current_at_full_torque_A;
   const double usual = design::usual_overload * d.nominal_current_A;

@@ -14,8 +14,8 @@ bool bounds_anything(const study::Limits& l) {
   return l.current_A || l.torque_Nm || l.speed_rad_s || l.gain_A_s_per_rad;
 }
 
-/// Says why the run is slower than the designed run; empty if it is not slower. The step of a speed comes
-/// after the start, so that limits are the cause of a longer settling time.
+/// The reason why the run is slower than the designed run; empty if it is not slower. The step of a speed
+/// follows the start; limits are therefore the cause of a longer settling time.
 std::string slower(const study::Scenario& s, const study::Outcome& run, const study::Outcome& designed) {
   if (s.control.mode != control::Mode::speed) return {};
   const auto of = [](const study::Outcome& out, const char* figure) {
@@ -36,8 +36,8 @@ std::string in_words(double value, const std::string& unit) {
   return base::three_digits(milliseconds ? 1e3 * value : value) + (milliseconds ? " ms" : " " + unit);
 }
 
-/// The figures that differ from the design's by more than a twentieth: "settling time 41.8 ms instead of 50.1
-/// ms".
+/// The figures that differ from the design's figures by more than a twentieth: "settling time 41.8 ms instead
+/// of 50.1 ms".
 std::string others(const study::Outcome& run, const study::Outcome& designed) {
   std::string out;
   for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start",
@@ -64,8 +64,8 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   return slower(s, *run, designed);
 }
 
-/// The reason why the drive trips with a motor within the tolerances; empty: it never does. The protection is
-/// active with every motor.
+/// The reason why the drive trips with a motor within the tolerances; empty if it does not trip. The
+/// protection is active with every motor.
 std::string trips_within_tolerances(const DesignStudy& study, const study::Scenario& s) {
   const std::optional<double>& trip_A = s.protection.over_current_A;
   if (s.control.drive != study::FirmwareKind::product || !trip_A || !study.robustness) return {};
@@ -77,8 +77,8 @@ std::string trips_within_tolerances(const DesignStudy& study, const study::Scena
   return {};
 }
 
-/// Copies the current loop's settings except its gains and its limit. Returns false if there are none, or if
-/// the board's loop is no PI.
+/// Copies the current loop's settings except its gains and its limit. Returns false if there are no such
+/// settings, or if the board's loop is no PI.
 bool take_current_loop(const study::Control& board, study::Control& to) {
   study::CurrentLoop current = board.current;
   if (current.type != study::CurrentLoopType::pi) return false;

@@ -10,23 +10,23 @@ namespace sixstep::analysis {
 struct CarriedOver {
   study::Scenario scenario;
   std::string kept;     ///< names of the copied settings; empty: none
-  std::string lost;     ///< why nothing was copied, although the board has settings
-  std::string differs;  ///< figures that change if the run has these settings
+  std::string lost;     ///< reason why nothing was copied, although the board has settings
+  std::string differs;  ///< figures that change with these settings
 };
 
 /// Copies settings of the board into a study's scenario, and runs it: product drive, protection, limits,
-/// regeneration, full scale and settings of loops except gains. A drive that has lost its protection must not
+/// regeneration, full scale and settings of loops except gains. A drive without its protection must not
 /// become a header. Therefore the scenario stays as designed, with the reason in not_usable, in three cases:
 /// - the run does not pass;
-/// - it settles later by a quarter;
-/// - the board's drive is sensorless, unlike the design's.
+/// - the run's settling time is longer by a quarter;
+/// - the board's drive is sensorless, and the design's drive is not.
 CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const study::Scenario& board);
 
 /// Keys of the board's scenario that the design does not choose and that the written scenario does not have:
 /// "control.slew, heat.motor". Empty: there are none.
 std::string left_out(study::Scenario board, study::Scenario written);
 
-/// The board's reference and requirements that the design's own test replaces in the written scenario:
+/// The board's reference and requirements that the written scenario replaces by the design's own test:
 /// "reference (at most 300, now 105 rad/s), require (greatest current)". Empty: nothing.
 std::string replaced(const study::Scenario& board, const study::Scenario& written);
 

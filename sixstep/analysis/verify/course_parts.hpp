@@ -11,10 +11,10 @@
 
 namespace sixstep::analysis {
 
-/// A number with one digit, rounded down: 10.9 -> 10.
+/// A number rounded down to one digit: 10.9 -> 10.
 inline double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
 
-/// A time in whole microseconds, rounded up, so that the file stays short.
+/// A time in whole microseconds, rounded up, for a short text in the file.
 inline double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
 
 inline study::Measure window_measure(study::MetricKind metric, study::Signal signal, double from_s,
@@ -47,7 +47,7 @@ inline double allowed_speed_rad_s(const DesignSubject& subject) {
   return subject.board ? most_speed_rad_s(*subject.board).value_or(unbounded) : unbounded;
 }
 
-/// Words for the origin of a design's largest current.
+/// Text for the origin of a design's largest current.
 inline std::string at_most_current(const design::DriveDesign& d) {
   return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
 }

@@ -23,7 +23,7 @@ constexpr double shortest_period_s = 1e-6;
 
 double plain(double x, base::Towards towards) { return base::shortened(x, 2, towards); }
 
-/// Shorter periods: for a low ripple, for a usable ripple, and for 45 degrees of phase margin at one period
+/// Shorter periods: for a low ripple, for a usable ripple, and for a phase margin of 45 degrees at one period
 /// of delay.
 std::vector<double> shorter_periods(const DesignSpec& w, const DriveDesign& d) {
   if (w.rotor.shaft.kind == design::ShaftSensorKind::resolver)
@@ -45,7 +45,7 @@ void take_period(DesignSpec& w, double period_s) {
 
 bool has_speed_loop(const DesignSpec& w) { return w.mode != Mode::current; }
 
-/// An encoder on the order's board, or on a usual one.
+/// An encoder on the order's board, or on a usual board.
 design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   study::Scenario board = order.subject.board.value_or(study::Scenario{});
   board.pwm.period_s = period_s;
@@ -56,7 +56,7 @@ design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   return rotor;
 }
 
-/// Clock of the timer that captures the sensor's edges; null if the sensor has none.
+/// Clock of the timer that captures the sensor's edges; null if the sensor has no edges.
 double* capture_of(design::RotorSensing& rotor) {
   if (rotor.shaft.kind == design::ShaftSensorKind::encoder) return &rotor.shaft.capture_Hz;
   return rotor.hall ? &rotor.capture_Hz : nullptr;
@@ -83,7 +83,7 @@ void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
   w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
 }
 
-/// Adds a settling time that torque limit and inertia allow. A faster loop only runs into the limit.
+/// Adds a settling time that torque limit and inertia allow. A faster loop would only be at the limit.
 void add_what_torque_allows(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!has_speed_loop(w) || !d.spec.settle_s || !(d.settle_by_torque_s > *d.spec.settle_s)) return;
   DesignSpec next = w;
@@ -112,8 +112,8 @@ void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpe
     with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
 }
 
-/// Adds slower loops. A slower current loop alone would come too close to the speed loop, so that both are
-/// made slower.
+/// Adds slower loops. If only the current loop were slower, it would be too close to the speed loop: both are
+/// therefore slower.
 void add_slower_together(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   const auto& inner = d.loops.front().placed;
   if (!has_speed_loop(w) || !inner) return;
@@ -199,7 +199,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
   if (w.rotor.hall && w.mode == Mode::position && decodes_encoders(order.subject.board))
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
-  // A damping that the user chose applies to placed poles only, so that cancellation is not tried with it.
+  // A damping that the user chose applies to placed poles only; cancellation is then not tried.
   if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current &&
       w.damping == design::usual_damping)
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });

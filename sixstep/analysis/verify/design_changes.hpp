@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes changes of a specification that may improve a design; advice.hpp tries them.
+// Computes changes of a specification that may improve a design; advice.hpp tries them.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,14 +11,15 @@ namespace sixstep::analysis {
 /// Control period in s for a heavy rotor on a slow winding.
 inline constexpr double unhurried_period_s = 1e-4;
 /// The specification with unhurried_period_s and a current loop that settles in forty such periods; with a
-/// faster winding in fewer, but at least ten. A current loop that the user chose stays.
+/// faster winding in fewer, but at least ten. A settling time that the user chose does not change.
 design::DesignSpec unhurried(design::DesignSpec spec, const design::MotorModel& motor);
 
-/// Largest usable ripple as a fraction of the nominal current: with more, a drive's current is mainly ripple.
+/// Largest usable ripple as a fraction of the nominal current. Above it, a drive's current consists mainly of
+/// ripple.
 inline constexpr double usable_ripple = 0.5;
 
-/// The longer of two periods: the longest one with a low ripple, and the longest one with 45 degrees of phase
-/// margin. Empty unless both are shorter than the specified one.
+/// The longer of two periods: the longest period with a low ripple, and the longest period with 45 degrees of
+/// phase margin. Empty unless both are shorter than the specified period.
 std::optional<design::DesignSpec> longer_of_periods(const design::DesignSpec& spec,
                                                     const design::DriveDesign& design);
 
@@ -30,13 +31,13 @@ std::vector<design::DesignSpec> single_changes(const DesignOrder& order, const d
 /// slower by steps.
 std::vector<design::DesignSpec> joint_changes(const DesignOrder& order, const design::DriveDesign& design);
 
-/// A change in words: "period_s = 1.1e-05 and chopping = complementary".
+/// A change as text: "period_s = 1.1e-05 and chopping = complementary".
 std::string words_of_change(const design::DesignSpec& before, const design::DesignSpec& after);
 
 /// The order's specification with an encoder, complementary chopping and this control period.
 design::DesignSpec on_encoder(const DesignOrder& order, double period_s);
 /// Changes for a drive with Hall probes: on_encoder() with the drive's own period, and with each shorter
-/// period that the ripple requires, the longest first.
+/// period that the ripple requires, in falling order.
 std::vector<design::DesignSpec> on_encoders(const DesignOrder& order, const design::DriveDesign& design);
 
 }  // namespace sixstep::analysis

@@ -25,8 +25,8 @@ using design::LoopDesign;
 /// Fraction of the bus voltage that a first command may use; the rest prevents clamping.
 constexpr double part_of_bus = 0.8;
 
-/// Placed poles are written as settling time and damping. From these the run computes the same gains, to the
-/// last bit.
+/// The file contains placed poles as settling time and damping. From these the run computes the same gains,
+/// to the last bit.
 template <class Gains>
 void set_gains(const LoopDesign& loop, Gains& to) {
   if (loop.placed) {
@@ -49,14 +49,14 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.pwm = subject.board->pwm;
     s.sensors = with_rotor(subject.board->sensors, rotor_key(d.spec.rotor), d.spec.period_s);
     s.sensors.speed_edges = d.spec.rotor.edges;
-    // The design runs the lean drive. Settings that only other drives use are not copied (carried_over.hpp).
+    // The design uses the lean drive. Settings that only other drives use are not copied (carried_over.hpp).
     s.sensors.hall_stable_samples = study::Sensors{}.hall_stable_samples;
     s.sensors.terminal_gain_error.clear();
     s.sensors.comparators = {};
     s.sensors.hall_break = {};  // a fault that belongs to the board's own scenario
     s.control.current.limit_A = d.spec.current_limit_A;
     s.control.position.speed_limit_rad_s = subject.board->control.position.speed_limit_rad_s;
-    s.sensors.encoder.referenced = true;  // a move begins where the position is known
+    s.sensors.encoder.referenced = true;  // a move begins at a known position
     s.load.gear = subject.board->load.gear;
   } else {
     s.bridge.dead_time_s = subject.dead_time_s;
@@ -86,8 +86,8 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   return s;
 }
 
-/// Ripple in A at a mean current and a mean voltage across the pair. While the chopped switch is off, its
-/// leg's diode carries the current; with complementary chopping it is the other switch. The dead time is
+/// Ripple in A at a mean current and a mean voltage across the pair. While the chopped switch is off, the
+/// leg's diode carries the current; with complementary chopping, the leg's other switch. The dead time is
 /// neglected.
 double expected_ripple_A(const DriveDesign& d, const study::Bridge& b, double current_A, double mean_V) {
   const double on = b.saturation_V + b.on_resistance_ohm * current_A,
@@ -132,15 +132,15 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
   const double band = 0.02 * std::fabs(step);  // band of the settling time
   study::Measure mean = window_measure(study::MetricKind::mean, study::Signal::current, last, end,
                                        "mean of the last ten samples");
-  mean.sampled = true;  // the controller samples the lowest point of the ripple and controls that
+  mean.sampled = true;  // the controller samples and controls the lowest point of the ripple
   s.require = {{mean, step - band, step + band}};
 }
 
 /// The test of a speed loop: a start from rest, then a small step.
 struct SpeedTest {
   double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
-  double begin = 0.0, end = 0.0, calm = 0.0;     // in s: time of the step, end of the run, and beginning of
-                                                 // the window in which the speed must have settled
+  double begin = 0.0, end = 0.0, calm = 0.0;     // in s: time of the step, end of the run, begin of the
+                                                 // window in which the speed must have settled
 };
 
 SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
@@ -152,8 +152,9 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const bool lags = d.lag.delay_s() > 0;
   if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
   t.first = std::min(t.first, allowed_speed_rad_s(subject));
-  // At a step, the speed controller first requests d1 (speed) times the current at full torque. Per ampere of
-  // this, the current loop needs d1 (current) volts at once, and R once the current flows.
+  // At a step, the speed controller first requests d1 (speed) times the current at full torque. For each
+  // ampere of this request, the current loop needs d1 (current) volts at once, and R volts when the current
+  // flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
       lags ? d.lowest_speed_rad_s - t.first
@@ -161,11 +162,12 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
                                                          std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
-  // Limits may delay a step that the user chose, and any step of a loop that is faster than the torque
-  // allows.
+  // Limits may delay a step that the user chose. They also delay any step of a loop that is faster than the
+  // torque allows.
   const double travel = travel_time(d, t.first, t.first + t.step, K * t.load_A);
   const double held_up = subject.step || travel > settle ? 2 * travel : 0.0;
-  // The end is judged over at least an electrical turn, because a shorter window may contain no commutation.
+  // The window at the end lasts at least an electrical turn, because a shorter window may contain no
+  // commutation.
   const double slow = std::fabs(t.first + t.step) * d.motor.machine.pole_pairs;
   const double window = slow > 0.0 ? std::max(settle, 2 * base::pi / slow) : settle;
   t.end = plain_time(t.begin + 4 * settle + held_up + window);
@@ -173,7 +175,7 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   return t;
 }
 
-/// Whether the speed loop requests more than its torque limit at the step. It requests d1 times the step
+/// True if the speed loop requests more than its torque limit at the step. It requests d1 times the step
 /// immediately, in addition to the load's torque.
 bool step_is_limited(const DriveDesign& d, const SpeedTest& t) {
   const double load = d.motor.K_t_Nm_A * t.load_A / d.torque_limit_Nm;
@@ -242,7 +244,7 @@ bool samples_in_middle(const DesignSubject& subject) {
 
 void expect_step(const DriveDesign& design, study::Scenario& s) {
   const design::StepResponse& step = design.loop("current").step;
-  // The setpoint steps at a period's start. The first sample that sees it is in the middle of that period.
+  // The setpoint steps at a period's start. The first sample after the step is in the middle of this period.
   const double first_s = design.spec.sampled_in_middle ? design.spec.period_s / 2 : 0.0;
   for (study::Comparison& c : s.compare) {
     if (c.measure.metric == study::MetricKind::settling_time) {
@@ -267,7 +269,7 @@ study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& 
   // Record some 2000 rows, at the instants of samples.
   const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
   if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
-  // The design predicts no value for an unstable loop, so that its comparisons are removed.
+  // For an unstable loop the design predicts no values; its comparisons are removed.
   std::erase_if(s.compare, [](const study::Comparison& c) { return !std::isfinite(c.value); });
   say_in_metres(s);
   return s;

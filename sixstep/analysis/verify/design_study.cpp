@@ -33,7 +33,7 @@ base::Problems too_long(const study::Scenario& s) {
            "give more torque_limit_Nm, a higher lowest_speed_rad_s or a longer period_s"}};
 }
 
-/// Finds a position's gain, and puts it into the design.
+/// Finds a position's gain, and writes it into the design.
 base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   if (!(s.design.loop("position").gains.d1 > 0.0))
     return {{"mode", "position", "finds no gain without overshoot: the inner speed loop is unstable",
@@ -51,8 +51,8 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   return {};
 }
 
-/// Swing of the speed that the commutations alone cause: from a second run with ideal sensors, if the first
-/// had others.
+/// Swing of the speed by the commutations only: from a second run with ideal sensors, unless the first run
+/// had ideal sensors.
 std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
   if (!swing) return std::nullopt;
@@ -65,7 +65,8 @@ std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool
   return found ? std::optional(found->measured) : std::nullopt;
 }
 
-/// Derivation of the sensorless drive in the board's own scenario; empty if the board has none.
+/// Derivation of the sensorless drive in the board's own scenario; empty if the board's drive is not
+/// sensorless.
 base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignSubject& subject) {
   if (!subject.board || subject.board->control.drive != study::FirmwareKind::sensorless)
     return std::vector<design::DerivationStep>();
@@ -78,9 +79,9 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
   return compiled->sensorless_steps;
 }
 
-/// Warns of edge-aligned pulses with samples in the middle of a period. The linear loop holds its voltage
-/// over a period, and a sample in the middle measures the effect of one half. A pulse that begins with the
-/// period is measured whole, or without its end.
+/// Warns of edge-aligned pulses with samples in the middle of a period. In the linear loop the voltage is
+/// constant over a period, and a sample in the middle measures the effect of its first half. A pulse that
+/// begins with the period, however, is measured as a whole, or without its end.
 void look_at_pulses(DesignStudy& s) {
   if (!s.design.spec.sampled_in_middle || s.scenario.pwm.alignment != study::Alignment::edge) return;
   const double sooner = s.design.spec.late_periods() - 0.5;
@@ -94,7 +95,8 @@ void look_at_pulses(DesignStudy& s) {
        .of = design::Concern::delay});
 }
 
-/// The study in the words of a rotary motor; only the outcome's numbers are in the units of the motor's kind.
+/// The study with the terms of a rotary motor; only the outcome's numbers are in the units of the motor's
+/// kind.
 base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
@@ -146,8 +148,8 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   return s;
 }
 
-/// Swing in rad/s that the places of Hall edges alone may cause at this speed, if the loop follows the
-/// measured speed: neighbouring edges are 3 deg off in opposite directions.
+/// Swing in rad/s that displaced Hall edges may cause at this speed, if the loop follows the measured speed:
+/// neighbouring edges are displaced by 3 deg in opposite directions.
 double swing_by_edges_rad_s(const design::DriveDesign& d, double speed_rad_s) {
   if (!d.spec.rotor.hall) return 0.0;
   design::RotorSensing placed = d.spec.rotor;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Studies a design from sheet and spec: computes its gains in closed form, runs them with all switching, and tests
-// them over the sheet's tolerances.
+// Studies a design from sheet and spec: computes its gains in closed form, simulates the drive with all
+// switching, and tests it over the sheet's tolerances.
 #pragma once
 #include <functional>
 #include <optional>
@@ -20,18 +20,18 @@ struct DesignStudy {
   std::optional<PositionGain> position;  ///< position mode: search for the gain
   study::Scenario scenario;              ///< scenario with which the design was run
   study::Outcome outcome;
-  study::Trace trace;  ///< trace of that run, with the columns of its [record]
+  study::Trace trace;  ///< trace of the run, with the columns of its [record]
   std::optional<Robustness> robustness;
   std::optional<double> ideal_swing_rad_s;    ///< peak to peak swing of the speed in steady state, with ideal
                                               ///< sensors
   std::optional<double> allowed_swing_rad_s;  ///< a larger swing is an oscillation of the speed loop
                                               ///< (board.hpp)
-  /// Derivation of start, range and delay of a board with a sensorless drive. The study runs the loops with
-  /// Hall edges in place of crossings.
+  /// Derivation of start, range and delay of a board with a sensorless drive. In the study's run, Hall edges
+  /// replace the crossings.
   std::vector<design::DerivationStep> sensorless;
   std::vector<design::Warning> warnings;  ///< warnings of the design and of its runs
 
-  bool usable() const;  ///< no warning is grave
+  bool usable() const;  ///< true: no warning is grave
 };
 
 struct DesignOrder {
@@ -41,19 +41,18 @@ struct DesignOrder {
   ForEach for_each = one_after_the_other;
   std::function<bool()> keep_going{};  ///< false ends the study early; the result is then meaningless
   GainSearch gain{};                   ///< position: search for its gain
-  TrialBudget* budget = nullptr;       ///< each run's periods are subtracted from it; a search ends when none
-                                       ///< are left
-  bool advises = true;                 ///< whether changes are tried against each warning (advice.hpp)
+  TrialBudget* budget = nullptr;       ///< the periods of each run are subtracted from it; at 0 a search ends
+  bool advises = true;                 ///< true: changes are tried against each warning (advice.hpp)
 };
 
-/// Adds to a speed design's scenario the requirement that the speed's swing stays within its limit. The means
-/// that are required otherwise do not show a swing. A position's scenario already has the requirement.
+/// Adds to a speed design's scenario the requirement that the speed's swing stays within its limit. The other
+/// required means do not show a swing. A position's scenario already has the requirement.
 void require_swing(const DesignStudy& study, study::Scenario& scenario);
 
 /// The first grave warning; empty if the design is usable.
 std::string found_against(const DesignStudy& study);
 
-/// Problems are those of sheet, spec and scenario.
+/// Returns the Problems of sheet, spec and scenario.
 base::Result<DesignStudy> study_design(const DesignOrder& order);
 
 }  // namespace sixstep::analysis

@@ -11,13 +11,13 @@ namespace {
 
 using control::Mode;
 
-/// Rounds a number in the unit in which it is shown: for a linear motor, mm in place of degrees.
+/// Rounds a number in the unit in which it is shown: for a linear motor, mm instead of degrees.
 double shortened(double x, double factor, int digits, base::Towards towards) {
   return base::shortened(x * factor, digits, towards) / factor;
 }
 
-/// Rounds all times up, so that their order is kept and adjacent windows remain adjacent. Default bounds of a
-/// window are omitted.
+/// Rounds all times up: their order is kept, and adjacent windows remain adjacent. Default bounds of a window
+/// are omitted.
 void shorten_times(study::Measure& m, double duration_s) {
   for (std::optional<double>* time : {&m.from_s, &m.to_s})
     if (*time) *time = base::shortened(**time, 3, base::Towards::up);

@@ -25,11 +25,10 @@ using design::LoopDesign;
 
 double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 
-/// Speed in rad/s at which the magnet's back-EMF alone equals the radius of the voltage circle.
+/// Speed in rad/s at which the magnet's back-EMF equals the radius of the voltage circle.
 double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
 
-/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 if R i alone exceeds the circle's
-/// radius.
+/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 if R i exceeds the circle's radius.
 double speed_for_current_rad_s(const FieldStudy& f, double i_q_A) {
   const double e = f.machine.magnet_V_s, x = f.machine.pole_pairs * f.machine.L_q_H * i_q_A,
                r = f.machine.R_ohm * i_q_A;
@@ -61,7 +60,7 @@ std::vector<DerivationStep> steps_of(const study::Compiled& c, std::size_t axis)
   return {from, from + each};
 }
 
-/// Derivation of an outer loop's gains: of placed gains; the gain of a position loop is given.
+/// Derivation of an outer loop's gains, if they are placed. The gain of a position loop is given.
 std::vector<DerivationStep> outer_steps(const study::LoopGains& g) {
   if (g.loop == "position")
     return {{"K_p", "as given", g.d1, "rad/s/deg"},
@@ -70,7 +69,7 @@ std::vector<DerivationStep> outer_steps(const study::LoopGains& g) {
   return placed ? g.derivation->steps : std::vector<DerivationStep>();
 }
 
-/// The open loop of that name, with the inner loops closed.
+/// The open loop with this name; its inner loops are closed.
 design::Transfer open_loop(const std::string& name, const design::DriveLoops& loops) {
   if (name == "speed") return open_speed_loop(loops);
   if (name == "position") return open_position_loop(loops);
@@ -101,8 +100,8 @@ void add_loops(const study::Compiled& c, const design::DriveLoops& loops, FieldS
   }
 }
 
-/// Adds the delay of the speed measurement at the lowest requested speed, or else at a tenth of the largest
-/// speed on this bus.
+/// Adds the delay of the speed measurement at the lowest requested speed, or by default at a tenth of the
+/// largest speed on this bus.
 void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
   design::DriveDesign& d = f.design;
   d.lowest_speed_rad_s =
@@ -207,7 +206,7 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
                           "give control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
-/// Adds the lag of the estimated speed, which for a tracking loop with damping 1 is w_n^2/(s + w_n)^2.
+/// Adds the lag of the estimated speed: w_n^2/(s + w_n)^2 for a tracking loop with damping 1.
 void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f) {
   if (!c.estimator.on) return;
   f.axes.insert(f.axes.end(), c.estimator_steps.begin(), c.estimator_steps.end());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the figures of a scenario's field-oriented drive without a run: gains with their origin, loops
-// with their margins, and the limits of bus and currents. All follow in closed form from the gains that the
-// run itself uses.
+// with their margins, and the limits of bus and currents. All figures follow in closed form from the gains of
+// the run.
 #pragma once
 #include <vector>
 
@@ -14,19 +14,18 @@ namespace sixstep::analysis {
 struct FieldStudy {
   study::Scenario scenario;
   design::FieldMachine machine;
-  /// The loops from the inside out, "current d" and "current q" if the rotor is salient, else "current". Also
-  /// bus, torque limit with its current, and the speed's sensor. Members that only a driven pair has stay
-  /// empty.
+  /// The loops from the inside out: "current d" and "current q" if the rotor is salient, else "current". Also
+  /// bus, torque limit with its current, and the speed's sensor. Members for a driven pair stay empty.
   design::DriveDesign design;
   std::vector<design::DerivationStep> axes;  ///< derivation of torque, decoupling, angle and field weakening
-  std::vector<design::DerivationStep> limits;  ///< derivation of the speeds and the torque that the bus's
-                                               ///< voltage circle allows
+  std::vector<design::DerivationStep> limits;  ///< derivation of the speeds and the torque within the bus's
+                                               ///< voltage circle
   std::vector<design::Warning> warnings;
 
-  bool usable() const;  ///< no warning is grave
+  bool usable() const;  ///< true: no warning is grave
 };
 
-/// Problems: those of the scenario; a drive that is not field-oriented, or that has no linear loop.
+/// Problems: errors of the scenario; a drive that is not field-oriented, or that has no linear loop.
 base::Result<FieldStudy> study_field(const study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

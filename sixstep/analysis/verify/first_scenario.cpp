@@ -24,13 +24,13 @@ namespace {
 using control::Mode;
 
 /// Tolerance of the straight line that predicts the speed. The line neglects commutation time and PWM ripple,
-/// some per cent. With another duty the requirement fails.
+/// some per cent. With a different duty the requirement would not be met.
 constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
 
 /// Largest number of control periods of a trial, and of all trials together: half a second, and one and a
-/// half, of one core. If no trial succeeded, a last round of five seconds follows.
+/// half seconds, of one core. If no trial succeeded, a last round of five seconds follows.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6, last_trial_periods = 4e6;
 
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
@@ -49,13 +49,14 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  // The commutation acts like that of a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere,
-  // here at the reached speed. For a motor with many pole pairs this exceeds R.
+  // The commutation acts like a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere, here at
+  // the final speed. For a motor with many pole pairs this exceeds R.
   const auto line = [&](double duty, double ohm) {
     return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
   };
-  // During the dead time the current continues to flow through a diode. The duty loses the dead time's
-  // fraction if the current keeps its sign. It loses nothing if the current changes its sign in every period.
+  // During the dead time the current continues through a diode. If the current keeps its sign, the duty is
+  // reduced by the dead time's fraction of the period. If the current changes its sign in every period, the
+  // duty is not reduced.
   const double speed = line(d, R),
                commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
   const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
@@ -77,7 +78,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
                          "check the inertia and the torque constant of its sheet"};
-  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the run-up is left when the window begins
+  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // when the window begins, exp(-9) of the run-up remains
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
       measure(study::MetricKind::mean, study::Signal::speed, calm, "speed at the end");
@@ -100,11 +101,11 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
   return order;
 }
 
-/// Largest mechanical angle between Hall edges for a position drive. With larger steps the rotor comes to
-/// rest tens of degrees from its setpoint.
+/// Largest mechanical angle between Hall edges for a position drive. With larger steps the rotor stops tens
+/// of degrees from its setpoint.
 constexpr double coarsest_step_deg = 20.0;
 
-/// Specifications to try, in turn: the usual design, then changes for a motor that it does not suit.
+/// Specifications to try, in this order: the usual design, then changes for motors that it does not suit.
 std::vector<design::DesignSpec> candidates(const DesignOrder& order, const design::DriveDesign& usual) {
   std::vector<design::DesignSpec> all;
   if (usual.ripple.worst_A < usable_ripple * usual.nominal_current_A) all.push_back(order.spec);
@@ -125,8 +126,8 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Reduces the number of periods of a trial to `longest`. It uses a higher lowest speed, whose loop is
-/// faster, fewer motors within the tolerances, a shorter move, or a longer period. The design in closed form
+/// Reduces the number of periods of a trial to `longest`. The means are a higher lowest speed, whose loop is
+/// faster; fewer motors within the tolerances; a shorter move; or a longer period. The design in closed form
 /// takes a tenth of a second for each specification.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
   base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
@@ -162,7 +163,7 @@ bool runs_and_passes(const study::Scenario& s) {
   return outcome && outcome->passed() && !outcome->fault;
 }
 
-/// Words for an alternative if this mode has no usable design: a bus that drives the nominal current, or else
+/// Text of an alternative if this mode has no usable design: a bus that drives the nominal current, or else
 /// the motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
@@ -182,7 +183,7 @@ std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& mot
 }
 
 /// Predicts the step for the same gains with samples in the middle of a period, by the linear loop with half
-/// a period more delay. Returns false if that loop is not usable.
+/// a period more delay. Returns false if this loop is not usable.
 bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
   spec.sampled_in_middle = true;
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
@@ -194,8 +195,8 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
                       [](const design::Warning& w) { return w.grave; });
 }
 
-/// Largest mean of the whole signal above samples at the ripple's lowest point: half of the ripple at the duty of the
-/// held rotor, or if the run needs it at the worst duty.
+/// Sets the largest mean of the whole signal above samples at the ripple's lowest point: half of the ripple
+/// at the duty of the held rotor or, if the run needs it, at the worst duty.
 void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   s.notes =
       "The current is sampled at the start of each period, where its ripple is lowest: with samples in the middle of "
@@ -216,10 +217,10 @@ void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
 }
 
 /// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so
-/// is the mean that it controls. Samples in the middle of a centred pulse have the mean; but an answer then
-/// comes half a period later, so that this is kept only if it passes. A pulse that begins a dead time late
-/// has its middle half of that later: the sample is below the mean by the current's rise in that time, which
-/// for a winding of little inductance exceeds the requirement's band.
+/// is the mean that it controls. Samples in the middle of a centred pulse equal the mean, but the output then
+/// acts half a period later; this sampling is therefore kept only if the run passes. If a pulse begins a dead
+/// time late, its middle is half a dead time late. The sample is then below the mean by the current's rise in
+/// this time; for a winding of small inductance the difference exceeds the requirement's band.
 void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   study::Scenario middle = s;
   const bool stands = foretell_in_middle(study.design.spec, middle);
@@ -254,7 +255,7 @@ study::Scenario own_scenario(const FirstScenarioSpec& spec, const DesignStudy& s
 }
 
 /// A design that is usable with a board's sensors and over the sheet's tolerances, as far as a short trial
-/// shows.
+/// can show.
 base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
   const DesignOrder order = order_of(spec);
   const base::Result<design::DriveDesign> usual = design::design_drive(motor, order.spec);
@@ -262,7 +263,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
   std::string why;
   for (const design::Warning& w : usual->warnings)
     if (w.grave) why = w.what;
-  // The longest trial is for slow motors, for which no shorter trial succeeded.
+  // The longest trial is for slow motors for which no shorter trial succeeded.
   for (const double longest : {trial_periods, all_trials_periods, last_trial_periods}) {
     TrialBudget budget{std::max(longest, all_trials_periods)};
     for (const design::DesignSpec& candidate : candidates(order, *usual)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a first scenario for a motor: one that runs and passes.
+// Creates a first scenario for a motor. The scenario runs and passes.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,12 +19,12 @@ struct FirstScenarioSpec {
   ForEach for_each = one_after_the_other;     ///< runs the motors within the tolerances
 };
 
-/// Makes the scenario. Problems: those of the sheet; no design that is usable.
+/// Creates the scenario. Problems: errors of the sheet; no design is usable.
 /// - Current, speed, position: the design's own test (design_scenario.hpp) with a board's sensors. The
-///   settling time is that of the design if it is usable over the sheet's tolerances, else the shortest
-///   usable one of 2, 5, 10 .. times this time.
-/// - Duty: a run-up from rest at half the voltage. Chopping is complementary, so that the current is
-///   continuous and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
+///   settling time is the design's settling time if it is usable over the sheet's tolerances, else the
+///   shortest usable one of 2, 5, 10 .. times this time.
+/// - Duty: a run-up from rest at half the voltage. Chopping is complementary: the current is then continuous,
+///   and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
 base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec);
 
 }  // namespace sixstep::analysis

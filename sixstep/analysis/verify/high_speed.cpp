@@ -12,7 +12,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// The mean of the speed at the end of a run, rad/s; empty if the run was ended early.
+/// The mean of the speed at the end of a run, rad/s; empty if the run ended early.
 std::optional<double> held_speed(const study::Scenario& s, const std::function<bool()>& keep_going) {
   const base::Result<study::Outcome> outcome = study::run(
       s, {.on_record = {}, .on_event = {}, .keep_going = study::listening(keep_going), .keep_books = false});

@@ -29,8 +29,8 @@ std::string as_text(const std::optional<T>& x) {
   return x ? as_text(*x) : "";
 }
 
-/// The value of each key as text. Lists of tables, which hold a scenario's events and requirements, and the
-/// sheet, which belongs to the motor, are left out.
+/// The value of each key as text, except lists of tables, which contain a scenario's events and requirements,
+/// and the sheet, which belongs to the motor.
 class KeyTexts final : public base::Visitor {
  public:
   std::map<std::string, std::string> of;
@@ -52,8 +52,8 @@ class KeyTexts final : public base::Visitor {
   std::string path_;
 };
 
-/// Whether a key is part of the design: a run's name, length, reference and record, the gains, and the
-/// choices of the spec.
+/// True if a key is part of the design: a run's name, length, reference and record, the gains, and the
+/// settings of the spec.
 bool is_the_designs(std::string_view key) {
   constexpr std::string_view tables[] = {"reference.", "record.", "initial.", "sensors.hall_break."};
   constexpr std::string_view keys[] = {"title",

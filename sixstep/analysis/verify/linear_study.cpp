@@ -15,8 +15,8 @@ struct LinearStep {
   std::string_view symbol, told_symbol, formula;
 };
 
-/// Steps that the words of base/linear.hpp do not convert. If the formula is empty here, the step keeps its
-/// own.
+/// Steps that linear_words() (base/linear.hpp) does not convert. With an empty formula the step keeps its
+/// formula.
 constexpr LinearStep linear_steps[] = {
     {"w_low", "v_low", ""},
     {"w_high", "v_high", ""},
@@ -44,8 +44,8 @@ void tell(std::vector<design::DerivationStep>& steps) {
   }
 }
 
-/// Converts a loop's steps. Their rad/s is an angular frequency and becomes 1/s; only a position's gains
-/// change their value.
+/// Converts a loop's steps. In a loop's steps rad/s is an angular frequency and becomes 1/s; only a
+/// position's gains change their value.
 void tell_loop(design::LoopDesign& loop) {
   for (design::DerivationStep& s : loop.steps) {
     if (s.formula == "J w_c / T_max") s.formula = "m w_c / F_max";
@@ -61,7 +61,7 @@ void tell_loop(design::LoopDesign& loop) {
 
 void tell_sensing(std::vector<design::DerivationStep>& steps) {
   for (design::DerivationStep& s : steps) {
-    if (s.symbol == "w_c") {  // a frequency, not a speed
+    if (s.symbol == "w_c") {  // an angular frequency, not a speed
       s.formula = "d1 F_max/m, where the speed loop crosses over by d1 alone";
       s.unit = "1/s";
     }

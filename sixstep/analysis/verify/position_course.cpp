@@ -15,9 +15,9 @@ using design::LoopDesign;
 
 namespace {
 
-/// Largest speed that the loop may request: the speed that the bus allows; or, if it is less, a fifth below
-/// the greatest speed of sheet or board, because a speed from Hall edges overshoots its reference by that
-/// fraction.
+/// Largest speed that the loop may request: the speed that the bus allows or, if it is less, 0.8 times the
+/// greatest speed of sheet or board. The factor is 0.8 because a speed measured by Hall edges overshoots its
+/// reference by a fifth.
 double bounded_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   constexpr double below = 0.8;
   const double reached = d.bus_V / d.motor.K_t_Nm_A;
@@ -43,8 +43,8 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   const double height = std::fabs(step) * base::pi / 180;
   const double J = d.motor.shaft.J_kg_m2;
   // Upper bound of the move's duration: full torque over half of the distance, and braking over the other
-  // half. The bus ends the acceleration at U/K_t, and a start that the bus limits soon reaches a third of
-  // that. Then follows the P loop's exponential, down to 1e-9 of the step.
+  // half. The bus ends the acceleration at U/K_t; a start that the bus limits soon reaches a third of U/K_t.
+  // Then follows the P loop's exponential, down to 1e-9 of the step.
   const double forth_and_back = 2 * std::sqrt(height * J / d.most_torque_Nm()),
                top = bounded_speed(d, subject, s);
   const std::string of_top =
@@ -60,7 +60,7 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   s.reference.unit.emplace(unit.linear);
   study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
                                          step, "settling time");
-  const bool counts = d.spec.rotor.lags();  // the position comes to rest only within some steps of the
+  const bool counts = d.spec.rotor.lags();  // with steps, the position settles only within some steps of the
                                             // sensor, if at all
   const bool hall = d.spec.rotor.hall;
   const double steps = allowed_overshoot_deg(d, step);

@@ -19,7 +19,8 @@ class Left {
  public:
   Left(const GainSearch& search, TrialBudget* budget)
       : longest_(search.longest_periods), own_{search.periods}, of_all_(budget) {}
-  /// Subtracts this number of runs of the scenario. False if they are too long or too many.
+  /// Subtracts this number of runs of the scenario. Returns false if one run is too long or no periods
+  /// remain.
   bool takes(const study::Scenario& s, std::size_t runs) {
     if (!(s.duration_s / s.pwm.period_s <= longest_)) return false;
     return own_.takes(s, runs) && (of_all_ == nullptr || of_all_->takes(s, runs));

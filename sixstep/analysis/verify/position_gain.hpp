@@ -12,37 +12,38 @@ namespace sixstep::analysis {
 
 struct PositionGain {
   double gain_rad_s_per_deg = 0.0;
-  double estimate = 0.0;    ///< gain in closed form of braking from full speed, where the search begins
+  double estimate = 0.0;    ///< gain by the closed form for braking from full speed; the search begins there
   double linear = 0.0;      ///< gain of the linear loop, the upper end of the search
-  double overshoots = 0.0;  ///< the smallest tried gain that overshoots; 0 if none did
-  /// Largest gain for the sheet's motor. The tolerances may require a lower one.
+  double overshoots = 0.0;  ///< the smallest tried gain that overshoots; 0 if no tried gain overshoots
+  /// Largest gain for the sheet's motor. The tolerances may require a smaller gain.
   double nominal = 0.0;
   int runs = 0;
 };
 
-/// Control periods that may still be simulated. They are counted down, because a search's cost is known only
-/// afterwards.
+/// Control periods that may still be simulated. Each run reduces the number, because a search's cost is known
+/// only afterwards.
 struct TrialBudget {
   double periods = 0.0;
-  /// Subtracts the periods of this number of runs. False if fewer periods are left.
+  /// Subtracts the periods of this number of runs. Returns false if fewer periods remain.
   bool takes(const study::Scenario& s, std::size_t runs);
 };
 
-/// Limits of a search. They are needed because a move with a lower gain takes longer.
+/// Limits of a search, because a move with a lower gain takes longer.
 struct GainSearch {
-  bool quick = false;            ///< takes the closed form's gain or, if it overshoots, the first of its
-                                 ///< halves that does not
+  bool quick = false;            ///< uses the closed form's gain, or halves it until it does not overshoot
   double longest_periods = 2e6;  ///< limit of one run, in control periods
   double periods = 1.5e7;  ///< limit of all runs together, in control periods: half a minute of one core
 };
 
-/// Near the end of the move the P controller requests w = k x, which decelerates by k^2 x = k w. This
-/// deceleration is at most T_max/J at the highest speed if k = T_max/(J U/K_t). Returned in rad/s per degree.
+/// Near the end of the move the P controller requests w = k x, which decelerates by k^2 x = k w. At the
+/// highest speed U/K_t the deceleration is at most T_max/J if k = T_max/(J U/K_t). Returned in rad/s per
+/// degree.
 double braking_gain(const design::DriveDesign& design);
 
 /// The overshoot grows with the gain between braking_gain() and the linear loop's gain. Bisection with full
-/// simulations finds the gain at which overshoot begins, to a part in 1000. Problems: those of a run; no gain
-/// found within the search's limits. The runs are subtracted from `budget`, if there is one.
+/// simulations finds the gain at which overshoot begins, to a part in 1000. Problems: errors of a run; no
+/// gain was found within the search's limits. The periods of the runs are subtracted from `budget`, if it is
+/// given.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going = {},
@@ -50,7 +51,8 @@ base::Result<PositionGain> largest_position_gain(const design::DriveDesign& desi
                                                  TrialBudget* budget = nullptr);
 
 /// Lowers the gain until no motor within the tolerances overshoots by more than allowed_overshoot_deg()
-/// (board.hpp), to a part in 50. The nominal gain stays if even a sixteenth of it overshoots.
+/// (board.hpp), to a part in 50. If even a sixteenth of the nominal gain overshoots, the nominal gain is
+/// returned.
 base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
                                                   const DesignSubject& subject, const PositionGain& nominal,
                                                   const std::vector<Tolerance>& tolerances,

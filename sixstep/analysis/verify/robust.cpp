@@ -37,7 +37,7 @@ design::MotorModel varied_motor(const design::MotorModel& motor, const std::vect
   return m;
 }
 
-/// The motor model as a sheet. It has one form of each value, whichever form the motor's own sheet has.
+/// The motor model as a sheet. The sheet has one form of each value, whatever form the motor's own sheet has.
 design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   design::Sheet s;
   s.name = from.name;
@@ -60,7 +60,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.cogging_phase_deg = from.cogging_phase_deg;
   if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
   s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
-  if (design::is_salient(from)) {  // both inductances deviate equally
+  if (design::is_salient(from)) {  // both inductances deviate by the same factor
     const double d = from.d_axis_inductance_mH->value, q = from.q_axis_inductance_mH->value;
     const double by = 2e3 * m.machine.L_H / (d + q);
     s.d_axis_inductance_mH = base::Quantity{d * by, "phase", ""};
@@ -72,7 +72,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.saturation_current_A = from.saturation_current_A;
   s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};
   s.inertia_gcm2 = {1e7 * m.shaft.J_kg_m2, "", ""};
-  // Bearings and iron get one common friction, because no figure of merit distinguishes them.
+  // Bearings and iron have one common friction, because no figure of merit distinguishes them.
   s.viscous_friction_Nm_s = base::Quantity{m.shaft.B_Nm_s, "", ""};
   s.coulomb_friction_mNm = base::Quantity{1e3 * m.shaft.coulomb_Nm, "", ""};
   return s;
@@ -106,8 +106,8 @@ void add_corners(const std::vector<Tolerance>& tolerances, std::vector<Variation
   out.insert(out.end(), corners.begin(), corners.end());
 }
 
-/// Finds the worst variation of a figure. values[v] is that of variation v, the nominal first; a larger value
-/// is worse.
+/// Finds the worst variation of a figure. values[v] is the figure of variation v, values[0] the nominal
+/// figure; a larger value is worse.
 void find_worst(RobustFigure& figure, const std::vector<Variation>& all, const std::vector<double>& values) {
   figure.nominal = figure.worst = values.front();
   figure.alone = values.front();
@@ -160,7 +160,7 @@ std::vector<double> measured(const study::Scenario& scenario, const std::functio
   return values;
 }
 
-/// Limit of a winding whose sheet has none, degC: insulation class E.
+/// Limit of a winding without a limit in the sheet, degC: insulation class E.
 constexpr double hot_winding_degC = 120;
 
 std::string at_degC(const char* quantity, double degC) {
@@ -192,7 +192,7 @@ std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet) {
   std::vector<study::Spread> spreads;
   for (const Tolerance& tolerance : sheet_tolerances(sheet, control::Mode::speed)) {
     const double least = tolerance.levels.front().factor;
-    if (least >= 1.0) continue;  // a tolerance to one side only
+    if (least >= 1.0) continue;  // a tolerance with one side only
     const char* key = tolerance.quantity == Strays::resistance   ? "motor_override.resistance_ohm"
                       : tolerance.quantity == Strays::inductance ? "motor_override.inductance_mH"
                       : sheet.back_emf_mV_s && !sheet.torque_constant_mNm_A
@@ -246,8 +246,8 @@ study::Scenario varied_scenario(const study::Scenario& nominal, const design::Mo
   study::Scenario s = nominal;
   s.designed_for = study::Nominal{nominal.sheet, nominal.supply, nominal.load};
   design::MotorModel varied = varied_motor(motor, tolerances, variation);
-  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // load.inertia_kg_m2 stays nominal, so that the
-                                                       // rotor's inertia has the whole deviation
+  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // load.inertia_kg_m2 stays nominal; the rotor's
+                                                       // inertia contains the whole deviation
   s.sheet = sheet_of(nominal.sheet, varied);
   return s;
 }

@@ -17,7 +17,8 @@ void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
   s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
 }
 
-/// Fraction of a user's step by which it may be missed. An integral part leaves no error unless a limit acts.
+/// Allowed error of a user's step, as a fraction of it. With an integral part there is no error unless a
+/// limit acts.
 constexpr double missed_part = 0.02;
 
 /// Warns of a setpoint that bus and load do not allow, or that is not reached by the end of the run.
@@ -47,26 +48,25 @@ bool out_of_reach(const DesignStudy& s) {
 
 constexpr const char* within = "within the tolerances";
 
-/// Words for the worst motor within the tolerances, and for the one tolerance with the largest effect.
+/// Text for the worst motor within the tolerances, and for the single tolerance with the largest effect.
 std::string with_which(const RobustFigure& f) {
   const bool one = f.culprit.empty() || f.culprit == f.at;
   return ": with " + f.at + (one ? "" : ", chiefly for " + f.culprit);
 }
 
-/// Whether the mean voltage can drive only from a duty of one half: with hard chopping, a duty below one half
-/// has no such voltage.
+/// True with hard chopping: the mean voltage then drives the motor only above a duty of one half.
 bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
-/// Names the chopping, because it decides whether a small negative duty brakes by its own voltage or by the
-/// whole bus.
+/// Names the chopping, because a small negative duty brakes by its own voltage or by the whole bus, depending
+/// on it.
 std::string in_simulation(const DesignStudy& s) {
   return "in the simulation, with " +
          std::string(base::word(study::chopping_choices, s.design.spec.chopping)) + " chopping,";
 }
 
-/// Warns if a loop settles a quarter later than designed, although its run avoids all limits.
+/// Warns if a loop settles later than designed by a quarter, although no limit acts in its run.
 void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
   if (!c || s.design.spec.mode == control::Mode::position || out_of_reach(s)) return;
@@ -89,7 +89,7 @@ void look_at_settling(DesignStudy& s) {
          false);
 }
 
-/// Warns of a limit cycle: it swings further than the commutations do.
+/// Warns of a limit cycle: a larger swing than the swing by the commutations.
 void look_at_swing(DesignStudy& s) {
   const std::optional<double> allowed = s.allowed_swing_rad_s;
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
@@ -100,8 +100,8 @@ void look_at_swing(DesignStudy& s) {
        true);
 }
 
-/// A second-order loop overshoots by less than its step with any damping. Warns of a loop that overshoots by
-/// more, because it is hardly stable.
+/// A second-order loop overshoots by less than its step, whatever its damping. Warns of a larger overshoot:
+/// such a loop is hardly stable.
 void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when,
                        const std::string& where = "") {
   const std::vector<double>& levels = s.scenario.reference.values;
@@ -114,8 +114,8 @@ void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when
        true);
 }
 
-/// Warns of a position that does not rest. A drive on Hall probes may stop anywhere within some 60 electrical
-/// degrees.
+/// Warns of a position that does not come to rest. A drive with Hall probes may stop anywhere within some 60
+/// electrical degrees.
 void look_at_rest(DesignStudy& s, double swing, const std::string& when, const std::string& where = "") {
   const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
   const double move = std::max(usual_move(s.design), unit.factor * std::fabs(s.scenario.reference.value));

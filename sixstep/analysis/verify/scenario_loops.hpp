@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the loops of a scenario's gains and its motor, in the form that the design uses.
+// Computes the loops from a scenario's gains and motor, in the form of the design.
 #pragma once
 #include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/study/compile/compile.hpp"
 
 namespace sixstep::analysis {
 
-/// The loops of the configuration at the end of the run. For a field-oriented drive they are those of the
+/// The loops of the configuration at the end of the run. For a field-oriented drive they are the loops of the
 /// axis across the magnet.
 design::DriveLoops loops_of(const study::Scenario& scenario, const study::Compiled& compiled);
 

@@ -17,8 +17,7 @@ namespace {
 
 using control::Mode;
 
-/// The lowest speed other than standstill that a reference requests, rad/s; empty if the reference is no
-/// speed.
+/// The lowest speed of a reference except standstill, rad/s; empty if the reference is no speed.
 std::optional<double> lowest_speed(const study::Scenario& s) {
   if (s.control.mode != Mode::speed) return std::nullopt;
   std::optional<double> least;
@@ -27,7 +26,7 @@ std::optional<double> lowest_speed(const study::Scenario& s) {
   return least;
 }
 
-/// Sets the loop that tracks a resolver, by bandwidth and damping.
+/// Sets the loop that tracks a resolver, from bandwidth and damping.
 void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
   const study::Resolver& r = s.sensors.resolver;
   const bool sampled = r.reading == rig::ResolverReading::sampled;
@@ -36,8 +35,8 @@ void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
   to.step_s = study::tracking_period_s(s);
   if (const auto loop = design::tracking_loop({2 * base::pi * r.bandwidth_Hz, r.damping, to.step_s}))
     to.natural_rad_s = loop->natural_rad_s;
-  // Two samples, a step apart, give one reading: it is half a step old, and has half of the samples' noise
-  // power.
+  // Two samples, a step apart, give one reading. It is half a step old, and its noise power is half of the
+  // samples' noise power.
   to.latency_s = sampled ? to.step_s / 2 : r.latency_s;
   to.noise_rad = r.noise_V / r.amplitude_V / (sampled ? std::sqrt(2.0) : 1.0);
 }
@@ -75,7 +74,7 @@ design::ShaftSensing shaft_sensing(const study::Scenario& s) {
   return to;
 }
 
-/// Largest error of the length of k successive sectors together, rad.
+/// Largest error of the total length of k successive sectors, rad.
 double stray_of(const std::vector<double>& edges_deg, std::size_t k) {
   double most = 0.0;
   for (std::size_t n = 0; n < edges_deg.size(); ++n)
@@ -101,13 +100,12 @@ base::Problems passed_over(const study::Scenario& s) {
 
 design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   design::RotorSensing to;
-  // The product drive has no sensor except Hall probes, and the sensorless drive has crossings in place of
-  // Hall edges.
+  // The product drive has no sensor except Hall probes. In the sensorless drive crossings replace Hall edges.
   const study::FirmwareKind drive = s.control.drive;
   to.hall = s.sensors.rotor == study::RotorSensing::hall || drive == study::FirmwareKind::product ||
             drive == study::FirmwareKind::sensorless;
   to.edges = s.sensors.speed_edges;
-  // If the edges' places are learned, their errors need not cancel over a whole turn.
+  // If the angles of the edges are learned, their errors need not cancel over a whole turn.
   if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) to.edges = std::max(to.edges, 1);
   if (!to.hall) to.shaft = shaft_sensing(s);
   if (s.sensors.rotor != study::RotorSensing::hall) return to;
@@ -141,7 +139,7 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
       s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops refer to the motor's shaft
   w.delay_periods = s.pwm.delay_periods;
   w.sampled_in_middle = s.pwm.sample == study::SampleAt::middle;
-  // Smooth chopping counts as complementary: while current flows, both modes put the same voltage on the pair.
+  // Smooth chopping counts as complementary: while current flows, both apply the same voltage to the pair.
   w.chopping = s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
   w.rotor = rotor_sensing_of(s);
   w.lowest_speed_rad_s = lowest_speed(s);
@@ -150,8 +148,8 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   if (const std::optional<double> most = most_current_A(s, motor->K_t_Nm_A); most && w.mode != Mode::current)
     w.current_limit_A = std::min(*most, w.current_limit_A.value_or(*most));
   if (!w.lowest_speed_rad_s) return w;
-  // A reference near the largest speed of the bus or of the board leaves no room for a step down to this
-  // speed.
+  // With a reference near the largest speed of the bus or of the board, no step down to this speed would be
+  // possible.
   if (const double most = most_lowest_speed_rad_s(*motor, w); most > 0.0)
     w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, most);
   if (const std::optional<double> most = most_speed_rad_s(s))

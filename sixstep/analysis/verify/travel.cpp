@@ -7,9 +7,9 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Torque in N m that accelerates: the torque limit, or the torque that the bus drives at that speed if it is
-/// less. If not `faster`: torque that brakes in addition to the load; soft chopping brakes through the lower
-/// switches.
+/// Torque in N m towards a speed. If `faster`: the torque limit, or the torque that the bus drives at this
+/// speed if it is less. Otherwise the braking torque in addition to the load; soft chopping brakes through
+/// the lower switches.
 double torque_towards(const design::DriveDesign& d, double rad_s, bool faster) {
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
   if (faster) return std::min(d.most_torque_Nm(), K * (d.bus_V - K * rad_s) / R);

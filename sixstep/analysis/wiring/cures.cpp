@@ -14,10 +14,10 @@ rig::WireOrder after(rig::WireOrder order, const Moves& moves) {
   for (std::size_t place = 0; place < 3; ++place) to[moves[place]] = from[place];
   for (const rig::Wiring& w : all_wirings())
     if (rig::ends_of(w.phases) == to) return w.phases;
-  return order;  // unreachable, because the six orders are all that exist
+  return order;  // unreachable: there are only six orders
 }
 
-/// Order of cures: 0 moves phases alone, 1 Hall lines alone, 2 both.
+/// Order of cures: 0 moves only phases, 1 only Hall lines, 2 both.
 int kind_of(const Cure& c) { return moved(c.pins) == 0 ? 0 : moved(c.legs) == 0 ? 1 : 2; }
 
 }  // namespace

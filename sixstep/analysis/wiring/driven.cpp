@@ -11,14 +11,14 @@ using rig::WireOrder;
 constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
                                 WireOrder::acb, WireOrder::cba, WireOrder::bac};
 
-/// The sector in which a drive with straight wires drives that pair.
+/// The sector in which a drive with straight wires drives the pair of source and sink.
 int sector_of(std::size_t source, std::size_t sink) {
   for (std::uint8_t sector = 0; sector < 6; ++sector) {
     const control::Pair pair = control::positive_pair(sector);
     if (static_cast<std::size_t>(pair.source) == source && static_cast<std::size_t>(pair.sink) == sink)
       return sector;
   }
-  return 0;  // the table has each of the six pairs once
+  return 0;  // unreachable: the table contains each of the six pairs once
 }
 
 }  // namespace

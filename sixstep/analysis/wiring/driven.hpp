@@ -21,11 +21,11 @@ struct Commutation {
 };
 Commutation commutation(std::uint8_t sector);
 
-/// All wirings, with phases in the outer and probes in the inner loop. In each loop the orders that keep the
-/// sequence a, b, c come first, then those that swap two.
+/// All wirings, with phases in the outer and probes in the inner loop. In each loop the orders with the
+/// sequence a, b, c come first, then the orders with two swapped wires.
 std::array<rig::Wiring, ways_to_plug_in> all_wirings();
 
-/// Whether the order keeps the sequence of the three wires: they may be shifted, but not swapped.
+/// True if the order keeps the sequence of the three wires, possibly shifted.
 constexpr bool keeps_the_turn(rig::WireOrder order) {
   return order == rig::WireOrder::abc || order == rig::WireOrder::bca || order == rig::WireOrder::cab;
 }
@@ -34,8 +34,8 @@ constexpr bool keeps_the_turn(rig::WireOrder order) {
 struct Driven {
   std::uint8_t seen = 0;             ///< the sector of the code at the pins
   std::size_t source = 0, sink = 0;  ///< phases of the motor
-  int ahead = 0;                     ///< number of sectors, 0..5, from the rotor's sector to the sector to
-                                     ///< which this pair belongs
+  int ahead = 0;                     ///< number of sectors, 0..5, from the rotor's sector to the own sector
+                                     ///< of this pair
   bool operator==(const Driven&) const = default;
 };
 

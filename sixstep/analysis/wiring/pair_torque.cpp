@@ -13,8 +13,8 @@ namespace {
 /// Angle from theta_e to the magnet's axis (model.md 7).
 constexpr double axis_rad = 2.5 * base::sector_rad;
 
-/// Eight Gauss points on each eighth of a sector. This is exact for the lines of a trapezoid, and to 1e-9 of
-/// its size for the square of a harmonic of order 25, which turns by 6.5 rad within an eighth.
+/// Eight Gauss points on each eighth of a sector. The rule is exact for the lines of a trapezoid. For the
+/// square of a harmonic of order 25, which turns by 6.5 rad within an eighth, the relative error is 1e-9.
 constexpr int stretches = 8;
 
 }  // namespace

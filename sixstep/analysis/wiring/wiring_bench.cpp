@@ -13,27 +13,27 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Largest number of control periods of a run with rows for a picture: some seconds of computing for all
-/// runs.
+/// Largest number of control periods of a run with rows for a picture. All runs together then take some
+/// seconds.
 constexpr double most_periods = 3e5;
 constexpr double rows = 1500;
 
-/// Duration of the run-up in time constants: six, times three, because the run-up takes three times as long
-/// with half the torque (wiring_theory.hpp, mean(g^2)).
+/// Duration of the run-up in time constants: six, times three, because with half the torque the run-up takes
+/// three times as long (wiring_theory.hpp, mean(g^2)).
 constexpr double run_up = 18;
-/// Electrical turns of an ideal motor during the measured part of a run. A motor that runs at all makes more
-/// than one.
+/// Electrical turns of an ideal motor during the measured part of a run. Every motor that runs makes more
+/// than one turn in this time.
 constexpr double watched_turns = 6;
 
 constexpr double most_back_emf = 0.05;
-/// Least duration of a slow electrical turn in multiples of L/R: sixteen in each sector.
+/// Least duration of a slow electrical turn in multiples of L/R: about sixteen in each sector.
 constexpr double least_turn = 100;
 
-/// Least number of PWM periods in L/R while the motor is turned slowly, so that enough current is left at the
-/// end of a period. The slow back-EMF does not change the fraction that is left.
+/// Least number of PWM periods in L/R during the slow turn: enough current then remains at the end of a
+/// period. The slow back-EMF does not change the remaining fraction.
 constexpr double periods_in_winding = 3;
 
-/// Rounds a time up to a whole number of PWM periods, so that all rows lie at the same phase of a period.
+/// Rounds a time up to a whole number of PWM periods: all rows are then at the same phase of a period.
 double on_grid(double s, double period_s) { return std::ceil(s / period_s - 1e-9) * period_s; }
 
 base::Problems set_current(const WiringSubject& subject, WiringBench& b) {
@@ -147,8 +147,8 @@ study::Scenario turned_run(const WiringBench& b, const WiringSubject& subject, c
   study::Scenario s = on_bench(b, subject, wiring);
   s.title = "Turned slowly by a dynamometer, connected as in bridge.phases and sensors.hall_lines";
   s.duration_s = b.turned_from_s + b.turned_s;
-  // A row lies in the middle of its two degrees, so that no row is on a sector's edge, where the torque has
-  // two values.
+  // A row lies in the middle of its two degrees: no row is then on a sector's edge, where the torque has two
+  // values.
   constexpr double first_deg = -60 + 180.0 / turned_rows;
   s.pwm.period_s = b.turned_pwm_s;
   s.initial.angle_rad = first_deg * base::pi / 180 / b.motor.machine.pole_pairs;

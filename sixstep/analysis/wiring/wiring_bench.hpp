@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the test bench for all 36 wirings. Its values follow from the motor's sheet, so that a wrongly
-// connected motor at rest is not damaged.
+// Creates the test bench for all 36 wirings. Its values follow from the motor's sheet, so that a wrongly
+// connected motor is not damaged at rest.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,15 +19,15 @@ struct WiringSubject {
   std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< sheet of the motor
   std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
-  /// Current of the stalled motor; empty: the nominal current, or a tenth of the largest that the bus can
-  /// drive.
+  /// Current of the stalled motor; empty: the nominal current, or a tenth of the largest current that the bus
+  /// can drive.
   std::optional<double> current_A{};
 };
 
 enum class BenchCurrent : std::uint8_t { asked_for, nominal, tenth_of_stall };
 
-/// A stiff bus, ideal switches, soft chopping, no load. There are two tests: the motor runs free from rest,
-/// or it is turned slowly from outside.
+/// A stiff bus, ideal switches, soft chopping, no load. There are two tests: a free run from rest, and a slow
+/// turn by an external machine.
 struct WiringBench {
   design::MotorModel motor;
   double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
@@ -37,16 +37,15 @@ struct WiringBench {
                         ///< part
   double watched_from_s = 0.0;
   double row_s = 0.0;  ///< time between two recorded rows of a free run
-  /// PWM period of the slow turn. It is short: rows lie at the beginning of a period, and a current that has
-  /// decayed by then would not show the torque.
+  /// PWM period of the slow turn. It is short because rows are at the begin of a period: in a long period the
+  /// current would decay until then and not show the torque.
   double turned_pwm_s = 0.0;
-  double turned_rad_s = 0.0;  ///< so slow that the back-EMF reduces the bench's current by at most a
-                              ///< twentieth
-  /// First a sector in which the start decays, then one electrical turn, 0 to 360 degrees.
+  double turned_rad_s = 0.0;  ///< so low that the back-EMF reduces the bench's current by at most a twentieth
+  /// First a sector in which the initial current decays, then one electrical turn, 0 to 360 degrees.
   double turned_from_s = 0.0, turned_s = 0.0;
 };
 
-/// Problems name `voltage_V` or `current_A`, or are those of the sheet.
+/// Problems of `voltage_V`, `current_A` and the sheet.
 base::Result<WiringBench> wiring_bench(const WiringSubject& subject);
 
 /// Scenario of a motor that is released from rest at an electrical angle.

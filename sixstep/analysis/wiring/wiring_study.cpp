@@ -17,11 +17,11 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Least number of electrical turns since its start that a running motor makes. A motor that hums swings
-/// within half a turn about its rest angle, and starts at most half a turn from it.
+/// Least number of electrical turns of a running motor since its start. A motor that hums swings within half
+/// a turn about its rest angle, and starts at most half a turn from it.
 constexpr double whole_way = 1.0;
-/// Least number of electrical turns that a running motor makes in the measured time, in which an ideal motor
-/// makes six. Friction slows a motor, but it still runs.
+/// Least number of electrical turns of a running motor in the measured time, in which an ideal motor makes
+/// six. A motor slowed by friction still counts as running.
 constexpr double still_going = 1.0 / 3;
 
 using Columns = std::vector<std::vector<double>>;
@@ -55,8 +55,8 @@ double winding_A(const Columns& c, std::size_t first, std::size_t row) {
   return (std::fabs(c[first][row]) + std::fabs(c[first + 1][row]) + std::fabs(c[first + 2][row])) / 2;
 }
 
-/// Frequency of swings from the changes of direction, two per period, over the whole run; 0 if there are too
-/// few.
+/// Frequency of swings over the whole run, from the changes of direction, two per period; 0 if there are too
+/// few changes.
 double swings_Hz(const std::vector<double>& t_s, const std::vector<double>& speed) {
   double first = 0.0, last = 0.0;
   int changes = 0;
@@ -103,7 +103,7 @@ FreeRun look_at(const WiringBench& b, const Recorded& r) {
 void look_at_turned(const Columns& c, WiringMeasured& m) {
   double sum = 0.0;
   for (std::size_t n = turned_rows / 6; n < turned_rows / 6 + turned_rows;
-       ++n) {  // the start decays in the first sector, which is left out
+       ++n) {  // the initial current decays in the first sector, which is skipped
     const double per_A = c[1][n] / winding_A(c, 2, n);
     sum += per_A;
     m.torque_over_turn.push_back(static_cast<float>(per_A));
@@ -152,7 +152,7 @@ Symptom shown_by(const std::vector<const WiringCase*>& alike, const std::optiona
   return s;
 }
 
-/// The runs of one wiring, started one by one: six free runs, then one turned.
+/// The runs of one wiring: six free runs, then one slow turn.
 struct Runs {
   std::array<std::optional<base::Result<Recorded>>, starts + 1> of;
 };
@@ -185,7 +185,8 @@ WiringDoes seen_in(const WiringMeasured& m, double straight_Nm_A) {
     least = std::min(least, forward ? torque : -static_cast<double>(torque));
   if (std::fabs(m.torque_Nm_A) > well_above_part * straight_Nm_A && least > well_above_least * straight_Nm_A)
     return forward ? WiringDoes::forward : WiringDoes::backward;
-  // If a pair is driven early, its torque rises over a sector in the rotor's direction; if late, it falls.
+  // If a pair is driven early, its torque rises over a sector in the rotor's direction; if the pair is driven
+  // late, its torque falls.
   const double rise = half_mean(m.torque_over_turn, true) - half_mean(m.torque_over_turn, false);
   if (forward) return rise > 0 ? WiringDoes::forward_early : WiringDoes::forward_late;
   return rise > 0 ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -227,8 +228,8 @@ base::Result<WiringStudy> study_wiring(const WiringOrder& order) {
                                                 .pwm_period_s = study::Pwm{}.period_s,
                                                 .keep_going = order.keep_going});
   if (settled) s.settled = settled->point;
-  // The dynamometer makes this run use the general kernel, as all runs with crossed wires do. So its machine
-  // is that of all these runs.
+  // The dynamometer requires the general kernel, like crossed wires. The machine of this run is therefore the
+  // machine of all runs with crossed wires.
   const study::Scenario turned = turned_run(s.bench, order.subject, {});
   if (base::Problems found = study::check(turned); !found.empty()) return found;
   const base::Result<study::Compiled> compiled = study::compile(turned);
@@ -263,8 +264,8 @@ study::Scenario straight_run(const WiringStudy& study) {
   for (study::Comparison& c : s.compare) c.value = 1;
   const base::Result<study::Outcome> out = study::run(s, {.keep_books = false});
   for (std::size_t n = 0; n < s.compare.size() && out; ++n) {
-    // The outcome of a linear motor has another unit. The comparison's value was set to 1, so that its
-    // converted value is the factor.
+    // The outcome of a linear motor has another unit. The comparison's value was set to 1; its converted
+    // value is therefore the factor.
     s.compare[n].value = out->comparisons[n].measured / out->comparisons[n].value;
     s.compare[n].source = "this run with straight wires";
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Studies all 36 ways to connect a motor. For each, it has the theory's result, the simulation's, and the
+// Studies all 36 ways to connect a motor. Each has a result of the theory, a result of the simulation, and
 // cures.
 #pragma once
 #include <array>
@@ -26,19 +26,19 @@ struct FreeRun {
   double phase_rms_A = 0.0;  ///< rms over all three phases
   double peak_A = 0.0;       ///< peak of half the sum of the phase currents' magnitudes
   double supply_A = 0.0;     ///< mean current from the supply
-  double swing_deg = 0.0;    ///< electrical angle from the lowest to the highest value
+  double swing_deg = 0.0;    ///< electrical angle from the lowest to the highest position
   double rest_deg = 0.0;     ///< mean electrical angle, in [0, 360)
   double swing_Hz = 0.0;     ///< frequency of swings over the whole run: changes of direction, two per period
   std::vector<float> turned{};     ///< electrical turns since the start, one value per row
   std::vector<float> current_A{};  ///< half the sum of the phase currents' magnitudes, one value per row
 };
 
-/// Results of runs alone, without theory.
+/// Results of runs only, without theory.
 struct WiringMeasured {
   WiringDoes does = WiringDoes::unclear;
   std::array<FreeRun, starts> runs{};
-  double torque_Nm_A = 0.0;  ///< torque per ampere (half the sum of the magnitudes), mean over a slow
-                             ///< electrical turn
+  double torque_Nm_A = 0.0;  ///< torque per ampere (half the sum of the currents' magnitudes), mean over a
+                             ///< slow electrical turn
   double part = 0.0;         ///< fraction of the torque of straight wires
   std::vector<float> torque_over_turn{};  ///< torque per ampere over this turn: turned_rows values, at 1, 3,
                                           ///< 5 .. degrees
@@ -53,10 +53,10 @@ struct WiringCase {
   bool agrees() const { return theory.does == measured.does; }
 };
 
-/// Means over the runs of all wirings with the same behaviour, from all starts; for peaks, the largest. A
-/// motor that runs well accelerates for much longer than a run lasts, because its current is discontinuous.
-/// Its speed and currents are then those of the settled state (curve/no_load.hpp), unless the sheet's
-/// friction holds it.
+/// Means over the runs of all wirings with the same behaviour, from all starts; for peaks, the largest value.
+/// A motor that runs well accelerates for much longer than a run lasts, because its current is discontinuous.
+/// Its speed and currents are therefore taken from the settled state (curve/no_load.hpp), unless the sheet's
+/// friction holds the motor.
 struct Symptom {
   std::size_t ways = 0;
   double part = 0.0, speed_rad_s = 0.0, phase_rms_A = 0.0, peak_A = 0.0, supply_A = 0.0, swing_deg = 0.0,
@@ -72,12 +72,11 @@ struct WiringStudy {
 
   std::size_t agreeing() const;
   const WiringCase& at(const rig::Wiring& wiring) const;
-  /// The symptom of all wirings with this behaviour in the runs; below, that of one wiring, and of straight
-  /// wires.
+  /// The symptom of all wirings with this behaviour in the runs; of one wiring; of straight wires.
   Symptom symptom(WiringDoes does) const;
   Symptom symptom(const WiringCase& one) const;
   Symptom straight() const;
-  /// The first wiring with this behaviour in the runs; null: there is none.
+  /// The first wiring with this behaviour in the runs; null if there is none.
   const WiringCase* example(WiringDoes does) const;
 };
 
@@ -87,11 +86,11 @@ struct WiringOrder {
   std::function<bool()> keep_going{};  ///< false ends the study early with a Problem "was interrupted"
 };
 
-/// Problems are those of the sheet and of the bench.
+/// Returns the Problems of the sheet and of the bench.
 base::Result<WiringStudy> study_wiring(const WiringOrder& order);
 
-/// The run from the first start with straight wires, as a scenario for the user's file. Each comparison has
-/// the value that this run measures.
+/// The run from the first start with straight wires, as a scenario for the user's file. The values of its
+/// comparisons are measured in this run.
 study::Scenario straight_run(const WiringStudy& study);
 
 /// Classifies the runs of one wiring; `straight_Nm_A` is the measured torque per ampere of straight wires.

@@ -31,8 +31,8 @@ Sums over_turn(const PairTorque& torque, const WiringTheory& t) {
   return s;
 }
 
-/// Electrical angle at which the torque changes its sign, between the middles of two sectors: the first one
-/// drives forward and the second one back.
+/// Electrical angle at which the torque changes its sign, between the middles of two sectors: the first
+/// sector drives forward, the second sector drives back.
 double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_t sector) {
   const std::uint8_t next = static_cast<std::uint8_t>((sector + 1) % 6);
   const auto in = [&](std::uint8_t s, double x) {
@@ -75,7 +75,7 @@ WiringTheory wiring_theory(const PairTorque& torque, const rig::Wiring& wiring) 
     most = std::max(most, t.torque_Nm_A[sector]);
   }
   const Sums own = over_turn(torque, t), best = over_turn(torque, straight);
-  const bool nothing = std::fabs(own.mean) < 1e-12 * best.mean;  // terms that cancel leave only rounding
+  const bool nothing = std::fabs(own.mean) < 1e-12 * best.mean;  // if terms cancel, only rounding remains
   t.mean_Nm_A = nothing ? 0.0 : own.mean;
   t.part = t.mean_Nm_A / best.mean;
   t.idle_speed_part = (t.mean_Nm_A / own.square) / (best.mean / best.square);

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning: the drive measures the motor that is connected to it. Steps of the voltage give resistance
-// and inductance. A slow turn in each direction gives the table of the Hall lines, and a fast turn gives the
-// flux linkage. The data of converters and timer and the allowed current must be known, but no data of the
-// motor.
+// Commissioning: the drive measures the motor that is connected to it.
+// - Steps of the voltage give resistance and inductance.
+// - A slow turn in each direction gives the table of the Hall lines.
+// - A fast turn gives the flux linkage.
+// The data of converters and timer and the allowed current must be known. No data of the motor is needed.
 //
 //   zeroing    measures the offsets of the three amplifiers, with the bridge off
-//   rising     raises a voltage vector until the test current flows; the vectors of this current and of half
-//              of it are the two levels
-//   leaning    pulls the rotor to a quarter turn, because at 0 alone it could stay at a dead point, half a
-//              turn away
+//   rising     raises a voltage vector until the test current flows. The vector lengths at half of the test
+//              current and at the test current are the two levels.
+//   leaning    pulls the rotor to a quarter turn. A pull to 0 at once would fail if the rotor rested at half
+//   a
+//              turn, where the torque is 0.
 //   aligning   pulls the rotor to 0, where it rests until the end of the steps
 //   stepping   level_steps.hpp
 //   turning    hall_survey.hpp, forward and backward
-//   spinning   accelerates the rotor until the back-EMF is half of the vector
+//   spinning   accelerates the rotor until the back-EMF is half of the applied voltage
 //   measuring  flux_turn.hpp; spinning and measuring are repeated at three quarters of the speed. If the two
-//              results differ, the rotor was lost; it is aligned and spun again with a quarter of the
+//              results differ, the rotor was lost: it is aligned and spun again with a quarter of the
 //              acceleration.
 //   done, failed
 //
@@ -39,8 +41,8 @@ constexpr LegCommands<Scalar> commissioning_step(const CommissioningConfig& conf
   return legs_of_vector<Scalar>(state.v, state.angle);
 }
 
-/// The Hall pins changed to `pins` when the timer read `captured`. The field's angle at that instant is
-/// extrapolated from the last tick.
+/// The Hall pins changed to `pins` when the timer read `captured`. The function extrapolates the field's
+/// angle from the last tick to that instant.
 constexpr void commissioning_hall(const CommissioningConfig& config, CommissioningState& state,
                                   std::uint8_t pins, std::uint32_t captured) {
   if (state.phase != CommissioningPhase::turning || state.way < detail::one_turn) return;

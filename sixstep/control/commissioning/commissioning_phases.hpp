@@ -24,7 +24,7 @@ enum class CommissioningPhase : std::uint8_t {
 enum class CommissioningFault : std::uint8_t {
   none,
   offset,     ///< the offset of an amplifier is out of tolerance
-  current,    ///< the longest vector does not make the test current: a wire is open, or the test current is
+  current,    ///< the longest vector does not reach the test current: a wire is open, or the test current is
               ///< too high
   winding,    ///< the two levels give no resistance or no time constant
   not_turned  ///< the rotor did not follow even the slowest acceleration
@@ -64,7 +64,7 @@ struct CommissioningState {
   BinaryAngle angle = 0;           ///< angle of the vector
   std::int32_t speed = 0;          ///< speed of the vector, 2^-32 turns per tick
   std::uint32_t ticked_at = 0;     ///< reading of the timer at the last tick
-  std::uint64_t way = 0;           ///< angle that the field has turned at the wanted speed, 2^-32 turns
+  std::uint64_t way = 0;           ///< angle turned at the wanted speed, 2^-32 turns
   std::int8_t direction = 1;
   std::uint8_t tries = 0;
   bool held = false;            ///< in phase spinning: the rotor is fast enough, and the speed is held
@@ -92,7 +92,7 @@ constexpr void fail(CommissioningState& state, CommissioningFault fault) {
   enter(state, CommissioningPhase::failed);
 }
 
-/// The currents in the frame of the vector that makes them, at the vector's angle at the sample.
+/// The currents in the frame of the voltage vector, at the vector's angle at the sample instant.
 constexpr FieldCurrent current_seen(const CommissioningConfig& config, const CommissioningState& state,
                                     const CommissioningInput& input) {
   std::int32_t eighths[3]{}, signs[3]{};
@@ -128,7 +128,7 @@ constexpr void rising_tick(const CommissioningConfig& config, CommissioningState
   if (state.v > longest_vector) fail(state, CommissioningFault::current);
 }
 
-/// Changes the field's speed towards `wanted`. state.way counts only ticks at that speed.
+/// Changes the field's speed towards `wanted`. state.way counts only ticks at the speed `wanted`.
 constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::uint32_t acceleration) {
   const auto step = static_cast<std::int32_t>(acceleration);
   const std::int32_t off = wanted - state.speed;
@@ -143,8 +143,8 @@ constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::u
     state.way += static_cast<std::uint64_t>(wanted < 0 ? -static_cast<std::int64_t>(wanted) : wanted);
 }
 
-/// One tick of the slow turn. The rotor's swing decays during the first turn in each direction; the pins at
-/// the end of that turn are the first code.
+/// One tick of the slow turn. The rotor's swing decays during the first turn in each direction. The pins at
+/// the end of this first turn are the first code.
 constexpr void turning_tick(const CommissioningConfig& config, CommissioningState& state, std::uint8_t pins) {
   const std::uint64_t before = state.way;
   const auto slow = static_cast<std::int32_t>(config.slow_speed);
@@ -195,7 +195,7 @@ constexpr void spinning_tick(const CommissioningConfig& config, CommissioningSta
     state.way = 0;
     return;
   }
-  // Waits until the rotor's swing has decayed, for as many turns as are then measured.
+  // Waits until the rotor's swing has decayed, for as many turns as the measurement then takes.
   if (state.held && state.way >= one_turn * config.flux_turns) enter(state, CommissioningPhase::measuring);
 }
 
@@ -212,7 +212,7 @@ constexpr void measuring_tick(const CommissioningConfig& config, CommissioningSt
     state.spin_speed -= state.spin_speed / 4;
     return enter(state, CommissioningPhase::spinning);
   }
-  // A rotor that slips or swings has a back-EMF too, but this back-EMF is not proportional to the field's
+  // A rotor that slips or swings also has a back-EMF, but its back-EMF is not proportional to the field's
   // speed.
   const std::int32_t off = reading.flux - state.magnet.flux;
   if ((off < 0 ? -off : off) > state.magnet.flux / 32) return spin_again(config, state);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the results of commissioning to SI by the data of the board, and makes the configuration of
+// Converts the results of commissioning to SI with the data of the board. Computes the configuration of
 // commissioning from the same data.
 //
-//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u: V per count, i: A per count, T: control period
+//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)
 //
-// r, tau and f are the readings. R is the resistance of a phase and a switch. L is measured along the
-// magnet's axis. psi is that of the fundamental: the peak of a phase's back-EMF over the electrical speed. It
-// is K_e/p for a sine, and 1.2159 K_e/p for the trapezoid of 120 degrees.
+// r, tau, f: the readings `resistance`, `tau` and `flux`. u: V per count, i: A per count, T: control period.
+// R is the resistance of a phase and a switch. L is measured along the magnet's axis. psi is the flux linkage
+// of the back-EMF's fundamental: the fundamental's peak in a phase over the electrical speed. For a sine psi
+// is K_e/p, for the trapezoid of 120 degrees 1.2159 K_e/p.
 #pragma once
 #include "sixstep/control/commissioning/commissioning.hpp"
 #include "sixstep/control/units.hpp"
@@ -38,7 +39,7 @@ struct CommissioningBoard {
   std::uint8_t late_half_ticks = 1;
 };
 
-/// Demands for the commissioning that depend on motor and bench.
+/// Settings of commissioning that depend on motor and bench.
 struct CommissioningWish {
   double test_A = 0.0;             ///< current that the motor withstands for several seconds
   double settle_s = 0.2;           ///< time until the rotor rests
@@ -46,7 +47,7 @@ struct CommissioningWish {
   double slow_turns_s = 10.0;      ///< speed of the slow turn, electrical turns per second
   double fastest_turns_s = 500.0;  ///< largest speed, electrical turns per second
   double spin_up_s = 1.0;          ///< time to the largest speed at the first try
-  std::uint8_t tries = 4;          ///< number of tries; each has a quarter of the acceleration of the try
+  std::uint8_t tries = 4;          ///< number of tries; each try has a quarter of the acceleration of the try
                                    ///< before
 };
 
@@ -75,8 +76,8 @@ constexpr CommissioningConfig commissioning_config(const CommissioningBoard& boa
   return config;
 }
 
-/// `*_base`: SI value of the controller's number 1.0 of a resistance, an inductance, a flux linkage and a
-/// position; 1 in floating point.
+/// `*_base`: SI value that the controller's number 1.0 represents, for a resistance, an inductance, a flux
+/// linkage and a position; 1 in floating point.
 template <class Scalar>
 constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoard& board,
                                                          double ohm_base = 1.0, double henry_base = 1.0,

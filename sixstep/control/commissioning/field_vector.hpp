@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a voltage vector that rests or turns as commanded, and computes the currents in the frame of that
+// Computes the leg commands of a voltage vector that rests or turns, and the currents in the frame of that
 // vector.
 //
 //   v_k = v cos(angle - 120 k),   d_k = 1/2 + v_k + v_0,  v_0 = -(max v_k + min v_k)/2     (model.md 11)
-//   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c);   turned back by the angle: along, across
+//   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c)
 //
-// All numbers are integers. Voltages are in units of 2^-20 of the bus. Currents are in 24ths of a converter's
-// count: the offsets have eighths of a count (adc.hpp), and the formula gives thirds of these. Only
-// commissioning_result.hpp converts to V and A.
+// A rotation by -angle then gives the components of the current along and across the vector. v is the
+// vector's length, v_k and d_k are voltage and duty of leg k. All numbers are integers. Voltages are in units
+// of 2^-20 of the bus. Currents are in 24ths of a converter's count: the offsets are in eighths (adc.hpp),
+// and the formula gives 3 i. Only commissioning_result.hpp converts to V and A.
 #pragma once
 #include <cstdint>
 
@@ -20,8 +21,8 @@ namespace sixstep::control {
 
 /// The whole bus voltage, in units of 2^-20 of the bus.
 inline constexpr std::int32_t whole_bus = std::int32_t{1} << 20;
-/// The longest vector that the three legs can make in every direction: 1/sqrt 3 of the bus in units of 2^-20,
-/// rounded down.
+/// The longest vector that the three legs can produce in every direction: 1/sqrt 3 of the bus in units of
+/// 2^-20, rounded down.
 inline constexpr std::int32_t longest_vector = 605411;
 
 /// Components along the vector and across it, in units of 2^-20 of the bus or in 24ths of a count.
@@ -64,7 +65,7 @@ constexpr LegCommands<Scalar> legs_of_vector(std::int32_t v, BinaryAngle angle) 
   return legs;
 }
 
-/// Currents of the three phases, in eighths of a count, as components along an angle and across it.
+/// Components along an angle and across it of the three phase currents, which are in eighths of a count.
 constexpr FieldVector seen_along(const std::int32_t (&eighths)[3], BinaryAngle angle) {
   const Direction<Q30> to = direction_of<Q30>(angle);
   const std::int32_t alpha = 2 * eighths[0] - eighths[1] - eighths[2];

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the magnet's flux linkage by a rotor that follows a turning voltage vector without load. The flux
-// is computed in the vector's frame. The means over whole electrical turns there contain the fundamental
-// alone:
+// Measures the magnet's flux linkage while the rotor follows a turning voltage vector without load. The
+// computation is in the vector's frame. In this frame, means over whole electrical turns contain the
+// fundamental only:
 //
 //   e = v - R i - j w L i - (3/4) lost s,    psi = |e|/w
 //
-// `lost` is the voltage that dead time and diodes take from a vector along a phase (level_steps.hpp); it is
-// 4/3 of the part of one leg. s is the vector of the signs of the legs' currents. The rotor's lag behind the
-// vector does not enter. A relative error of R enters with the factor R i/e, which is less than 2 at e = v/2.
+// v: voltage vector, i: current, e: back-EMF, w: electrical speed, R and L of a phase. `lost` is the voltage
+// that dead time and diodes subtract from a vector along a phase (level_steps.hpp), 4/3 of the loss of one
+// leg. s is the vector of the signs of the legs' currents. The rotor's lag behind the vector has no
+// influence. A relative error of R changes psi by R i/e times this error; R i/e is below 2 at e = v/2.
 #pragma once
 #include <cstdint>
 
@@ -60,8 +61,7 @@ constexpr FluxTurnReading flux_turn_reading(const LevelStepsReading& winding, co
   const std::int64_t applied = detail::ratio_of(v * state.bus, std::int64_t{4096} * state.ticks);
   const std::int64_t d = detail::ratio_of(state.along * 256, std::int64_t{24} * state.ticks);
   const std::int64_t q = detail::ratio_of(state.across * 256, std::int64_t{24} * state.ticks);
-  const std::int64_t of_legs = std::int64_t{4} * 8 * state.ticks;  // 24 per leg, divided by the 3/4 of the
-                                                                   // formula
+  const std::int64_t of_legs = std::int64_t{4} * 8 * state.ticks;  // 24 per leg, divided by 3/4
   const std::int64_t lost_d = detail::ratio_of(winding.lost * state.signs_along, of_legs);
   const std::int64_t lost_q = detail::ratio_of(winding.lost * state.signs_across, of_legs);
   const std::int64_t along = applied - detail::shifted_down(R * d - X * q, 20) - lost_d;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds which code of the Hall pins belongs to which angle. A field turns the rotor slowly, forward and then
-// backward, and each edge is recorded with the field's angle. No data of the probes is needed: neither which
-// line is connected to which pin, nor which lines are inverted, nor whether the probes are 120 or 60 degrees
-// apart, nor the errors of their position.
+// backward, and each edge is recorded with the field's angle. No data of the probes is needed:
+// - which line is connected to which pin, and which lines are inverted,
+// - whether the probes are 120 or 60 degrees apart,
+// - the errors of the probes' positions.
 //
-// The rotor's d axis lags the field. The lag has three causes: friction over the torque of the current, the
-// delay of the field, and half of the probes' hysteresis. All three change their sign with the direction, so
-// that the mean of both directions is free of them:
+// The rotor's d axis lags the field. The lag has three causes: friction divided by the torque of the current,
+// the delay of the field, and half of the probes' hysteresis. All three change their sign with the direction,
+// and cancel in the mean of both directions:
 //
 //   edge = (forward + backward)/2,   lag = (forward - backward)/2          theta_e = theta_d + 150 degrees (model.md 7)
 //
-// Cogging does not change its sign, and neither does the effect of a back-EMF that is no sine. In a standing
-// field the rotor of a trapezoid of 120 degrees deviates by up to 1.12 degrees, and by 0 at each multiple of
-// 30. The error is larger if the rotor turns so fast that six times its speed comes near the frequency of its
-// swing in the field, sqrt(1.5 p^2 psi I/J).
+// Two errors do not change their sign: cogging, and a back-EMF that is no sine. In a standing field a rotor
+// whose back-EMF is a trapezoid of 120 degrees deviates by up to 1.12 degrees, and by 0 at each multiple of
+// 30 degrees. The error is larger if six times the rotor's electrical speed is near sqrt(1.5 p^2 psi I/J),
+// the frequency of the rotor's swing in the field.
 #pragma once
 #include <cstdint>
 
@@ -23,7 +24,7 @@
 
 namespace sixstep::control {
 
-/// Angle by which theta_e is ahead of the d axis, whose angle is the field's.
+/// Angle by which theta_e is ahead of the d axis. The d axis follows the field.
 inline constexpr BinaryAngle electrical_ahead = 1789569707u;  // 150 degrees
 
 struct HallSurveyConfig {
@@ -32,19 +33,19 @@ struct HallSurveyConfig {
   bool operator==(const HallSurveyConfig&) const = default;
 };
 
-/// The edge that enters a code when the rotor turns forward. When it turns backward, the same edge leaves the
-/// code.
+/// The edge that enters a code when the rotor turns forward. When the rotor turns backward, it leaves the
+/// code at this edge.
 struct SurveyedEdge {
   BinaryAngle first[2]{};  ///< theta_e of the first such edge, forward and backward
   std::int64_t sum[2]{};   ///< sum of the angles by which later edges are ahead of the first
   std::uint8_t count[2]{};
-  std::uint8_t before = 0xff;  ///< the code that precedes this one in forward direction
+  std::uint8_t before = 0xff;  ///< the code before the edge in forward direction
 };
 
 struct HallSurveyState {
   SurveyedEdge edge[8]{};  ///< indexed by the code that the edge enters in forward direction
   std::uint8_t pins = 0xff;
-  bool torn = false;  ///< edges of one code are too far apart, or have different codes before them
+  bool torn = false;  ///< true: edges of one code are too far apart, or the codes before them differ
 };
 
 enum class HallSurvey : std::uint8_t {
@@ -59,7 +60,7 @@ struct HallLines {
   std::uint8_t sector[8] = {no_sector, no_sector, no_sector, no_sector,
                             no_sector, no_sector, no_sector, no_sector};  ///< sector of each code of the pins
   std::uint8_t probe[3]{};    ///< number 1..3 of the probe at pin H1, H2, H3
-  std::uint8_t inverted = 0;  ///< mask of the pins that show their probe inverted, as bits of a code
+  std::uint8_t inverted = 0;  ///< mask of the pins with the inverted signal of their probe
   bool operator==(const HallLines&) const = default;
 };
 
@@ -67,7 +68,7 @@ struct HallSurveyReading {
   HallSurvey verdict = HallSurvey::not_steady;
   std::uint8_t dead_pins = 0;  ///< mask of the pins that never changed, as bits of a code
   HallLines lines{};
-  /// True if no table is needed: hall.hpp decodes the pins with `config` alone.
+  /// True if no table is needed: hall.hpp decodes the pins with only `config`.
   bool plain = false;
   HallConfig config{};
   HallEdges edges{};        ///< electrical angle of each edge
@@ -75,7 +76,7 @@ struct HallSurveyReading {
   std::int32_t lag = 0;     ///< mean angle by which the edges came late in each direction, signed angle
 };
 
-/// The code that correctly connected probes 120 degrees apart would give for `pins`; 000 if there is none.
+/// The code of correctly connected probes 120 degrees apart for `pins`; 000 if there is none.
 constexpr std::uint8_t as_wired(const HallLines& lines, std::uint8_t pins) {
   return hall_of_sector(lines.sector[pins & 7u]);
 }
@@ -107,7 +108,7 @@ constexpr BinaryAngle surveyed(const SurveyedEdge& edge, int way) {
   return edge.first[way] + static_cast<BinaryAngle>(edge.sum[way] / edge.count[way]);
 }
 
-/// Good if six codes follow each other in one ring and each edge was found in both directions.
+/// Returns `good` if six codes follow each other in one ring and each edge was found in both directions.
 constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSurveyState& state,
                                     std::uint8_t& dead_pins) {
   unsigned seen = 0, ones = 0, zeros = 0;
@@ -150,7 +151,7 @@ constexpr void name_lines(HallLines& lines) {
   }
 }
 
-/// Finds whether the lines are those of a correctly connected arrangement, which needs no table.
+/// Sets reading.plain if the lines match correctly connected probes, which need no table.
 constexpr void name_arrangement(HallSurveyReading& reading) {
   constexpr HallArrangement arrangements[] = {HallArrangement::degrees_120, HallArrangement::degrees_60};
   for (const HallArrangement arrangement : arrangements) {
@@ -165,8 +166,8 @@ constexpr void name_arrangement(HallSurveyReading& reading) {
   }
 }
 
-/// Assigns sector and angle to each edge. The numbering begins at the edge nearest to 0 degrees, judged by
-/// the mean of all six.
+/// Assigns sector and angle to each edge. Sector 0 begins at the edge nearest to 0 degrees. The mean offset
+/// of all six edges decides which edge that is.
 constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& reading) {
   std::uint8_t ring[6]{};
   BinaryAngle at[6]{};

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures resistance and time constant of a phase. The voltage along one direction, in which the rotor
-// rests, steps between two levels. The currents have the same signs at both levels, so that dead time and
-// diodes take the same voltage at both, which drops out of the differences:
+// Measures resistance and time constant of a phase. The rotor rests in the direction of the voltage, which
+// steps between two levels. The currents have the same signs at both levels. Dead time and diodes therefore
+// subtract the same voltage at both, and this voltage cancels in the differences:
 //
 //   R = (V_2 - V_1)/(I_2 - I_1),     lost voltage: V_2 - R I_2
 //
-// V is the vector's length times the bus voltage, and I the mean over a level's last quarter. The area
-// between the current and its final value after a step is tau (I_2 - I_1), whatever the rotor does and
-// whatever voltage is lost:
+// V is the vector's length times the bus voltage, and I the mean current of a level's last quarter. After a
+// step, the area between the current and its final value is tau (I_2 - I_1). Neither the rotor's motion nor
+// the lost voltage changes this area:
 //
 //   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, minus the delay from a sample to its voltage
 //   x = T/tau:  S = coth(x/2)/2 for samples at the ends of periods, 1/(2 sinh(x/2)) for samples in their
 //               middles
 //   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              exact to x^4/720 and x^4/640
 //
-// Steps up and down alternate, and their areas are added. The converters' rounding changes I_2 - I_1 by at
-// most 4/3 of a count (2/3 in each mean, by 2 i_a - i_b - i_c). It changes S by a fraction ln(2 n)/n if I_2 -
-// I_1 is n counts.
+// T is the control period. Steps up and down alternate, and their areas are added. The converters' rounding
+// changes I_2 - I_1 by at most 4/3 of a count (2/3 in each mean, by 2 i_a - i_b - i_c). If I_2 - I_1 is n
+// counts, rounding changes S by the fraction ln(2 n)/n.
 #pragma once
 #include <cstdint>
 
@@ -25,8 +25,8 @@
 namespace sixstep::control {
 
 struct LevelStepsConfig {
-  /// Ticks of a level, a multiple of 4. Choose ten time constants, so that the current is constant in the
-  /// last quarter.
+  /// Ticks of a level, a multiple of 4. Choose ten time constants: the current is then constant in the last
+  /// quarter.
   std::uint16_t ticks = 1024;
   std::uint16_t pairs = 4;           ///< pairs of steps, up and down
   std::uint8_t late_half_ticks = 1;  ///< delay from a sample until its output acts at the legs: 0, 1 or 2
@@ -44,7 +44,7 @@ struct LevelSums {
 struct LevelStepsState {
   LevelSums level[2]{};     ///< the lower level, the higher level
   std::uint16_t tick = 0;   ///< tick within the step
-  std::uint16_t steps = 0;  ///< completed steps; the first two do not enter the sums
+  std::uint16_t steps = 0;  ///< completed steps; the sums skip the first two
   bool high = false;
 };
 
@@ -54,11 +54,11 @@ struct LevelStepsReading {
                                        ///< above 0
   std::int32_t resistance = 0;         ///< 2^-20 bus counts per current count
   std::int32_t tau = 0;                ///< time constant, 2^-16 ticks
-  std::int32_t lost = 0;               ///< voltage that dead time and diodes take, 2^-8 bus counts
+  std::int32_t lost = 0;               ///< voltage that dead time and diodes subtract, 2^-8 bus counts
   std::int32_t higher = 0, lower = 0;  ///< currents of the two levels, 24ths of a count
 };
 
-/// Takes a tick's sample of the current along the vector; returns true when the last step is complete.
+/// Adds one tick's sample of the current along the vector; returns true when the last step is complete.
 constexpr bool level_steps_tick(const LevelStepsConfig& config, LevelStepsState& state, std::int32_t along,
                                 std::uint16_t bus_counts) {
   const auto quarter = static_cast<std::uint16_t>(config.ticks / 4);
@@ -85,8 +85,8 @@ constexpr std::int64_t ratio_of(std::int64_t x, std::int64_t y) {
 
 constexpr std::int32_t held_to_32(std::int64_t x) { return saturated<std::int32_t>(x); }
 
-/// Time constant from the area of a step divided by its height, both in 2^-16 ticks. The sample that commands
-/// a step still belongs to the step before.
+/// Time constant from the area of a step divided by its height, both in 2^-16 ticks. The sample whose output
+/// begins a step still belongs to the step before.
 constexpr std::int64_t tau_of_area(std::int64_t area, std::uint8_t late_half_ticks) {
   constexpr std::int64_t tick = std::int64_t{1} << 16;
   const std::int64_t S = area + (1 - late_half_ticks) * (tick / 2);

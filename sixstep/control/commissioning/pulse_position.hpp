@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the position of a rotor at rest by short voltage pulses on the six pairs. Each pulse makes a current
-// V t/L. L depends on x, the angle from the magnet's north to the pair's axis, and on the current i (model.md
-// 7):
+// Finds the position of a rotor at rest by short voltage pulses on the six pairs. The current at the end of a
+// pulse is V t/L. L depends on x, the angle from the magnet's north to the pair's axis, and on the current i
+// (symbols of model.md 7):
 //
 //   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x
 //   x = 60 s - 30 degrees - theta_d for the pair of sector s
 //
-// y_s = 1/I_s is proportional to L. The second harmonic of the six values shows the magnet's axis, by
-// saliency, but not which end is north. The first harmonic shows north, by saturation, and the axis roughly;
-// only this harmonic shows which of the two inductances is along the magnet. Both harmonics are compared with
-// the noise of the readings over the same rounds, and with the rounding of the converters:
+// y_s = 1/I_s is proportional to L.
+// - The second harmonic of the six values comes from saliency. It shows the magnet's axis, but not which end
+//   is north.
+// - The first harmonic comes from saturation. It shows north, and the axis roughly. It also decides which of
+//   the two inductances is the one along the magnet.
+//
+// Both harmonics are compared with the noise of the readings in the same rounds, and with the converters'
+// rounding:
 //
 //   sigma^2 = s^2/n + 3 s^2/N + 45, in eighths of a count squared
 //      s^2/n      n readings of each pair, with the standard deviation s
@@ -17,10 +21,11 @@
 //      45         11 for rounding two phases, 32 for three rounded offsets, 2 for their eighths
 //   each component of a harmonic has the standard deviation sigma/sqrt 3, relative to I_0
 //
-// Rounding alone makes at most 5.1 times this deviation. A first harmonic below six times is not accepted
-// (`seen`): the rotor is round, or the current is too small to saturate it. A second harmonic must also be
-// larger than the amplifiers' difference of gain; otherwise the first harmonic gives the angle. The rotor
-// must not turn. Opposite pairs follow each other, so that the rotor is pushed equally in both directions.
+// I_0 is the mean of the six currents. Rounding by itself causes at most 5.1 times this deviation. A first
+// harmonic below 6 times the deviation is rejected (`seen` is false): the rotor is round, or the current is
+// too small to saturate it. A second harmonic must also exceed the amplifiers' difference of gain; otherwise
+// the first harmonic gives the angle. The rotor must not turn: opposite pairs follow each other, so that
+// their torques cancel.
 #pragma once
 #include <cstdint>
 
@@ -35,8 +40,9 @@ struct PulsePositionConfig {
   std::uint16_t pulse_ticks = 0;  ///< control ticks of a pulse; 0: no pulses
   std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until its current has ended: at least pulse_ticks
   std::uint8_t rounds = 8;        ///< n, the number of rounds; at least two
-  std::uint8_t certain = 6;       ///< least ratio of signal to noise; noise alone reaches 6 once in e^18
-                                  ///< rounds
+  std::uint8_t certain =
+      6;  ///< least ratio of signal to noise; without a signal, noise reaches 6 once in e^18
+          ///< rounds
   std::uint16_t amplifiers = 20;  ///< largest difference of gain between two amplifiers, 1/1000
   bool operator==(const PulsePositionConfig&) const = default;
 };
@@ -50,14 +56,14 @@ struct PulsePositionState {
   std::uint8_t round = 0;
   std::uint16_t ticks = 0;
   bool lost = false;         ///< true: an offset was out of tolerance
-  std::int32_t sum[6]{};     ///< sum for the pair of each sector, eighths of a count: current of the source
-                             ///< minus that of the sink
+  std::int32_t sum[6]{};     ///< sum for each sector's pair, eighths of a count: source current minus sink
+                             ///< current
   std::int64_t squares = 0;  ///< sum of the squares of all readings
 };
 
 struct PulsePositionReading {
   bool seen = false;           ///< true: north was found
-  bool axis_seen = false;      ///< true: the angle is the more exact one, by saliency
+  bool axis_seen = false;      ///< true: saliency gives the angle, which is the more exact result
   BinaryAngle electrical = 0;  ///< theta_e, electrical angle of the rotor
   std::uint8_t sector = no_sector;
   std::uint32_t north_16 = 0, axis_16 = 0;  ///< ratios of the two signals to the noise, in 16ths
@@ -65,7 +71,7 @@ struct PulsePositionReading {
 
 namespace detail {
 
-/// Sector whose pair is pulsed at a step of a round: a sector, then the opposite one.
+/// Sector whose pair is pulsed at a step of a round. The opposite sector follows each sector.
 constexpr std::uint8_t pulsed_sector(std::uint8_t step) {
   return static_cast<std::uint8_t>((step / 2 + (step % 2) * 3) % 6);
 }
@@ -185,8 +191,8 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   reading.axis_seen =
       reading.axis_16 >= certain_16 && axis_20 * 1000 > static_cast<std::int64_t>(config.amplifiers) << 20;
   if (!reading.seen) return reading;
-  // The inductance is least along d. The angle is that of the first pair, which is at -30 degrees; theta_e is
-  // 150 degrees ahead of theta_d.
+  // The inductance is least along d. The angle is relative to the axis of sector 0's pair, which is at -30
+  // degrees; theta_e is 150 degrees ahead of theta_d.
   BinaryAngle d = vector_angle(-north.c, -north.s);
   if (reading.axis_seen) {
     const BinaryAngle half = vector_angle(axis.c, axis.s) / 2;

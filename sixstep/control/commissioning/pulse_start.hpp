@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts the drive without a rotor position sensor after finding the rotor by six pulses (pulse_position.hpp):
+// Starts a drive without a rotor position sensor. Six pulses first find the rotor (pulse_position.hpp):
 //
-//   off -> catching -> pulses -> ramping        north was found: the ramp begins in its sector, without
+//   off -> catching -> pulses -> ramping        north was found: the ramp begins in the rotor's sector,
+//   without
 //                                               alignment or swing
-//                           '---> aligning       north was not found: the start of sensorless.hpp without
-//                                                pulses
+//                           '---> aligning      north was not found: the start of sensorless.hpp without
+//                                               pulses
 //
-// Call these functions instead of those of sensorless_drive.hpp. With pulse_ticks = 0 the drive is that of
-// sensorless_drive.hpp.
+// Call these functions instead of the functions of sensorless_drive.hpp. With pulse_ticks = 0 both drives
+// behave alike.
 #pragma once
 #include "sixstep/control/commissioning/pulse_position.hpp"
 #include "sixstep/control/sensorless/sensorless_drive.hpp"

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the direction of the magnet while it turns, from the flux that it makes in the winding (Boldea, Paicu
-// and Andreescu, Active Flux Concept for Motion-Sensorless Unified AC Drives, IEEE Trans. PE 23, 2008). In the
+// Finds the direction of a turning magnet from its flux in the winding (Boldea, Paicu and Andreescu, Active
+// Flux Concept for Motion-Sensorless Unified AC Drives, IEEE Trans. PE 23, 2008). In the stator's frame, for
+// any saliency:
 // stator's frame, for any saliency:
 //
 //   lambda = integral(u - R i) dt        the winding's total flux
-//   psi_a  = lambda - L_q i              points along the magnet: psi + (L_d - L_q) i_d
+//   psi_a  = lambda - L_q i              vector along the magnet, of length psi + (L_d - L_q) i_d
 //
-// An integral keeps its initial error. In each period lambda is therefore moved towards the flux that the
-// magnet would make in its assumed direction theta^, by a fraction g of the difference:
+// u and i are voltage and current, psi is the magnet's flux linkage. An integral keeps its initial error. In
+// each period lambda therefore moves towards the flux of a magnet in the assumed direction theta^, by a
+// fraction g of the difference:
 //
 //   lambda[n] = lambda[n-1] + T (u - R (i[n] + i[n-1])/2) + g (L_q i + psi_a(theta^) - lambda)
 //
-// In the rotor's frame an error of the flux rotates backwards with w_e. If the rotor turns, the error decays
-// with the polynomial s^2 + w_g s + w_e^2, g = 1 - exp(-w_g T); at standstill it does not decay. u is the
-// mean, from sample to sample, of the voltages that the timer was set to.
+// In the rotor's frame an error of the flux rotates backwards with the electrical speed w_e. If the rotor
+// turns, the error decays with the polynomial s^2 + w_g s + w_e^2, g = 1 - exp(-w_g T). At standstill it does
+// not decay. u is the mean commanded voltage from the last sample to this sample.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -58,7 +60,7 @@ constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, Active
   state.across = seen.q;
   const Scalar size = magnitude(seen.d) + magnitude(seen.q);
   if (!(size > Scalar{})) return Scalar{};
-  // Approximately the sine of the angle; beyond 90 degrees 1, with the sign of the shorter rotation.
+  // Approximately the sine of the angle. Beyond 90 degrees: 1, with the sign of the shorter rotation.
   const Scalar part = seen.q / size;
   return seen.d < Scalar{} ? (seen.q < Scalar{} ? -one<Scalar> : one<Scalar>) : part;
 }

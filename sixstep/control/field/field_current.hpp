@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the currents along the magnet and across it, d and q, with the coupling of the two axes (model.md
+// Controls the currents along the magnet (d) and across it (q). The rotation couples the two axes (model.md
 // 11):
 //
 //   v_d = R i_d + L_d di_d/dt - w_e L_q i_q              e_d = -w p L_q i_q
 //   v_q = R i_q + L_q di_q/dt + w_e (L_d i_d + psi)      e_q =  w (p L_d i_d + p psi)
 //
-// Each axis has a PI (pi.hpp). With decoupling, e is added to the PI's output, so that the PI controls a
-// winding of R and L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The limit of the
-// voltage is one of two:
+// v, i: phase voltage and current, w: mechanical speed, w_e = p w, psi: the magnet's flux linkage. Each axis
+// has a PI (pi.hpp). With decoupling, e is added to the PI's output: the PI then controls a winding of R and
+// L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The voltage has one of two
+// limits:
 //
-//   axes     each axis has its PI's own limit
-//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction. d comes first,
-//            because it weakens the field when the bus is too low, and q has the rest, sqrt(U_s^2/3 - v_d^2)
+//   axes     each axis has the limit of its own PI
+//   circle   |v| <= U_s/sqrt 3, the longest vector that three legs produce in every direction. d has
+//   priority,
+//            because it weakens the field when the bus is too low. q is limited to sqrt(U_s^2/3 - v_d^2).
 //
-// In both cases the PI's state is its output after the limit, minus e. It cannot wind up against a bound that
-// changes with the speed and with the other axis.
+// In both cases the PI's state is its output after the limit, minus e. The state therefore cannot wind up,
+// although the bound changes with the speed and with the other axis.
 //
-// If the rotation takes more than 0.9 of the available voltage, giving d the priority would leave too little
-// v_q. The magnet would then drive a current that needs even more v_d: up to twice psi/L_d. In this case v is
-// moved back to the circle along the line to the voltage that holds the reference, and the integrals wait. A
-// drive that does not decouple its axes then decouples the deviation from the reference
-// (reachable_current.hpp).
+// If the rotation needs more than 0.9 of the available voltage, v_q would be too small if d had priority. The
+// magnet would then drive a current that needs even more v_d: up to twice psi/L_d. In this case v moves back
+// to the circle along the line to the voltage that holds the reference, and the integrals rest. A drive that
+// does not decouple its axes then decouples only the deviation from the reference (reachable_current.hpp).
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/pi.hpp"
@@ -49,7 +50,7 @@ struct FieldCurrentState {
   Dq<Scalar> voltage{};  ///< last output, V of a phase
 };
 
-/// e: voltage that the rotation couples between the axes, at the measured current, with a sine's back-EMF, V.
+/// e, V: voltage that couples the axes when the rotor turns, at the measured current, with a sine's back-EMF.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -58,7 +59,7 @@ constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, c
           T::product(speed_rad_s * current.d, config.d_V_s_A) + T::product(speed_rad_s, config.magnet_V_s)};
 }
 
-/// e, with a magnet of any shape that induces `magnet_V`, V.
+/// e, V, for a magnet of any shape whose back-EMF is `magnet_V`.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s, const Dq<Scalar>& magnet_V) {
@@ -96,8 +97,8 @@ constexpr bool is_within(const Dq<Scalar>& v, Scalar radius) {
   return !(v.d * v.d + v.q * v.q > radius * radius);
 }
 
-/// Fraction of the line from a point within the circle to a point outside of it at which the line meets the
-/// circle.
+/// Where the line from a point within the circle to a point outside of it meets the circle, as a fraction of
+/// the line.
 template <class Scalar>
 constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar radius) {
   const Dq<Scalar> way{to.d - from.d, to.q - from.q};
@@ -109,8 +110,8 @@ constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar
   return left < length ? (left > Scalar{} ? left / length : Scalar{}) : one<Scalar>;
 }
 
-/// True if the reference or the measured current takes more than 0.9 of the voltage. Dead time and errors of
-/// the model need the rest.
+/// True if the reference or the measured current needs more than 0.9 of the voltage. The rest is a reserve
+/// for dead time and errors of the model.
 template <class Scalar>
 constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                         const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar most) {
@@ -120,7 +121,7 @@ constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scala
          !is_within(holding_voltage(config, measured, speed_rad_s), radius);
 }
 
-/// Sum of PI and e, within +-most; at the limit it is exactly the limit.
+/// Sum of the PI's output and e, within +-most; at the limit it is exactly the limit.
 template <class Scalar>
 constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar e,
                               Scalar most) {
@@ -129,7 +130,7 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
   return u == high ? most : u == low ? -most : u + e;
 }
 
-/// Coupling of the deviation from the reference alone, V.
+/// Coupling voltage of the deviation from the reference, V.
 template <class Scalar>
 constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                                   const Dq<Scalar>& measured, Scalar speed_rad_s) {
@@ -138,9 +139,9 @@ constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, cons
   return {is.d - to.d, is.q - to.q};
 }
 
-/// Voltage while the bus is short: the output of both loops. If that is outside of the circle, the output
-/// without the integrals' step is moved to the circle, along the line to the voltage that holds the
-/// reference.
+/// Voltage while the bus is too low: the outputs of both loops. If they lie outside of the circle, the
+/// integrals keep their last state, and the output moves to the circle along the line to the voltage that
+/// holds the reference.
 template <class Scalar>
 constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, FieldCurrentState<Scalar>& state,
                                    const Dq<Scalar>& reference, const Dq<Scalar>& error, const Dq<Scalar>& e,
@@ -189,7 +190,7 @@ constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar
   return state.voltage;
 }
 
-/// One control tick; e is that of the rotation if the axes are decoupled, else 0.
+/// One control tick. If the axes are decoupled, e is the voltage of the rotation, else 0.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_current_step(const FieldCurrentConfig<Scalar>& config,
                                                FieldCurrentState<Scalar>& state, const Dq<Scalar>& reference,

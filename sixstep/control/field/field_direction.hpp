@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the direction of the magnet at the sample of the currents, and in the middle of the period in
-// which the output acts (model.md 11):
+// Computes the direction of the magnet at two instants: when the currents are sampled, and in the middle of
+// the period in which the output acts (model.md 11):
 //
 //   theta_d = theta_e - 150 degrees,   theta_d' = theta_d + (n + 1/2) T w_e
 //
-// n periods lie between the sample and the begin of its output. An output that is rotated into the stator's
-// frame by theta_d instead of theta_d' lags by (n + 1/2) T w_e: at 90 degrees all of v_q would act along d.
+// n: periods between the sample and the begin of its output, T: control period, w_e: electrical speed. An
+// output that is rotated into the stator's frame by theta_d instead of theta_d' lags by (n + 1/2) T w_e. With
+// a lag of 90 degrees all of v_q would act along d.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/sensing/binary_angle.hpp"
@@ -13,8 +14,8 @@
 
 namespace sixstep::control {
 
-/// Directions as cosine and sine: `sampled` is theta_d, `answered` theta_d'. They come from an ideal sensor
-/// or from field_directions().
+/// Directions as cosine and sine: `sampled` is theta_d, `answered` is theta_d'. An ideal sensor or
+/// field_directions() supplies them.
 template <class Scalar>
 struct FieldDirections {
   Direction<Scalar> sampled{}, answered{};

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the leg commands of a field-oriented drive: position P -> speed PI -> currents along the magnet
-// and across it -> three legs. The mode names the loop at which the chain begins. Firmware calls
+// and across it -> three legs. The mode selects the loop at which the chain begins. Firmware calls
 // field_drive_step() once per control tick; a Hall edge needs no call.
 //
 // The reference of Mode::current, and the output of the speed loop, is i_q: the amplitude of the phase
-// currents that make torque, T = 3/2 p psi i_q for a round rotor. i_d* is the current of most torque per
-// ampere plus the current that weakens the field.
+// currents that produce torque, T = 3/2 p psi i_q for a round rotor. i_d* is the sum of two currents: the
+// current of most torque per ampere, and the current that weakens the field.
 //
 // If the back-EMF is no sine, i_d and i_q may follow its shape (harmonic_current.hpp). The reference is then
-// the constant i_q that would make the same mean torque. In a cascade i_d and i_q together stay within
-// current_limit_A: i_d comes first, and the speed PI is limited to the rest, so that it does not wind up.
+// the constant i_q with the same mean torque. In a cascade the vector of i_d and i_q is limited to
+// current_limit_A. i_d has priority; the speed PI is limited to the rest, so that it does not wind up.
 //
-// The currents are controlled by two PIs with symmetric space-vector modulation, or instead by a choice among
+// Two PIs with symmetric space-vector modulation control the currents. Alternatively the drive chooses one of
 // the eight states of three legs (finite_set.hpp). The chopping, current loop and bus voltage of DriveConfig
-// are not used. Of its extras, a slewed or profiled setpoint and another law of the speed loop are possible.
+// are not used. Of its extras, only a slewed or profiled setpoint and another law of the speed loop are
+// possible.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -58,7 +59,7 @@ struct FieldDriveInput {
 
 namespace detail {
 
-/// The current that i_d leaves of the current limit, A.
+/// Limit of i_q, A: the rest of the current limit beside i_d.
 template <class Scalar>
 constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state) {
   const Scalar limit = config.drive.current_limit_A;
@@ -67,7 +68,7 @@ constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const Fiel
 }
 
 /// Coupling of the axes, V. For a shape that is no sine it is computed for the instant at which the output
-/// acts: with the magnet's voltage at that instant, and with the measured current plus the change of the
+/// acts. It then uses the magnet's voltage at that instant, and the measured current plus the change of the
 /// reference until then.
 template <class Scalar>
 constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state,
@@ -84,7 +85,7 @@ constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const Field
   return {e.d + to.voltage.d, e.q + to.voltage.q};
 }
 
-/// Voltage that the magnet, at angle `magnet`, induces along itself and across, V.
+/// Voltage, V, that a magnet at angle `magnet` induces along itself and across.
 template <class Scalar>
 constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, BinaryAngle magnet,
                                     Scalar speed_rad_s) {
@@ -93,7 +94,7 @@ constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, Bina
   return {Scalar{}, ScalarTraits<Scalar>::product(speed_rad_s, psi)};
 }
 
-/// Chooses the states of three legs for a whole period, instead of a voltage that pulses make.
+/// Chooses the states of the three legs for a whole period; no pulses are modulated.
 template <class Scalar>
 constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>& config,
                                                  FieldDriveState<Scalar>& state,
@@ -117,8 +118,8 @@ constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>&
   return state.command;
 }
 
-/// Reference of i_q, A: within what i_d leaves of the current limit, and within the voltage if the field is
-/// weakened.
+/// Reference of i_q, A. It is limited to the rest of the current limit beside i_d and, if the field is
+/// weakened, by the voltage.
 template <class Scalar>
 constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                                 const Measurement<Scalar>& measured, Scalar value,
@@ -146,8 +147,8 @@ constexpr Scalar slewed(const DriveConfig<Scalar>& drive, DriveState<Scalar>& st
                          measured_value(drive.mode, measured, i_q), measured.speed_rad_s);
 }
 
-/// Results of the loops around the currents, A: the part of state.reference that makes torque and the part
-/// that weakens the field.
+/// Results of the loops around the currents, A: the part of state.reference for the torque and the part that
+/// weakens the field.
 template <class Scalar>
 struct FieldAsked {
   Scalar i_q{}, weakening{};
@@ -185,8 +186,8 @@ constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config
 }  // namespace detail
 
 /// One control tick. Returns state.command, valid until the next call. Mode::duty is not possible: the bridge
-/// is off then. The function is inlined, so that a constant configuration leaves no code of unused parts;
-/// this saves 2 KB on a Cortex-M4.
+/// is off then. Inlining lets the compiler remove unused parts of a constant configuration, which saves 2 KB
+/// on a Cortex-M4.
 template <class Scalar>
 [[gnu::always_inline]] constexpr const LegCommands<Scalar>& field_drive_step(
     const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
@@ -206,7 +207,7 @@ template <class Scalar>
   return state.command;
 }
 
-/// Replaces the configuration between two ticks (retune.hpp). Loops that the old mode did not run begin at
+/// Replaces the configuration between two ticks (retune.hpp). Loops that did not run in the old mode begin at
 /// rest.
 template <class Scalar>
 constexpr void retune(FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Field weakening: where the back-EMF is above the bus, a current along the magnet lowers its field. The
-// voltage that the current loops leave controls this current (Kim and Sul, Speed Control of Interior
+// voltage reserve of the current loops controls this current (Kim and Sul, Speed Control of Interior
 // Permanent Magnet Synchronous Motor Drive for the Flux Weakening Operation, IEEE Trans. IA 33, 1997):
 //
 //   i_d[n+1] = i_d[n] + K (m U_s/sqrt 3 - |v[n]|), clamped to [-I, 0]
 //
-// The law needs neither psi nor L. While |v| is above the fraction m of the voltage circle, i_d falls; when
-// |v| is below, i_d returns to 0. The state itself is clamped, so that nothing winds up. |v| is about v_q,
-// and v_q changes by w_e L_d per ampere of i_d, so that the law's own pole is 1 - K w_e L_d. K is designed at
-// one speed and is stable at electrical speeds below 2/(K L_d), if the inner loops are much faster
-// (design/loops/field_current.hpp).
+// The law needs neither psi nor L. While |v| is above the fraction m of the voltage circle, i_d falls; while
+// |v| is below, i_d returns to 0. The clamped i_d is the state, so that it does not wind up. |v| is about
+// v_q, and v_q changes by w_e L_d per ampere of i_d. The law's own pole is therefore 1 - K w_e L_d. K is
+// designed at one speed. The law is stable at electrical speeds below 2/(K L_d) if the inner loops are much
+// faster (design/loops/field_current.hpp).
 //
-// A current above psi/L_d would reverse the field, and still more current would need more voltage: I is at
-// most psi/L_d. The voltage also bounds i_q. For a round rotor with i_d = -psi/L_d the bound is exactly
+// A current above psi/L_d would reverse the field, and a larger current would need more voltage: I is at most
+// psi/L_d. The voltage also bounds i_q. For a round rotor with i_d = -psi/L_d the bound is exactly
 //
 //   |i_q| <= m U_s/sqrt 3/(w_e L_q)
 //
-// A reference beyond this bound would take the whole voltage circle along d, and neither current would be
+// A reference beyond this bound would need the whole voltage circle along d, and neither current would be
 // controlled.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
@@ -50,8 +50,8 @@ constexpr Scalar field_weakening_step(const FieldWeakeningConfig<Scalar>& config
   return T::signal(state.i_d);
 }
 
-/// The current across the magnet, A, at most `most` >= 0, that the voltage allows at this speed; `most` if
-/// the field is not weakened.
+/// Bound of the current across the magnet, A, that the voltage allows at this speed: at most `most` >= 0.
+/// Returns `most` if the field is not weakened.
 template <class Scalar>
 constexpr Scalar voltage_bound(const FieldWeakeningConfig<Scalar>& config,
                                const FieldCurrentConfig<Scalar>& current, Scalar speed_rad_s, Scalar bus_V,

@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the currents without a modulator. Three legs, each high or low for a whole period, make seven
-// voltages. The one whose current comes nearest to the reference is applied (Rodriguez et al., Predictive
-// current control of a voltage source inverter, IEEE Trans. IE 54, 2007).
+// Controls the currents without a modulator. Three legs, each high or low for a whole period, give seven
+// different voltages. The controller applies the voltage that brings the current nearest to the reference
+// (Rodriguez et al., Predictive current control of a voltage source inverter, IEEE Trans. IE 54, 2007).
 //
-// If the output acts a period late, the current is first predicted to the begin of that period, with the
-// voltage that acts until then (Cortes et al., Delay compensation in model predictive current control of a
-// three-phase inverter, IEEE Trans. IE 59, 2012).
+// If the output acts one period late, the controller first predicts the current at the begin of that period,
+// from the voltage that acts until then (Cortes et al., Delay compensation in model predictive current
+// control of a three-phase inverter, IEEE Trans. IE 59, 2012).
 //
-// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. In a fixed frame, the
-// magnet's in the middle of the period, the winding is R and L with the coupling of the rotation
-// (field_current.hpp):
+// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. The computation uses the
+// magnet's frame in the middle of the period, at rest. In this frame the winding is R and L with the coupling
+// of the rotation (field_current.hpp):
 //
 //   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
-//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or what the shape makes (harmonic_current.hpp)
+//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or the shape's back-EMF
+//                                                              (harmonic_current.hpp)
 //
-// so that i is rotated back by x/2, advanced by a period, and rotated back by x/2 again. This is exact for a
-// round rotor except for e: the rotation of e by +-x/2 about its mean leaves an error of x^2/24 of e. Of the
-// eight states, the one with the least cost is chosen:
+// i is rotated back by x/2, advanced by a period, and rotated back by x/2 again. For a round rotor this is
+// exact except for e: the rotation of e by +-x/2 about its mean causes an error of x^2/24 of e. The
+// controller chooses the state of least cost among the eight:
 //
 //   J = |i* - i'|^2 + s^2 (number of legs that change)
 //
-// where s is the current error, in A, that weighs as much as one switching leg. A current beyond the bound
-// `most_A` is worse than any within it; among those beyond, the shortest is best. Among states of equal cost
-// the one that changes fewer legs is chosen, which decides between the two zero vectors.
+// i* is the reference, i' the current one period later. s is the current error, in A, that costs as much as
+// one switching leg. A current beyond the bound `most_A` is worse than every current within it; of several
+// currents beyond it, the shortest is best. Among states of equal cost, the state that changes fewer legs is
+// chosen. This rule selects one of the two zero vectors.
 //
-// A leg switches at most once per period, so that its frequency varies up to 1/(2 T). If the bus suffices, i'
-// is within 2/(3 sqrt 3) b U of i*, the radius of the triangles that the seven currents make. There is no
-// integral: errors of the model, dead time and a diode's drop among them, remain in part in the mean.
+// A leg switches at most once per period, with a frequency that varies up to 1/(2 T). If the bus suffices, i'
+// is within 2/(3 sqrt 3) b U of i*: this is the circumradius of the triangles between the seven currents.
+// There is no integral: errors of the model, such as dead time and a diode's drop, cause an error of the mean
+// current.
 //
 // This control exists in floating point only, because its scaling is not proved.
 #pragma once
@@ -58,8 +61,8 @@ using LegBits = std::uint8_t;
 template <class Scalar>
 struct FiniteSetState {
   LegBits legs = 0;       ///< legs of the last output
-  Dq<Scalar> foretold{};  ///< predicted current at the end of that output's period, in the magnet's frame at
-                          ///< that time
+  Dq<Scalar> foretold{};  ///< predicted current at the end of that period, in the magnet's frame at that
+                          ///< instant
 };
 
 /// Inputs of a tick. `e` belongs to the period that has begun, `e_next` to the period to be commanded; each
@@ -72,8 +75,8 @@ struct FiniteSetInput {
   Dq<Scalar> e{}, e_next{};
 };
 
-/// The phase voltages of three legs as a vector, V. The voltage of phase a against the star point is U (2 a -
-/// b - c)/3.
+/// The phase voltages of three legs as a vector, V. The voltage of phase a against the star point is
+/// U (2 a - b - c)/3, with a, b, c = 1 for a high leg.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> legs_voltage(LegBits legs, Scalar bus_V) {
   const auto side = [&](unsigned k) { return (legs >> k & 1u) != 0 ? bus_V : Scalar{}; };
@@ -96,19 +99,19 @@ constexpr LegCommands<Scalar> as_legs(LegBits legs) {
 
 namespace detail {
 
-/// The direction `from`, rotated further by `by`.
+/// The direction `from`, rotated forward by `by`.
 template <class Scalar>
 constexpr Direction<Scalar> turned(const Direction<Scalar>& from, const Direction<Scalar>& by) {
   return {from.cos * by.cos - from.sin * by.sin, from.sin * by.cos + from.cos * by.sin};
 }
 
-/// The vector x in a frame that is rotated further by `by`.
+/// The vector x in a frame that is rotated forward by `by`.
 template <class Scalar>
 constexpr Dq<Scalar> seen_from(const Dq<Scalar>& x, const Direction<Scalar>& by) {
   return {x.d * by.cos + x.q * by.sin, x.q * by.cos - x.d * by.sin};
 }
 
-/// i' without a voltage, in the magnet's frame in the middle of the period, A.
+/// i' for a voltage of 0, in the magnet's frame in the middle of the period, A.
 template <class Scalar>
 constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
                                 Scalar speed_rad_s, const Dq<Scalar>& e) {
@@ -119,7 +122,7 @@ constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<
           T::product(i.q, config.q_decay) - T::product(x_q, config.q_A_per_V)};
 }
 
-/// Change of i' by a voltage v in the same frame, A.
+/// Change of i', A, by a voltage v in the same frame.
 template <class Scalar>
 constexpr Dq<Scalar> driven_by(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& v) {
   using T = ScalarTraits<Scalar>;
@@ -131,7 +134,8 @@ constexpr Scalar square(const Dq<Scalar>& x) {
   return x.d * x.d + x.q * x.q;
 }
 
-/// Rating of a state: first the current beyond the bound, then the cost, then the number of legs that change.
+/// Rating of a state. The members are compared in this order: the current beyond the bound, the cost, the
+/// number of legs that change.
 template <class Scalar>
 struct Judged {
   Scalar beyond{}, cost{};
@@ -180,7 +184,7 @@ constexpr LegBits finite_set_step(const FiniteSetConfig<Scalar>& config, FiniteS
     i = foretold(config, i, legs_voltage(state.legs, in.bus_V), middle, half, in.speed_rad_s, in.e);
     middle = detail::turned(detail::turned(middle, half), half);
   }
-  // All eight currents would be rotated by the same angle: the reference is rotated back instead.
+  // Rotating the reference back once replaces rotating all eight currents forward.
   const Dq<Scalar> alone = detail::left_alone(config, detail::seen_from(i, half), in.speed_rad_s, in.e_next);
   const Direction<Scalar> back{half.cos, -half.sin};
   const Dq<Scalar> reference = detail::seen_from(in.reference, back);

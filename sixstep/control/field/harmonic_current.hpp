@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes currents for a back-EMF that is no sine, so that the torque is the same at every angle, with the
-// least copper loss. In the frame of the magnet the three phases' back-EMFs are a vector w p psi g(theta),
-// with g = (0, 1) for a sine. For any other shape g varies in direction and length, with the sixth harmonic
-// and its multiples, and
+// Computes currents for a back-EMF that is no sine: the torque is the same at every angle, with the least
+// copper loss. In the magnet's frame the back-EMFs of the three phases are a vector w p psi g(theta). w:
+// mechanical speed, psi: flux linkage. For a sine g = (0, 1). For other shapes the direction and length of g
+// vary with the sixth harmonic and its multiples. The torque is
 //
 //   T = 3/2 p psi (g_d i_d + g_q i_q)
 //
-// With a constant i_q the torque varies as g_q does. The shortest current that makes T = 3/2 p psi I at an
-// angle is in the direction of g (Hung and Ding, Design of currents to reduce torque ripple in brushless
+// With a constant i_q the torque varies as g_q does. Of the currents with T = 3/2 p psi I at an angle, the
+// shortest has the direction of g (Hung and Ding, Design of currents to reduce torque ripple in brushless
 // permanent magnet motors, IEE Proc. B 140, 1993):
 //
 //   i* = I g/|g|^2
 //
-// A star point that is not connected carries no current, so that a part common to the three phases makes no
-// torque and no loss: it drops out of g. A current i_w that weakens the field would make torque along g. Only
-// its component across g is used, (i_w g_q/|g|^2) (g_q, -g_d), which makes no torque. Both currents together
-// stay within I_max if |I| <= min|g| sqrt(I_max^2 - i_w^2).
+// The star point is not connected and carries no current. A part of the back-EMF that is common to the three
+// phases therefore causes no torque and no loss, and g does not contain it. A current i_w that weakens the
+// field would cause torque along g. Therefore only its component across g is used, (i_w g_q/|g|^2) (g_q,
+// -g_d), which causes no torque. The sum of both currents is within I_max if |I| <= min|g| sqrt(I_max^2 -
+// i_w^2).
 //
-// If phases and half waves are alike, g has a period of 60 electrical degrees. It is stored as a table of 32
+// If phases and half waves are alike, g has a period of 60 electrical degrees. g is stored as a table of 32
 // points with straight lines between them. The corners of a trapezoid of 120 degrees are points of the table,
-// and its curves are exact to 1.6e-4. A Fourier series would converge with the square of the order: 32 of its
-// numbers leave an error of 0.7 % at the corners, for four times the products.
+// and curved parts are exact to 1.6e-4. A Fourier series converges only with the square of the order: 32
+// coefficients have an error of 0.7 % at the corners and need four times as many products.
 //
-// A loop without feed-forward lags. If it decouples the axes, the sixth harmonic of the current is fed
-// forward with the coupling. In addition to w p psi g this is the voltage that changes the current, in the
-// period of the output, from i* at the period's begin to i* at its end. i* itself is taken at the sample's
-// angle, as the measured current is:
+// A loop without feed-forward lags. If the loop decouples the axes, the sixth harmonic of the current is fed
+// forward with the coupling. Besides w p psi g the fed voltage v changes the current, in the output's period,
+// from i* at the begin to i* at the end. i* is the current for the angle at the sample, like the measured
+// current:
 //
 //   v = L (i*(theta' + x/2) - i*(theta' - x/2))/T + R (i*(theta') - (i_w, I)),   x = w_e T
 //
-// The loop then corrects only the errors of the model, as long as the voltage suffices. If the loop does not
-// decouple the axes, i* is taken at the angle that the magnet has when the loop has followed. Then there is
-// no lag to the first order of 6 w_e over the loop's bandwidth, and the remaining lag grows with the square
-// of this ratio.
+// theta' is the magnet's angle in the middle of the period. The loop then corrects only the errors of the
+// model, as long as the voltage suffices. If the loop does not decouple the axes, i* is computed for the
+// magnet's angle at the later instant at which the current has followed. The lag is then 0 to the first order
+// of 6 w_e over the loop's bandwidth, and the rest grows with the square of this ratio.
 //
 // This control exists in floating point only, because its scaling is not proved.
 #pragma once
@@ -43,7 +44,7 @@ namespace sixstep::control {
 
 inline constexpr std::uint8_t shape_points = 32;
 
-/// The default is the current for a sine: i_q alone.
+/// The default is the current for a sine: only i_q.
 template <class Scalar>
 struct HarmonicCurrentConfig {
   bool on = false;
@@ -61,7 +62,7 @@ struct HarmonicCurrentConfig {
 /// g at an angle of the magnet.
 template <class Scalar>
 constexpr Dq<Scalar> shape_at(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet) {
-  const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // wraps where the shape repeats
+  const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // overflows where the shape repeats
   const auto n = static_cast<std::uint8_t>(in_sixth >> 27);
   const auto rest = static_cast<std::int32_t>((in_sixth << 5) >> 1);
   const Scalar part = AngleTraits<Scalar>::half_turns(rest);
@@ -80,7 +81,7 @@ constexpr Dq<Scalar> current_along(const Dq<Scalar>& g, Scalar I, Scalar weakeni
 
 }  // namespace detail
 
-/// i* for a torque current I and a current along the magnet that weakens its field, A.
+/// i*, A, for a torque current I and a current `weakening` along the magnet that weakens its field.
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Scalar I, Scalar weakening) {
@@ -88,8 +89,8 @@ constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& confi
                                weakening);
 }
 
-/// i*, A, in a period in whose middle the magnet has the angle `magnet`, and the voltage that changes i* in
-/// this period, V.
+/// i*, A, of a period, and the voltage, V, that changes i* within the period. `magnet` is the magnet's angle
+/// in the middle of the period.
 template <class Scalar>
 struct TakenAlong {
   Dq<Scalar> current{}, voltage{};
@@ -110,7 +111,7 @@ constexpr TakenAlong<Scalar> taken_along(const HarmonicCurrentConfig<Scalar>& co
            T::product(end.q - begin.q, config.slope_V_A) + T::product(middle.q - I, config.R_ohm)}};
 }
 
-/// w p psi g, V: voltage of the magnet along itself and across. It replaces (0, w p psi) of a sine.
+/// w p psi g, V: the magnet's back-EMF along itself and across. For a sine it is (0, w p psi).
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_voltage(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Gain<Scalar> magnet_V_s) {

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the magnet's axis, at standstill too. A voltage V along the assumed axis, up in one PWM period and
-// down in the next, makes a response of the current that is evaluated. For a rotor whose axis is e ahead of
-// the assumed one (model.md 7, over a period T so short that R does not matter)
+// Finds the magnet's axis, also at standstill. A voltage along the assumed axis is +V in one PWM period and
+// -V in the next. The response of the current is evaluated. If the rotor's axis is ahead of the assumed axis
+// by the angle e, and the period T is so short that R does not matter (symbols of model.md 7):
 //
 //   change in an up period minus change in a down period, halved:
 //     h_d = V T (Y_S + Y_D cos 2e),   h_q = V T Y_D sin 2e
 //   Y_S = (1/L_d + 1/L_q)/2,   Y_D = (1/L_d - 1/L_q)/2
 //
-// The assumed axis is right if the response is along it alone. h_q/(2 V T Y_D) is e for small e, and has the
-// right sign for errors up to 90 degrees (Yoon, Sul, Morimoto and Ide, High-Bandwidth Sensorless Algorithm
-// for AC Machines Based on Square-Wave-Type Voltage Injection, IEEE Trans. IA 47, 2011). The response shows
-// the axis, but not which of its ends is north (polarity.hpp).
+// h_q is 0 if the assumed axis is right. h_q/(2 V T Y_D) is e for small e, and has the right sign for errors
+// up to 90 degrees (Yoon, Sul, Morimoto and Ide, High-Bandwidth Sensorless Algorithm for AC Machines Based on
+// Square-Wave-Type Voltage Injection, IEEE Trans. IA 47, 2011). The response shows the axis, but not which of
+// its ends is north (polarity.hpp).
 //
-// The drive's own currents change too, and by more than the pulse does if a current is stepped. D[n] is the
-// change of the current in period n. (D[n] - 2 D[n-1] + D[n-2])/4 is the part that alternates with the pulse;
-// it is a period old, and a current that follows a parabola leaves nothing in it. The mean of two consecutive
-// samples does not contain the pulse; the current loops use this mean, half a period late. Samples are at the
-// begin of a period, because in its middle the pulse's current is zero. This method exists in floating point
-// only, because its scaling is not proved.
+// The drive's own currents change too; a step of the current changes them by more than the pulse does. D[n]
+// is the change of the current in period n. (D[n] - 2 D[n-1] + D[n-2])/4 is the part that alternates with the
+// pulse. It is one period old, and a current that follows a parabola does not contribute to it. The mean of
+// two consecutive samples does not contain the pulse. The current loops use this mean, which is half a period
+// old. Samples are at the begin of a period, because the pulse's current is zero in the middle of a period.
+// This method exists in floating point only, because its scaling is not proved.
 #pragma once
 #include <cstdint>
 
@@ -30,16 +30,16 @@ namespace sixstep::control {
 template <class Scalar>
 struct InjectionConfig {
   Scalar voltage_V{};        ///< V, of a phase; 0: no injection
-  Gain<Scalar> rad_per_A{};  ///< 1/(2 V T Y_D); below 0 where L_d > L_q
+  Gain<Scalar> rad_per_A{};  ///< 1/(2 V T Y_D); below 0 if L_d > L_q
   bool operator==(const InjectionConfig&) const = default;
 };
 
 template <class Scalar>
 struct InjectionState {
   AlphaBeta<Scalar> current{};      ///< current at the last sample, A
-  Dq<Scalar> change{};              ///< change of the current since the sample before, A, in the frame of its
-                                    ///< period
-  Dq<Scalar> turn{};                ///< half of the difference between this change and the one before, A
+  Dq<Scalar> change{};              ///< change of the current since the sample before, A, in its period's
+                                    ///< frame
+  Dq<Scalar> turn{};                ///< half of `change` minus the change before, A
   Direction<Scalar> answered[3]{};  ///< directions of the pulses of the last ticks, the newest first
   std::uint8_t up = 0;              ///< bit n: the output of n ticks ago pulsed up
   std::uint8_t pulses = 0;          ///< bit n: the output of n ticks ago pulsed
@@ -54,8 +54,8 @@ constexpr bool pulsed_thrice(std::uint8_t pulses, std::uint8_t n) { return ((pul
 
 }  // namespace detail
 
-/// One sample: returns h, A, in the frame of its pulse; 0 if the periods before had no pulses. n: ticks from
-/// an output to its period, at most 2.
+/// One sample: returns h, A, in the frame of the pulse; 0 if the periods before had no pulses. n: ticks from
+/// an output to the begin of its period, at most 2.
 template <class Scalar>
 constexpr Dq<Scalar> injection_response(InjectionState<Scalar>& state, const AlphaBeta<Scalar>& current,
                                         std::uint8_t n) {
@@ -73,7 +73,7 @@ constexpr Dq<Scalar> injection_response(InjectionState<Scalar>& state, const Alp
   return ((state.up >> n) & 1u) != 0 ? h : Dq<Scalar>{-h.d, -h.q};
 }
 
-/// Voltage of the pulse in this tick's output: V along the axis at which the output acts, up after down.
+/// Voltage of the pulse in this tick's output, along the axis at which the output acts: V or -V by turns.
 template <class Scalar>
 constexpr Scalar injected_voltage(const InjectionConfig<Scalar>& config, InjectionState<Scalar>& state,
                                   const Direction<Scalar>& along, bool on) {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the direction of the magnet without a sensor. At standstill and low speed it uses the current's
-// response to a pulsing voltage (injection.hpp), at speed the flux that the magnet makes in the winding
-// (active_flux.hpp). Both give the angle by which the magnet is ahead of the estimate. One tracking loop
-// (sensing/tracking.hpp) follows the two, mixed by speed:
+// response to a pulsing voltage (injection.hpp). At higher speed it uses the magnet's flux in the winding
+// (active_flux.hpp). Each method gives an error: the angle by which the magnet is ahead of the estimate. One
+// tracking loop (sensing/tracking.hpp) follows the mean of both errors, weighted by speed:
 //
 //   error = (1 - m) e_injection + m e_flux,   m = (|w| - w_low)/(w_high - w_low) within 0..1
 //
 // Above w_high no voltage is injected. The start:
 //
 //   with injection      axis -> north -> following      the rotor is found at standstill and does not move
-//                                '-----> unseen          the iron does not saturate: the drive stops
-//   by the flux alone   aligning -> ramping -> following    a current turns the rotor before it can be followed
-//                            '--------'---------'--> unseen    it was lost too often in a row, after short runs
+//                                '-----> unseen         the iron does not saturate: the drive stops
+//   without injection   aligning -> ramping -> following     a current turns the rotor at first
+//                            '--------'---------'--> unseen  too many failed starts in a row
 //
-// Without injection a voltage along an axis holds the rotor, and then a voltage a quarter turn further, so
-// that the rotor cannot rest at a dead point. After that a current vector that turns with a constant
-// acceleration accelerates the rotor, up to a speed at which the flux can be followed. A rotor that becomes
+// Without injection a voltage along an axis pulls the rotor, then a voltage a quarter turn ahead: with the
+// first voltage only, the rotor could rest opposite to it, where the torque is 0. Then a current vector
+// accelerates the rotor constantly, up to a speed at which the flux can be followed. A rotor that becomes
 // slower than w_low is started again. The estimator exists in floating point only.
 #pragma once
 #include "sixstep/control/field/active_flux.hpp"
@@ -29,14 +29,14 @@ namespace sixstep::control {
 
 enum class EstimatorPhase : std::uint8_t { axis, north, aligning, ramping, following, unseen };
 
-/// Start by a current that turns the rotor before it can be followed. The default starts nothing.
+/// Start by a current that turns the rotor until it can be followed. The default starts nothing.
 template <class Scalar>
 struct TurnStartConfig {
   Scalar current_A{};             ///< current along the vector
   std::uint32_t align_ticks = 0;  ///< duration of the alignment
   std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 turn per tick
   std::int64_t enough = 0;        ///< speed from which the flux is followed, 2^-48 turn per tick
-  std::uint32_t good_ticks = 0;   ///< a rotor that has been followed for this time has started
+  std::uint32_t good_ticks = 0;   ///< ticks of following after which the start has succeeded
   std::uint8_t retries = 3;       ///< failed starts in a row before the drive stops
   bool operator==(const TurnStartConfig&) const = default;
 };
@@ -72,11 +72,11 @@ struct EstimatorState {
   InjectionState<Scalar> injection{};
   NorthState<Scalar> north{};
   ActiveFluxState<Scalar> flux{};
-  Dq<Scalar> current{};               ///< current at the last sample, A, in the frame of that sample
+  Dq<Scalar> current{};               ///< current at the last sample, A, in the frame at that sample
   AlphaBeta<Scalar> answered_V[4]{};  ///< voltages of the last ticks' outputs, V, the newest first
 };
 
-/// True while a current turns a rotor that is not yet followed.
+/// True while a current turns a rotor that the estimator cannot follow yet.
 template <class Scalar>
 constexpr bool estimator_turns(const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::aligning || state.phase == EstimatorPhase::ramping;
@@ -109,7 +109,7 @@ constexpr void estimator_begin(const EstimatorConfig<Scalar>& config, EstimatorS
   state.flux.flux = {config.flux.magnet_Vs, Scalar{}};
 }
 
-/// Mean voltage from the last sample to this one, V.
+/// Mean voltage from the last sample to the present sample, V.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> mean_voltage(const EstimatorConfig<Scalar>& config,
                                          const EstimatorState<Scalar>& state) {
@@ -128,15 +128,15 @@ constexpr Scalar flux_weight(const EstimatorConfig<Scalar>& config, Scalar speed
   return past >= wide ? one<Scalar> : past > Scalar{} ? past / wide : Scalar{};
 }
 
-/// The other end of the axis is north: rotates the frame by half a turn, with the current that is stored in
-/// it.
+/// Call it if north is the other end of the axis: rotates the frame and the current stored in it by half a
+/// turn.
 template <class Scalar>
 constexpr void turn_round(EstimatorState<Scalar>& state) {
   state.tracking.angle += half_turn;
   state.current = {-state.current.d, -state.current.q};
 }
 
-/// Rotates the current vector and the estimate with it, without regard to the rotor.
+/// Rotates the current vector, and the estimate with it. The rotor's real angle has no influence.
 template <class Scalar>
 constexpr void turn_on(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state) {
   const TurnStartConfig<Scalar>& start = config.start;
@@ -165,13 +165,13 @@ constexpr void find_north(const EstimatorConfig<Scalar>& config, EstimatorState<
   if (state.north.phase == NorthPhase::opposite) turn_round(state);
   if (state.north.phase != NorthPhase::opposite && state.north.phase != NorthPhase::found) return;
   state.phase = EstimatorPhase::following;
-  // The flux that was estimated before north was known is replaced.
+  // Replaces the flux that was estimated before north was known.
   const Direction<Scalar> magnet = direction_of<Scalar>(state.tracking.angle);
   state.flux.flux = {config.flux.magnet_Vs * magnet.cos + config.flux.L_q_H * state.flux.current.alpha,
                      config.flux.magnet_Vs * magnet.sin + config.flux.L_q_H * state.flux.current.beta};
 }
 
-/// True if only the flux can be followed and the rotor is too slow for that.
+/// True if there is no injection and the rotor is too slow for the flux to be followed.
 template <class Scalar>
 constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::following && !(config.injection.voltage_V > Scalar{}) &&
@@ -197,8 +197,8 @@ constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState
 
 }  // namespace detail
 
-/// One control tick with its currents. Returns them in the frame of the assumed magnet, A, without the pulse.
-/// `reversed`: direction in which a start turns the rotor. `turns`: the setpoint requires a speed at which
+/// One control tick with its currents. Returns the currents in the frame of the assumed magnet, A, without
+/// the pulse. `reversed`: a start turns the rotor backward. `turns`: the setpoint requires a speed at which
 /// the rotor can be followed.
 template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
@@ -231,7 +231,7 @@ constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, Estim
   return mean;
 }
 
-/// Stores the voltage of the tick's output, computed from the duties that the timer gets, which are clamped.
+/// Stores the voltage of the tick's output, computed from the clamped duties that the timer receives.
 template <class Scalar>
 constexpr void estimator_answered(EstimatorState<Scalar>& state, const LegCommands<Scalar>& command,
                                   Scalar bus_V) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds which end of the magnet's axis is north, once the axis is known (injection.hpp). A current along the
-// axis that adds to the magnet's field saturates the iron (model.md 7),
+// Finds which end of the magnet's axis is north, after injection.hpp has found the axis. A current along the
+// axis that adds to the magnet's field saturates the iron (symbols of model.md 7),
 //
 //   L_d(i_d) = L_d (1 - i_d/I_sat),   h_d = V T/L_d(i_d)
 //
-// so that the pulse makes a larger response. A current I along the assumed axis is held first, then -I; h+
-// and h- are the responses:
+// and the response h_d to the pulse is then larger. A current I along the assumed axis flows first, then -I.
+// h+ and h- are the responses:
 //
 //   (h+ - h-)/(h+ + h-) = +-I/I_sat
 //
-// Neither current makes torque, because both are along the axis. A result below `certain` is rejected: either
-// the iron does not saturate, or the noise is as large.
+// Neither current causes torque, because both are along the axis. A result below `certain` is rejected: the
+// iron does not saturate, or the noise is as large as the result.
 #pragma once
 #include <cstdint>
 
@@ -25,7 +25,7 @@ struct PolarityConfig {
   Scalar current_A{};              ///< I, current along the axis
   Gain<Scalar> certain{};          ///< smallest |(h+ - h-)/(h+ + h-)| that is accepted
   std::uint16_t settle_ticks = 0;  ///< ticks until the current is constant, after each change
-  std::uint16_t look_ticks = 0;    ///< ticks after that over which h_d is summed
+  std::uint16_t look_ticks = 0;    ///< ticks over which h_d is summed after that
   bool operator==(const PolarityConfig&) const = default;
 };
 

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces a current reference that the available voltage V cannot hold at a speed. In the rotor's frame a
-// constant current i needs
+// constant current i needs (symbols of model.md 11)
 //
 //   v = Z i + E,   Z = [R, -w_e L_q; w_e L_d, R],   E = (0, w_e psi)                  |v| <= V
 //
-// so that the currents that can be held fill a disc (an ellipse if the rotor is salient) around -Z^-1 E, the
-// current with shorted terminals. Above the speed at which |E| is V, the disc does not contain i = 0: for
-// every reference a current of at least (|E| - V)/|Z| flows. A reference outside of the disc is changed in
-// two steps:
+// The possible currents fill a disc (an ellipse if the rotor is salient) around -Z^-1 E, the current with
+// shorted terminals. Above the speed at which |E| is V, the disc does not contain i = 0: for every reference
+// a current of at least (|E| - V)/|Z| flows. A reference outside of the disc is changed in two steps:
 //
 //   1  the driving torque is reduced: i_q falls towards 0 at the same i_d, as far as the voltage requires
-//   2  if that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: i moves along the line to
+//   2  if step 1 is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: i moves along the line
+//   to
 //      the disc's centre, up to its rim
 //
-// For a round rotor step 2 gives the nearest current. A projection onto a disc brings no two points further
-// apart, so that |i'| is at most |i| plus the least current that flows.
+// For a round rotor step 2 gives the nearest current. The distance between two points is not increased by
+// their projection onto a disc. |i'| is therefore at most |i| plus the least current that flows.
 //
-// A voltage beyond the circle is moved back along the line to a voltage that holds the reference, Z i' + E.
-// With a measured current i' + x this leaves a fraction s of the voltage that the loops add, w_e L j x - k x.
-// The first term rotates x and does no work on it; the second shortens x. |x|^2 therefore falls by 2 s k
-// |x|^2/L and by the loss in R, however small s is. If the voltage is moved back in another direction, v_d
-// first or along v itself, |x|^2 need not fall.
+// A voltage beyond the circle is moved back along the line to a voltage that holds the reference, Z i' + E. x
+// is the deviation of the measured current from i', k the gain of the loops. A fraction s remains of the
+// voltage that the loops add, w_e L j x - k x. The first term rotates x and does no work on it; the second
+// term shortens x. |x|^2 therefore falls by 2 s k |x|^2/L and by the loss in R, however small s is. If the
+// voltage is moved back in another direction (v_d first, or along v itself), |x|^2 need not fall.
 //
 // In fixed point w p L and R must be below one volt per ampere of the bases.
 #pragma once
@@ -28,7 +28,7 @@
 
 namespace sixstep::control {
 
-/// Returns the reference itself, or the current that replaces it if the voltage cannot hold it, A.
+/// Returns the reference itself, or the current, A, that replaces it if the voltage cannot hold it.
 template <class Scalar>
 constexpr Dq<Scalar> reachable_current(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& wanted,
                                        Scalar speed_rad_s, Scalar bus_V) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the field-oriented drive without a rotor position sensor: field_drive.hpp with the magnet's direction
-// and speed from magnet_estimator.hpp. Until these are known the drive applies the estimator's own current,
-// independent of setpoint and speed loop. With the estimator off this is the drive of field_drive.hpp. With
-// it on, the output is always pulses and never finite_set.hpp. If the estimator finds no north, or the rotor
-// does not follow the current that turns it, the drive stops with a fault.
+// Runs the field-oriented drive (field_drive.hpp) without a rotor position sensor: magnet_estimator.hpp gives
+// the magnet's direction and speed. Until both are known, the estimator sets the current, and setpoint and
+// speed loop have no effect. With the estimator off, this drive equals the drive of field_drive.hpp. With the
+// estimator on, a modulator always makes pulses and finite_set.hpp is not used. If the estimator does not
+// find north, or the rotor does not follow the current that turns it, the drive stops with a fault.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/field/magnet_estimator.hpp"
@@ -46,7 +46,8 @@ constexpr void field_anew(FieldDriveState<Scalar>& state) {
   state.reference = {};
 }
 
-/// Bus voltage, V, whose circle leaves room for the pulse: a pulse that is cut off gives no information.
+/// Bus voltage, V, reduced so that the pulse fits beside the loops' voltage. A clipped pulse gives no
+/// information.
 template <class Scalar>
 constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V) {
   constexpr auto root_3 = static_cast<Gain<Scalar>>(1.7320508075688772);

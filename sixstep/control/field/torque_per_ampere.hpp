@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the current along the magnet with which a salient rotor makes the most torque per ampere. At a
+// Computes the current i_d along the magnet with which a salient rotor has the most torque per ampere. At a
 // given torque
 //
 //   T = 3/2 p (psi i_q + (L_d - L_q) i_d i_q)
@@ -10,9 +10,9 @@
 //   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d))
 //   here i_d = -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
 //
-// The second form has no difference of two nearly equal numbers, and no a, which no format holds for a round
-// rotor; there k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, which is i_q up to 2.8 a,
-// stays within every format.
+// psi: flux linkage, L_d, L_q: inductances of a phase. The second form subtracts no nearly equal numbers. It
+// also needs no a, which is infinite for a round rotor; k and i_d are then 0. In fixed point k is a number
+// below 1. For |k| <= 0.7, i_q up to 2.8 a, no result exceeds the range of the format.
 #pragma once
 #include "sixstep/control/root.hpp"
 

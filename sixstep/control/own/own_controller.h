@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Defines the interface of a user's own controller. It runs in a scenario, in a comparison and on a chip like
- * the library's. It is plain C, so that any language that can define a C symbol can provide it;
- * own_controller.hpp makes a controller of a C++ class.
+/* Defines the interface of a user's own controller. It runs in a scenario, in a comparison and on a chip,
+ * like the library's controllers. The interface is plain C: any language that can define a C symbol can
+ * provide a controller. own_controller.hpp makes a controller from a C++ class.
  *
  * A file with a controller is compiled into a shared object,
  *
@@ -12,11 +12,11 @@
  *
  * The same source runs on a chip in float. Numbers are sixstep_real: double in the program, or the type that
  * SIXSTEP_REAL names (-DSIXSTEP_REAL=float). A literal like 0.5 is a double; write (sixstep_real)0.5, so that a
- * chip computes in float. tools/own_cost.sh counts instructions, flash and RAM there.
+ * chip computes in float. tools/own_cost.sh counts instructions, flash and RAM on the chip.
  *
  * The result must depend only on config, state and the arguments: runs are repeated, resumed, copied and run
- * side by side. State is copied as bytes, so it must hold no pointer into itself. Nothing here may allocate,
- * block, throw or end the program. */
+ * side by side. State is copied as bytes, so it must not contain a pointer into itself. No function may
+ * allocate, block, throw or end the program. */
 #ifndef SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 #define SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 
@@ -31,7 +31,7 @@ extern "C" {
 #endif
 typedef SIXSTEP_REAL sixstep_real;
 
-/* Version of these structs: 1 in double, 257 in float. A program rejects a version other than its own. */
+/* Version of these structs: 1 in double, 257 in float. A program rejects every version except its own. */
 #define SIXSTEP_OWN_INTERFACE (1u + (sizeof(sixstep_real) == 8 ? 0u : 256u))
 
 /* Modes, with the unit of the setpoint: duty -1..1, A, rad/s, mechanical degrees. */
@@ -52,7 +52,7 @@ typedef struct {
   sixstep_real speed_rad_s;  /* mechanical; of a linear motor m/s */
   sixstep_real position_deg; /* mechanical, counted over turns; of a linear motor 180/pi per m */
   sixstep_real bus_V;
-  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; with Hall codes alone of the sector's middle */
+  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; with Hall codes only, of the sector's middle */
   uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
 } sixstep_measured;
 
@@ -62,16 +62,16 @@ typedef struct {
   sixstep_real duty; /* 0..1, used with SIXSTEP_LEG_PWM */
 } sixstep_leg;
 
-/* Output of a step. A pair: source, sink, duty, overlap, chopping, chopped. Legs: leg. It is zero before the first step,
- * all gates off; later it holds the last output. */
+/* Output of a step. A pair: source, sink, duty, overlap, chopping, chopped. Legs: leg. Before the first step it is zero,
+ * all gates off; later it contains the last output. */
 typedef struct {
   uint8_t enabled; /* 0: all six gates off */
   uint8_t fault;   /* not 0: the controller stops the drive, and the run ends with exit code 3 */
   uint8_t source;  /* leg whose upper switch carries the current to the motor */
-  uint8_t sink;    /* leg whose lower switch carries it back */
+  uint8_t sink;    /* leg whose lower switch carries the current back */
   uint8_t chopping, chopped;
   sixstep_real duty;    /* 0..1 */
-  sixstep_real overlap; /* -1..1: duty of the upper switch (below 0: of the lower one) of the third leg */
+  sixstep_real overlap; /* -1..1: duty of the third leg's upper switch (below 0: of its lower switch) */
   sixstep_leg leg[3];
   sixstep_real current_reference_A;   /* for the report only */
   sixstep_real speed_reference_rad_s; /* for the report only */
@@ -81,7 +81,7 @@ typedef struct {
  * scenario (gains of u[n] = u[n-1] + d1 e[n] + d0 e[n-1]; 0 if the mode has no such loop). */
 typedef struct {
   uint8_t mode;
-  uint8_t delay_periods; /* periods that an output waits before it acts */
+  uint8_t delay_periods; /* periods from an output until it acts */
   uint8_t sampled_in_middle;
   uint8_t chopping;
   sixstep_real period_s;
@@ -109,23 +109,23 @@ typedef struct {
   uint32_t interface; /* SIXSTEP_OWN_INTERFACE */
   uint32_t answers;   /* SIXSTEP_ANSWERS_PAIR or SIXSTEP_ANSWERS_LEGS */
   const char* name;   /* short name for tables */
-  const char* sentence; /* how it differs from the others, a verb first: "counts in mA" */
+  const char* sentence; /* how it differs from other controllers, a verb first: "counts in mA" */
   uint32_t config_bytes, state_bytes; /* up to 65536 each */
-  uint32_t parameters;                /* number of them, up to 64 */
+  uint32_t parameters;                /* number of parameters, up to 64 */
   const sixstep_parameter* parameter;
   /* Fills config, which is zero before the call, from the given data and one value per parameter. Returns a null
    * pointer, or the problem as half a sentence: "needs a higher voltage than the bus has". */
   const char* (*design)(const sixstep_given* given, const sixstep_real* values, void* config);
   /* Fills state, which is zero before the call. May be null. */
   void (*start)(const void* config, void* state);
-  /* Called once per control period; answer holds the last output. */
+  /* Called once per control period; answer contains the last output. */
   void (*step)(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint, sixstep_answer* answer);
   /* Called in the Hall interrupt, for a controller that outputs a pair: sets the new pair. Null: the pair changes at the
    * next step. */
   void (*hall)(const void* config, void* state, uint8_t code, sixstep_answer* answer);
 } sixstep_controller;
 
-/* The only symbol of the shared object; found there also if the object was compiled with -fvisibility=hidden. */
+/* The only symbol of the shared object; visible also if the object was compiled with -fvisibility=hidden. */
 #ifdef __GNUC__
 __attribute__((visibility("default")))
 #endif

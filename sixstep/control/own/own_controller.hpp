@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a controller (own_controller.h) from a C++ class: the class's static functions replace the function
+// Makes a controller (own_controller.h) from a C++ class: the class's static functions provide the function
 // pointers of the C interface. The class has
 //
 //   struct Config; struct State;                              both trivially copyable, all zero before design and start
@@ -9,7 +9,7 @@
 //   static void step(const Config&, State&, const sixstep_measured&, sixstep_real setpoint, sixstep_answer&);
 //   static void hall(const Config&, State&, std::uint8_t code, sixstep_answer&);   optional (own_controller.h)
 //
-// The shared object's symbol is defined by
+// This line defines the shared object's symbol:
 //
 //   SIXSTEP_OWN_CONTROLLER(Class, SIXSTEP_ANSWERS_PAIR, "name", "it ...")
 #pragma once
@@ -60,7 +60,7 @@ struct OwnFunctions {
   }
 };
 
-/// The C++ class as a sixstep_controller.
+/// The sixstep_controller of the C++ class.
 template <class Class>
 constexpr sixstep_controller own_controller(std::uint32_t answers, const char* name, const char* sentence) {
   using F = OwnFunctions<Class>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step commutation for a controller that only computes a signed duty. It gives the current of the Hall
-// code's pair, the pair itself, exchanged for a negative duty, and the command for a timer.
+// Six-step commutation for a controller that only computes a signed duty. The functions return the current of
+// the Hall code's pair, set the pair (exchanged for a negative duty), and convert the answer to a timer's
+// command.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -20,7 +21,7 @@ constexpr void command_pair(sixstep_real duty, std::uint8_t code, sixstep_answer
   answer.duty = duty < 0 ? -duty : duty;
 }
 
-/// Motor current, A, of the pair that makes positive torque: half the difference of the source's and the
+/// Motor current, A, of the pair with positive torque: half the difference of the source's and the
 /// sink's current.
 constexpr sixstep_real pair_current(const sixstep_measured& measured) {
   const Pair positive = positive_pair(sector_of_hall(measured.hall));
@@ -29,7 +30,8 @@ constexpr sixstep_real pair_current(const sixstep_measured& measured) {
          2;
 }
 
-/// A command as the answer of a controller that answers pairs. The answer's other members stay as they are.
+/// Converts a command to the answer of a controller that outputs pairs. The answer's other members do not
+/// change.
 constexpr void answer_pair(const BridgeCommand<sixstep_real>& command, sixstep_answer& answer) {
   answer.enabled = command.enabled;
   answer.fault = command.fault;
@@ -41,7 +43,7 @@ constexpr void answer_pair(const BridgeCommand<sixstep_real>& command, sixstep_a
   answer.overlap = command.overlap;
 }
 
-/// A valid answer of a pair as the command of gates.hpp.
+/// Converts a valid answer with a pair to the command of gates.hpp.
 constexpr BridgeCommand<sixstep_real> pair_command(const sixstep_answer& answer) {
   BridgeCommand<sixstep_real> command{};
   command.enabled = answer.enabled != 0;

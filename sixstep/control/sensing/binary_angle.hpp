@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Represents angles as integers, 2^32 to a turn. Sums wrap exactly at the turn's end, a difference taken as
-// signed is the shorter rotation, and every core gives the same bits. One unit is 8.4e-8 degrees. Names
-// distinguish electrical from mechanical angles. A mechanical angle times the pole pairs is the electrical
-// angle, which wraps correctly too.
+// Represents angles as integers, 2^32 to a turn. Sums wrap exactly at a full turn. The difference of two
+// angles, as a signed integer, is the shorter rotation. Every core computes the same bits. One unit is 8.4e-8
+// degrees. Names distinguish electrical from mechanical angles. The mechanical angle times the pole pairs,
+// with wrapping, is the electrical angle.
 #pragma once
 #include <cstdint>
 
@@ -44,8 +44,8 @@ constexpr BinaryAngle sector_angle(std::uint8_t n) {
   return begins[n % 6];
 }
 
-/// The sector [60 n, 60 n + 60) degrees that contains an electrical angle. The function only compares, so
-/// that nothing is rounded.
+/// The sector [60 n, 60 n + 60) degrees that contains an electrical angle. It is found by comparisons,
+/// without rounding.
 constexpr std::uint8_t sector_of_angle(BinaryAngle electrical) {
   const bool upper = electrical >= half_turn;
   const BinaryAngle rest = upper ? electrical - half_turn : electrical;
@@ -53,13 +53,13 @@ constexpr std::uint8_t sector_of_angle(BinaryAngle electrical) {
   return upper ? static_cast<std::uint8_t>(third + 3) : third;
 }
 
-/// An angle as a converter of 1..32 bits measures it: rounded down.
+/// An angle rounded down to the resolution of a converter with 1..32 bits.
 constexpr BinaryAngle quantised(BinaryAngle angle, std::uint8_t bits) {
   const std::uint8_t drop = bits >= 32 || bits == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(32 - bits);
   return (angle >> drop) << drop;
 }
 
-/// Whole turns, and the angle within the last turn. Together they continue beyond the turn's end.
+/// Whole turns, and the angle within the last turn; both together do not wrap.
 struct UnwrappedAngle {
   BinaryAngle angle = 0;
   std::int32_t turns = 0;
@@ -76,8 +76,8 @@ constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
 
 namespace detail {
 
-/// Number of bits of x. The function halves the width, because on processors that do not count zeros a loop
-/// bit by bit becomes a library call.
+/// Number of bits of x, by halving the width: on processors that cannot count zeros, a loop over the bits
+/// becomes a library call.
 constexpr std::uint8_t bit_width(std::uint32_t x) {
   std::uint8_t bits = 0;
   for (std::uint8_t half = 16; half != 0; half = static_cast<std::uint8_t>(half >> 1)) {
@@ -90,7 +90,7 @@ constexpr std::uint8_t bit_width(std::uint32_t x) {
 
 }  // namespace detail
 
-/// A turn divided into whole parts. angle_of_parts() uses it to multiply instead of dividing; the error is at
+/// A turn divided into whole parts. With it angle_of_parts() multiplies instead of dividing; the error is at
 /// most 2 units plus rounding.
 struct TurnParts {
   std::uint32_t mantissa = 0;  ///< 2^(30+n)/whole, n the number of bits of whole; exact if whole is a power
@@ -108,7 +108,7 @@ constexpr TurnParts turn_in_parts(std::uint32_t whole) {
   return {static_cast<std::uint32_t>((scaled + whole / 2) / whole), static_cast<std::uint8_t>(bits - 2)};
 }
 
-/// The angle of `part` parts of the turn; more than a turn wraps.
+/// The angle of `part` parts of the turn; angles above one turn wrap.
 constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) {
   const std::uint64_t product = static_cast<std::uint64_t>(part) * turn.mantissa;
   if (turn.right == 0) return static_cast<BinaryAngle>(product);
@@ -119,7 +119,7 @@ constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) 
 /// point.
 template <class Scalar>
 struct AngleTraits {
-  /// mantissa/2^right, the mantissa with 31 bits: the same constant also where double has 32 bits.
+  /// mantissa/2^right, with a mantissa of 31 bits: the same constant also where double has 32 bits.
   static constexpr Gain<Scalar> constant(std::int32_t mantissa, std::int8_t right) {
     return static_cast<Scalar>(static_cast<double>(mantissa) /
                                static_cast<double>(detail::two_to<std::int64_t>(right)));
@@ -157,8 +157,8 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
   static constexpr Scalar half_turns(std::int32_t angle) {
     return Scalar::from_raw(detail::saturated<Storage>(detail::shifted_down(angle, 31 - FractionBits)));
   }
-  /// Uses as many leading bits of x as a signal has. In 16 bits the relative error is up to 2^-15; in 32 bits
-  /// all bits are used.
+  /// Uses as many leading bits of x as a signal has. In 16-bit formats the relative error is up to 2^-15;
+  /// 32-bit formats use all bits.
   static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
     const std::uint32_t whole = detail::absolute(x);
     constexpr int kept = detail::Widths<Storage>::bits - 1;
@@ -172,7 +172,7 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
         down >= 0 ? detail::with_sign(detail::magnitude_down(p.size, down), p.negative)
                   : detail::magnitude_up<Wide>(p.size, p.negative, -down));
   }
-  /// Adds and doubles bit by bit of n, because a product would need a library's overflow check.
+  /// Adds and doubles bit by bit of n, because a 64-bit product with its overflow check would need a library.
   static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
     TickRatio<Scalar> sum{};
     for (; n != 0; n >>= 1) {
@@ -187,7 +187,7 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
   }
 };
 
-/// A signed angle as a signal. `per_half_turn`: signal for half a turn, which is 180 degrees over the base of
+/// A signed angle as a signal. `per_half_turn`: signal of half a turn, 180 degrees divided by the base of
 /// positions.
 template <class Scalar>
 constexpr Scalar angle_signal(std::int32_t angle, Gain<Scalar> per_half_turn) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Absolute encoder in Gray code, with up to 20 tracks: decodes angle, turns and speed. A motion that an inert
-// rotor cannot make is a fault. The faulty track is named if it can be determined.
+// Absolute encoder in Gray code, with up to 20 tracks: decodes angle, turns and speed. A motion that is too
+// fast for the rotor's inertia is a fault. The faulty track is named if it can be determined.
 //
 //   binary = g ^ g >> 1 ^ g >> 2 ^ ...,   angle = binary 2^(32-n),   w = (angle - angle k ticks ago)/(k T)
 //
-// A wrong track k inverts all bits from k down: the angle is mirrored within 2^(k+1) counts. When the rotor
-// leaves these counts, the angle seems to jump by about as much. Each angle is therefore compared with the
-// one predicted from the last two. If the difference is more than acceleration and rounding can make, the
-// faulty track is the one whose inversion gives the predicted angle.
+// g: code, n: number of tracks, T: control period. A wrong track j inverts all bits from j down: the angle is
+// mirrored within 2^(j+1) counts. When the rotor leaves these counts, the angle seems to jump by up to
+// 2^(j+1) counts. Each angle is therefore compared with the prediction from the last two angles. If the
+// difference exceeds the effects of acceleration and rounding, the faulty track is the track whose inversion
+// gives the predicted angle.
 //
-// Mirrored motion is detected if it is faster per tick than the tolerance, or at a jump. In a slow rotor it
-// is not detected before the jump. In the top track, whose mirrored range has no border, it is never
-// detected.
+// Mirrored motion is detected at a jump, or if it is faster per tick than the tolerance. With a slow rotor
+// the fault is not detected before the jump. The mirrored range of the top track has no border: its fault is
+// never detected.
 #pragma once
 #include <cstdint>
 
@@ -24,12 +25,12 @@ inline constexpr std::uint8_t no_track = 0xff;
 /// The default reads 0.
 template <class Scalar>
 struct GrayConfig {
-  std::uint8_t bits = 0;      ///< n, 1..20; bit 0 of a code is the finest track
-  BinaryAngle tolerance = 0;  ///< largest error of the predicted angle: 2 counts and what acceleration adds,
-                              ///< below an eighth of a turn; 0: not checked
-  std::uint8_t patience = 0;  ///< number of consecutive bad codes that the prediction replaces; the next one
-                              ///< is accepted
-  std::uint8_t span = 1;      ///< k, 1..8 ticks over which a speed is taken
+  std::uint8_t bits = 0;          ///< n, 1..20; bit 0 of a code is the finest track
+  BinaryAngle tolerance = 0;      ///< largest error of the predicted angle: 2 counts plus the effect of
+                                  ///< acceleration, below an eighth of a turn; 0: not checked
+  std::uint8_t patience = 0;      ///< number of consecutive bad codes that the prediction replaces; the code
+                                  ///< after them is accepted
+  std::uint8_t span = 1;          ///< k, 1..8 ticks over which the speed is measured
   Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) over the base of speeds, k = span; fixed: raw digits
   bool operator==(const GrayConfig&) const = default;
 };
@@ -46,8 +47,8 @@ template <class Scalar>
 struct GrayReading {
   UnwrappedAngle position{};
   Scalar speed{};                 ///< 0 until span + 1 codes were read
-  bool jump = false;              ///< this code was impossible; the prediction replaces it up to `patience`
-                                  ///< times
+  bool jump = false;              ///< this code was impossible; the prediction replaces at most `patience`
+                                  ///< codes
   std::uint8_t track = no_track;  ///< the faulty track, if exactly one explains the jump
 };
 
@@ -71,13 +72,14 @@ constexpr bool within(BinaryAngle angle, BinaryAngle of, BinaryAngle tolerance) 
   return absolute(way_between(of, angle)) <= tolerance;
 }
 
-/// The only track whose inversion explains the code; no_track if there is none or more than one. Codes before
-/// this one may have been wrong within the tolerance, which changed the prediction. The track must therefore
-/// be the only one that explains the code within four times the tolerance.
+/// The only track whose inversion explains the code; no_track if there is no such track, or more than one.
+/// Wrong earlier codes within the tolerance may have changed the prediction. The track must therefore be the
+/// only track that explains the code within four times the tolerance.
 ///
-/// For 12 tracks that break at 4 to 20 counts per tick, with a tolerance of 3 counts, this finds two of three
-/// tracks from the fifth on and none of the finer ones. In 8820 breaks it names no wrong track
-/// (tests/control/sensing/gray_test.cpp); within three times the tolerance it would name 42 wrong ones.
+/// Test with 12 tracks that break at 4 to 20 counts per tick, with a tolerance of 3 counts: two of three
+/// faults are found from the fifth track on, and none of the finer tracks. In 8820 faults no wrong track is
+/// named (tests/control/sensing/gray_test.cpp); within three times the tolerance 42 wrong tracks would be
+/// named.
 constexpr std::uint8_t wrong_track(std::uint32_t gray, std::uint8_t bits, BinaryAngle foretold,
                                    BinaryAngle tolerance) {
   std::uint8_t found = no_track;
@@ -112,8 +114,7 @@ constexpr GrayReading<Scalar> gray_step(const GrayConfig<Scalar>& config, GraySt
     state.bad = 0;
   }
   if (state.known == 0 && !reading.jump)
-    state.position.angle = angle;  // the first code does not count as a
-                                   // turn
+    state.position.angle = angle;  // the first code does not count as a turn
   for (int n = 8; n > 0; --n) state.past[n] = state.past[n - 1];
   state.past[0] = angle;
   if (state.known < 9) ++state.known;

@@ -8,10 +8,10 @@
 //   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor just before its next
 //                       edge
 //
-// The edges are where hall_calibration.hpp found them, by default every 60 degrees (model.md 3). Edge n is
+// Default edges are 60 degrees apart (model.md 3); hall_calibration.hpp measures the true edges. Edge n is
 // the border between the sectors n-1 and n. With true widths one sector (k = 1) suffices for the speed; more
 // sectors average jitter, but the speed is then older. While no speed is known (at the start, after a
-// reversal or a time-out), the angle is the sector's middle, at most 30 degrees wrong.
+// reversal or a time-out), the angle is the sector's middle, with an error of at most 30 degrees.
 #pragma once
 #include <cstdint>
 
@@ -40,7 +40,7 @@ struct HallAngleConfig {
   std::uint32_t timeout_ticks = 0;       ///< ticks without an edge after which the rotor counts as at rest;
                                          ///< below 2^31
   std::uint32_t delay_ticks = 0;         ///< delay of an edge: filter, glitch suppression, interrupt
-  std::uint8_t span = 1;                 ///< k, sectors over which a speed is taken, 1..6
+  std::uint8_t span = 1;                 ///< k, sectors over which the speed is measured, 1..6
   bool operator==(const HallAngleConfig&) const = default;
 };
 
@@ -67,7 +67,7 @@ constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, 
 
 namespace detail {
 
-/// ticks 2^32/width, rounded to nearest, saturated: ticks of a turn, of which `width` took `ticks`.
+/// Ticks of a turn, if `width` of it lasts `ticks`: ticks 2^32/width, rounded to nearest, saturated.
 constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
   if (width == 0) return 0xffffffffu;
   const std::uint64_t turn = ((static_cast<std::uint64_t>(ticks) << 32) + width / 2) / width;
@@ -76,8 +76,8 @@ constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
 
 }  // namespace detail
 
-/// Takes the result of hall_step. Call it in the interrupt of an edge, with the captured time. A new code
-/// without an edge, or a fault, ends the history of times.
+/// Processes the result of hall_step. Call it in the interrupt of an edge, with the captured time. A new code
+/// without an edge, or a fault, clears the history of times.
 template <class Scalar>
 constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                std::uint8_t sector, std::int8_t moved, std::uint32_t time) {
@@ -101,7 +101,7 @@ constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleS
 }
 
 /// Angle and speed at counter reading `now`. Call it at least once per timeout_ticks, because only this call
-/// ends the history.
+/// clears the history.
 template <class Scalar>
 constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                        std::uint32_t now) {
@@ -120,7 +120,7 @@ constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, Ha
   if (way > width + config.margin) way = width + config.margin;
   way += angle_of_parts(state.turn, config.delay_ticks);
   way += edges.half_hysteresis;
-  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge may have come up to one tick after its
+  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge was up to one tick later than its
                                                           // reading
   const bool late = past >= state.turn_ticks || angle_of_parts(state.turn, past) > width;
   const std::uint32_t at_least = late ? detail::ticks_of_turn(past, width) : 0;

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures where the six Hall edges are, from their times while the rotor turns steadily.
+// Measures the angles of the six Hall edges from their times, while the rotor turns steadily.
 //
 //   fraction of the turn at edge j = sum over n turns of (t_j - t_0)/sum of the turns' times
 //   deviation[j] = angle of this fraction - 60 j degrees, minus the mean of all deviations
 //
-// Times alone cannot show an angle that is common to all edges, because a common offset of the probes and
-// their common hysteresis and delay shift all edges alike. This mean is therefore an input (hall_edges). It
-// is found from the back-EMF, or by aligning the rotor: one mean of the measured edges for each direction,
+// t_j is the time of the j-th edge after the turn's first edge. The times cannot show an angle that is common
+// to all edges: the probes' common offset, hysteresis and delay shift all edges alike. This common angle is
+// therefore an input of hall_edges(). It is measured from the back-EMF, or by aligning the rotor: one mean of
+// the measured edges for each direction,
 //
 //   forward = offset + h + w t_d,   backward = offset - (h + w t_d)
 //
-// with t_d the delay. A run in each direction separates offset and h + w t_d. Differences of the hysteresis
-// between edges cancel in the mean of both runs. The resulting h contains w t_d at the speed of that run: run
-// slowly, or give hall_angle no delay.
+// with h half of the hysteresis, w the electrical speed and t_d the delay. A run in each direction separates
+// offset and h + w t_d. Differences of the hysteresis between edges cancel in the mean of both runs. The
+// resulting h contains w t_d at the speed of the run: run slowly, or set hall_angle's delay to 0.
 //
-// Requirement: the time of each turn differs from that of the first by at most 1/steady of it, or the run is
-// rejected. A drift d of the turn's time over the run changes the angles by at most d/(8 n) turns (0.022
-// degrees for steady 64, n 32). Ripple of the speed in step with the edges is measured as misplacement: let
-// the rotor coast, or run it fast enough. If the magnets differ from pole to pole, choose n as a multiple of
-// the pole pairs.
+// Requirement: the time of each turn differs from the time of the first turn by at most 1/steady of it, or
+// the run is rejected. A drift d of the turn's time over the run changes the angles by at most d/(8 n) turns
+// (0.022 degrees for steady 64, n 32). Speed ripple that repeats with the edges is measured as displaced
+// edges: let the rotor coast, or run it fast enough. If the magnets differ from pole to pole, choose n as a
+// multiple of the pole pairs.
 #pragma once
 #include <cstdint>
 
@@ -35,8 +36,8 @@ struct HallCalibrationConfig {
 enum class HallCalibration : std::uint8_t {
   running,
   done,
-  unsteady,   ///< a turn took too long or too short
-  disturbed,  ///< the rotor turned back, or an edge was missed
+  unsteady,   ///< the time of a turn was too long or too short
+  disturbed,  ///< the rotor reversed, or an edge was missed
 };
 
 struct HallCalibrationState {
@@ -56,8 +57,8 @@ struct HallDeviations {
   std::int32_t at[6]{};
 };
 
-/// Takes an edge in `direction` (+1, -1) at counter reading `time`; `edge` is its number as in
-/// hall_angle.hpp. After `done` or a rejection the state does not change; begin again with a new state.
+/// Adds an edge in `direction` (+1, -1) at counter reading `time`; `edge` is its number as in hall_angle.hpp.
+/// After `done` or a rejection the state does not change; begin again with a new state.
 constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, HallCalibrationState& state,
                                          std::uint8_t edge, std::int8_t direction, std::uint32_t time) {
   if (state.result != HallCalibration::running || edge > 5) return state.result;
@@ -106,8 +107,8 @@ constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   return deviations;
 }
 
-/// Edges from a run in one direction. `offset`: mean angle by which the six edges, halfway between both
-/// directions, are ahead of 60 n degrees. The hysteresis is taken from the data sheet.
+/// Edges from a run in one direction. `offset`: mean angle by which the six edges are ahead of 60 n degrees,
+/// each edge taken halfway between both directions. The data sheet gives the hysteresis.
 constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t offset,
                                BinaryAngle half_hysteresis) {
   HallEdges edges{};
@@ -118,8 +119,8 @@ constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t of
   return edges;
 }
 
-/// Edges from one run in each direction at the same speed. seen_forward, seen_backward: mean offset of the
-/// edges in each run.
+/// Edges from one run in each direction at the same speed. seen_forward, seen_backward: mean angle by which
+/// the edges are ahead of 60 n degrees in each run.
 constexpr HallEdges hall_edges(const HallDeviations& forward, const HallDeviations& backward,
                                std::int32_t seen_forward, std::int32_t seen_backward) {
   HallDeviations mean{};

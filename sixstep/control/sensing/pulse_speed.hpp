@@ -3,28 +3,28 @@
 // Kamiyama, M. Tachikawa, "A microprocessor-controlled high-accuracy wide-range speed regulator for motor
 // drives", IEEE Trans. Ind. Electron. IE-29, 1982).
 //
-//   w = M (2 pi/4N) timer_Hz/T     M counts and the time T from the last edge before a control tick to the
-//                                  last edge before a later one
-//   |w| <= (2 pi/4N) timer_Hz/(ticks since the last edge minus one)     as long as the next edge has not come
+//   w = M (2 pi/4N) timer_Hz/T     M counts in the time T, from the last edge before a control tick to the
+//                                  last edge before a later control tick
+//   |w| <= (2 pi/4N) timer_Hz/(ticks since the last edge minus one)     until the next edge occurs
 //
-// M counts from edge to edge and is exact, and T is exact to one tick of the timer. The relative error of w
-// is therefore 1/T at every speed, plus the placement errors of the lines (which cancel if M is a multiple of
-// 4). A speed is as old as half of T plus the time since the last edge. An edge is at the same place in both
-// directions, so that a reversal is measured correctly. The first edge and a time-out restart the measurement
-// with speed 0.
+// N is the number of lines. M is exact, because it counts from edge to edge, and T is exact to one tick of
+// the timer. The relative error of w is therefore 1/T at every speed, plus the placement errors of the lines
+// (which cancel if M is a multiple of 4). The age of a speed is half of T plus the time since the last edge.
+// An edge is at the same angle in both directions; a reversal is therefore measured correctly. The first edge
+// and a time-out restart the measurement with speed 0.
 //
-// If the timer misses a fraction e of the edges, with M edges per control tick, the speed over the
-// measurement's own windows is too low by exactly e, because w T sums up to the counts. A loop, however,
-// weighs each reading by a tick. For the loop the speed is too low by
+// Suppose that the timer misses a fraction e of the edges, with M edges per control tick. Over the
+// measurement's own windows, the speed is then too low by exactly e, because the sum of w T equals the
+// counts. A loop, however, weights each reading by a tick. For the loop the speed is too low by
 //
 //   missed before another edge    factor 1 - 1/M in that tick, in M - 1 of M cases
-//   missed as a tick's last edge  the bound, c/since with `since` from c to 2 c: on average too low by 1 - ln
-//                                 2; and the factor M/(M + 1) in the next tick
+//   missed as a tick's last edge  the bound, c/since with `since` from c to 2 c (c: ticks of a count): on
+//                                 average too low by 1 - ln 2; and the factor M/(M + 1) in the next tick
 //   in total                      e (2 - ln 2 - 1/(M (M + 1))): 0.81 e at M = 1, 1.14 e at 2, 1.31 e for many
 //
-// The bound treats a missed edge as a shaft that slows down; before the next edge the two cannot be
-// distinguished. Without the bound a stopping shaft would keep its speed until the time-out, and a bound that
-// allows for one missed edge would come twice as late.
+// The bound treats a missed edge as a shaft that slows down; before the next edge the two cases cannot be
+// distinguished. Without the bound the measured speed of a stopping shaft would not fall until the time-out.
+// A bound that allows for one missed edge would act twice as late.
 #pragma once
 #include <cstdint>
 
@@ -43,20 +43,20 @@ struct PulseSpeedConfig {
 };
 
 struct PulseSpeedState {
-  std::uint32_t count = 0;       ///< counts of edges; it wraps and does not depend on the index
-  std::uint32_t place = 0;       ///< place of the last edge: the border between two counts
+  std::uint32_t count = 0;       ///< counts of edges; it wraps, and an index does not change it
+  std::uint32_t place = 0;       ///< count at the last edge: the border between two counts
   std::uint32_t time = 0;        ///< time of the last edge
-  std::uint32_t from_place = 0;  ///< place of the last edge that a control tick used
+  std::uint32_t from_place = 0;  ///< value of `place` at the last edge that a control tick used
   std::uint32_t from_time = 0;
   std::int32_t moved = 0;   ///< M, the counts of the last measurement
-  std::uint32_t ticks = 0;  ///< T, its time; 0: no speed is known
-  bool fresh = false;       ///< an edge has come since the last control tick
-  bool begun = false;       ///< from_place and from_time are valid
+  std::uint32_t ticks = 0;  ///< T, timer ticks of the last measurement; 0: no speed is known
+  bool fresh = false;       ///< true: an edge has occurred since the last control tick
+  bool begun = false;       ///< true: from_place and from_time are valid
 };
 
-/// Adds `moved` counts that have passed since the last call. The last of them came in `direction` (+1, -1) at
-/// counter reading `time`. Call it at each edge with moved = direction, or once per tick from a counter and
-/// its capture register.
+/// Adds `moved` counts since the last call. The last count came in `direction` (+1, -1) at counter reading
+/// `time`. Call it at each edge with moved = direction, or once per tick from a counter and its capture
+/// register.
 constexpr void pulse_edge(PulseSpeedState& state, std::int32_t moved, std::int8_t direction,
                           std::uint32_t time) {
   state.count += static_cast<std::uint32_t>(moved);
@@ -98,8 +98,8 @@ constexpr Scalar pulse_speed(const PulseSpeedConfig<Scalar>& config, PulseSpeedS
   if (state.ticks == 0 || state.moved == 0) return Scalar{};
   const std::uint32_t counts = detail::absolute(state.moved);
   Scalar w = T::per_ticks(AngleTraits<Scalar>::counted(config.count_rad_s_ticks, counts), state.ticks);
-  // The bound is below the measured speed only if the mean time of a count has passed. One tick is
-  // subtracted, because the edge may have come up to one tick after its reading.
+  // The bound can be below the measured speed only after the mean time of a count has passed. One tick is
+  // subtracted, because the edge may be up to one tick later than its reading.
   if (since - 1 > state.ticks / counts && since > 1) {
     const Scalar bound = T::per_ticks(config.count_rad_s_ticks, since - 1);
     if (bound < w) w = bound;

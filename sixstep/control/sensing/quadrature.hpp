@@ -4,14 +4,14 @@
 //   A = [frac(N theta_m/2 pi) < 1/2], B a quarter of a line later (model.md 10): AB = 10, 11, 01, 00 forward
 //
 // A change of both lines at once is invalid: one step was missed, or a line is disturbed. The decoder then
-// adds two counts in the last direction, which keeps the count in step with the lines. `illegal` counts these
-// changes.
+// adds two counts in the last direction, so that the count stays consistent with the lines. `illegal` counts
+// these changes.
 //
-// Z is high over one line from theta_m = 0 on. It is evaluated in one of the four quarters of that line, by
-// default in the third: there an edge of Z may be nearly two counts early or late. The first index defines
+// Z is high over one line, beginning at theta_m = 0. Z is evaluated in one of the four quarters of that line,
+// by default in the third: there an edge of Z may be nearly two counts early or late. The first index defines
 // zero. Each later index shows whether counts were missed, and corrects them.
 //
-// A chip whose timer counts by itself calls quadrature_moved and quadrature_index.
+// On a chip whose timer counts in hardware, call quadrature_moved() and quadrature_index() instead.
 #pragma once
 #include <cstdint>
 
@@ -19,7 +19,7 @@
 
 namespace sixstep::control {
 
-/// With the default nothing is counted; quadrature_of_lines() makes a configuration.
+/// With the default nothing is counted. quadrature_of_lines() returns a configuration.
 struct QuadratureConfig {
   std::uint32_t counts = 0;        ///< counts of a turn, 4 N
   TurnParts turn{};                ///< turn_in_parts(counts)
@@ -41,11 +41,10 @@ struct QuadratureState {
   bool referenced = false;        ///< an index was found
   std::uint32_t illegal = 0;      ///< number of changes of both lines at once
   std::uint32_t corrections = 0;  ///< number of indexes that found counts missing
-  std::int32_t missed = 0;        ///< counts that were missing at the last index: true counts minus counted
-                                  ///< ones
+  std::int32_t missed = 0;        ///< true counts minus counted counts at the last index
 };
 
-/// Adds `moved` counts, fewer than those of a turn.
+/// Adds `moved` counts; |moved| must be less than the counts of a turn.
 constexpr void quadrature_moved(const QuadratureConfig& config, QuadratureState& state, std::int32_t moved) {
   if (config.counts == 0 || moved == 0) return;
   state.direction = moved > 0 ? std::int8_t{1} : std::int8_t{-1};
@@ -60,7 +59,7 @@ constexpr void quadrature_moved(const QuadratureConfig& config, QuadratureState&
   }
 }
 
-/// The index was found at count `at` within the rotor's turn.
+/// Processes an index that was found at count `at` within the rotor's turn.
 constexpr void quadrature_index(const QuadratureConfig& config, QuadratureState& state, std::uint32_t at) {
   if (config.counts == 0) return;
   if (!state.referenced) {
@@ -84,8 +83,8 @@ constexpr std::uint8_t quarter_of_line(bool a, bool b) {
   return a ? (b ? std::uint8_t{1} : std::uint8_t{0}) : (b ? std::uint8_t{2} : std::uint8_t{3});
 }
 
-/// One reading of the lines. Call it at each edge of A and B, or so often that at most one edge comes between
-/// two calls. Returns the counts passed, -2..2; the first reading passes none.
+/// One reading of the lines. Call it at each edge of A and B, or so often that at most one edge occurs
+/// between two calls. Returns the counts since the last call, -2..2; the first call returns 0.
 constexpr std::int8_t quadrature_step(const QuadratureConfig& config, QuadratureState& state, bool a, bool b,
                                       bool z) {
   const std::uint8_t quarter = quarter_of_line(a, b);
@@ -102,7 +101,7 @@ constexpr std::int8_t quadrature_step(const QuadratureConfig& config, Quadrature
   return moved;
 }
 
-/// Mechanical angle at the begin of the present count; after the first index it counts from theta_m = 0.
+/// Mechanical angle at the begin of the present count; after the first index it is relative to theta_m = 0.
 constexpr BinaryAngle quadrature_angle(const QuadratureConfig& config, const QuadratureState& state) {
   return angle_of_parts(config.turn, state.in_turn);
 }

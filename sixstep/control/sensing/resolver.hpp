@@ -3,16 +3,17 @@
 //
 //   V_c = k V sin(w_x t + d) cos phi,   V_s = (1 + a) k V sin(w_x t + d) sin(phi + q),   phi = p_r theta_m
 //
-//   demodulated   x = +-(this sample - the sample half a period before)/2: an offset of the converter
-//                 cancels. x is valid for the middle between both samples, a quarter of a period ago
+//   demodulated   x = +-(this sample - the sample half a period before)/2: the converter's offset cancels. x
+//                 is valid for the middle between both samples, a quarter of a period ago.
 //   corrected     c = g_c x_c - o_c,   s = g_s x_s - o_s - tan q c,   g_s = g_c/((1 + a) cos q)
 //   detected      with an estimate theta:  along = c cos theta + s sin theta = A cos(phi - theta)
 //                                          across = s cos theta - c sin theta = A sin(phi - theta)
-//                 error = across/along = tan(phi - theta), for any amplitude A; or across, with A taken as 1
+//                 error = across/along = tan(phi - theta), for any amplitude A; or across, for A = 1
 //   tracked       tracking.hpp
 //
-// Beyond 45 degrees (90 without normalising) the error is 1 with the sign of the shorter rotation, so that
-// the loop cannot rest half a turn off.
+// V_c, V_s: voltages of the windings, V, w_x, d: amplitude, frequency and phase of the excitation, k: ratio,
+// a, q: errors of amplitude and angle, p_r: pole pairs. Beyond 45 degrees (90 without normalising) the error
+// is 1 with the sign of the shorter rotation, so that the loop cannot settle with an error of half a turn.
 #pragma once
 #include <cstdint>
 
@@ -21,20 +22,20 @@
 
 namespace sixstep::control {
 
-/// In fixed point choose an amplitude of at most 0.7, so that its square fits with a margin for faults.
+/// In fixed point choose an amplitude of at most 0.7: its square then fits, with a margin for faults.
 template <class Scalar>
 struct ResolverConfig {
   Gain<Scalar> cos_per_count{};  ///< g_c/2, per count of difference between two samples; fixed: raw digits
   Gain<Scalar> sin_per_count{};  ///< g_s/2, like cos_per_count
-  Scalar cos_offset{};           ///< o_c, the offset left after demodulation
+  Scalar cos_offset{};           ///< o_c, the offset that remains after demodulation
   Scalar sin_offset{};           ///< o_s, like cos_offset
   Gain<Scalar> skew{};           ///< tan q, of windings that are not at right angles
-  bool normalise = true;         ///< divides by the measured amplitude; else the amplitude counts as 1
+  bool normalise = true;         ///< true: divides by the measured amplitude; false: assumes the amplitude 1
   TrackingConfig loop{};
   Scalar least_square{};        ///< least c^2 + s^2; below it a winding or the excitation is broken
-  Scalar greatest_square{};     ///< greatest c^2 + s^2; above it a winding is shorted to the other; 0: not
-                                ///< checked
-  std::uint8_t lost_after = 1;  ///< number of consecutive results outside of these bounds that means `lost`
+  Scalar greatest_square{};     ///< greatest c^2 + s^2; above it the windings are shorted to each other; 0:
+                                ///< not checked
+  std::uint8_t lost_after = 1;  ///< consecutive results outside of these bounds until `lost`
   bool operator==(const ResolverConfig&) const = default;
 };
 
@@ -57,7 +58,7 @@ struct ResolverState {
 
 template <class Scalar>
 struct ResolverReading {
-  BinaryAngle angle = 0;   ///< angle in the resolver's turn (p_r to a mechanical turn), at the middle between
+  BinaryAngle angle = 0;   ///< angle in the resolver's turn (p_r per mechanical turn), at the middle between
                            ///< two samples
   std::int32_t speed = 0;  ///< units of 2^-32 turn per call
   Scalar square{};         ///< c^2 + s^2
@@ -88,8 +89,8 @@ constexpr std::int32_t resolver_error(const ResolverSignals<Scalar>& x, BinaryAn
   const Scalar along = x.c * d.cos + x.s * d.sin;
   const Scalar across = x.s * d.cos - x.c * d.sin;
   const Scalar limit = normalise ? magnitude(across) : Scalar{};
-  // along must be strictly greater: otherwise 0/0 of a resolver without signals would be a step of 1. Without
-  // signals the error is 0.
+  // along must be strictly greater: otherwise a resolver without signals (0/0) would give an error of 1.
+  // Without signals the error is 0.
   if (along > limit) return angle_of_rad(normalise ? across / along : across);
   if (along == Scalar{} && across == Scalar{}) return 0;
   return angle_of_rad(across < Scalar{} ? -one<Scalar> : one<Scalar>);

@@ -4,9 +4,9 @@
 //
 //   sin(a + d) = sin a + d cos a - d^2/2 sin a,   cos(a + d) = cos a - d sin a - d^2/2 cos a,   |d| <= pi/256
 //
-// The next term is at most (pi/256)^3/6 = 3.1e-7. This is the error in double, plus 1e-9 from the table. In
-// fixed point of 16 bits rounding adds two digits. The table is computed in integers at compile time: the
-// same bits on every core, 130 bytes in 16 bits.
+// The next term is at most (pi/256)^3/6 = 3.1e-7. In double the error is this term plus 1e-9 from the table.
+// In fixed point of 16 bits rounding adds two digits. The table is computed in integers at compile time: it
+// has the same bits on every core. With 16-bit entries it needs 130 bytes.
 #pragma once
 #include <cstdint>
 
@@ -32,8 +32,8 @@ template <class Scalar>
 struct SineTable {
   Scalar entry[65]{};
   constexpr SineTable() {
-    // 2^31 does not fit in a signed number. The number below it still rounds to 1 in every format that holds
-    // 1.
+    // 2^31 does not fit into a signed number. The number below it still rounds to 1 in every format that
+    // contains 1.
     for (std::uint8_t n = 0; n < 65; ++n)
       entry[n] = AngleTraits<Scalar>::half_turns(shifted_up(sine_entry(n), 1));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracking loop of type 2: follows an angle and gives its speed, without a lag at constant speed. It is used
-// for a resolver, and for any angle that comes in steps or with noise.
+// Tracking loop of type 2: follows an angle and computes its speed, without a lag at constant speed. It is
+// used for a resolver, and for any angle that has steps or noise.
 //
 //   e[n]     = measured[n] - angle[n]                      by the shorter rotation, or from a phase detector
 //   w[n+1]   = w[n] + K_i e[n]
@@ -8,11 +8,11 @@
 //
 //   characteristic polynomial   z^2 + (K_p + K_i - 2) z + 1 - K_p
 //   stable (Jury)               0 < K_p < 2,  K_i > 0,  2 K_p + K_i < 4
-//   constant acceleration       e stays at a T^2/K_i = a/K_a,  K_a = K_i/T^2
+//   constant acceleration a     e is a T^2/K_i = a/K_a,  K_a = K_i/T^2
 //
-// design/loops/tracking_loop.hpp computes K_p and K_i from bandwidth and damping. All numbers are integers:
-// the same bits on every core. Rounding changes the angle by one unit of 2^-32 turn, the speed by 2^-48 turn
-// per tick.
+// T is the time of a tick. design/loops/tracking_loop.hpp computes K_p and K_i from bandwidth and damping.
+// All numbers are integers: every core computes the same bits. Rounding changes the angle by one unit of
+// 2^-32 turn, the speed by 2^-48 turn per tick.
 #pragma once
 #include <cstdint>
 
@@ -45,8 +45,8 @@ constexpr std::int64_t angle_times(std::int32_t angle, const FixedGain<std::int3
 
 }  // namespace detail
 
-/// Speed in units of 2^-32 turn per tick. A speed beyond half a turn per tick cannot be distinguished from a
-/// slower one.
+/// Speed in units of 2^-32 turn per tick. Above half a turn per tick the direction of the rotation is
+/// ambiguous.
 constexpr std::int32_t tracking_speed(const TrackingState& state) {
   return detail::saturated<std::int32_t>(detail::shifted_down(state.speed, 16));
 }
@@ -60,7 +60,7 @@ constexpr void tracking_step(const TrackingConfig& config, TrackingState& state,
   state.error = error;
 }
 
-/// Follows a measured angle; `state.angle` before the call is the prediction of that angle.
+/// Follows a measured angle; `state.angle` before the call is the prediction of the measured angle.
 constexpr void tracking_follow(const TrackingConfig& config, TrackingState& state, BinaryAngle measured) {
   tracking_step(config, state, way_between(state.angle, measured));
 }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the time of the next commutation from the times of the zero crossings (zero_crossing.hpp):
 //
-//   T = mean of the last k intervals between crossings; the last interval alone if it differs by more than
-//       a quarter
+//   T = mean of the last k intervals between crossings; only the last interval if it differs from the mean by
+//       more than a quarter
 //   t = crossing + T (1/2 - advance) - lead,     not before the crossing itself
 //
-// A crossing that was not found is put at its expected time, and once the next one is found, halfway between
-// its neighbours: a guess then changes T no more than the measured crossings do.
+// A crossing that was not found is stored at its expected time. When the next crossing is found, the stored
+// time changes to the middle between the neighbours. A guess therefore changes T no more than the measured
+// crossings do.
 //
-// A crossing is in the middle of its sector, and the commutation 30 degrees after it. The advance is an
-// angle. The lead is a time, which is an angle that grows with the speed: it compensates a phase's L/R, and
-// the delay of filters and converters. Times are readings of a free-running 32-bit counter, finer than the
-// control tick; the commutation is a compare match of this counter.
+// A crossing is in the middle of its sector, and the commutation follows 30 degrees later. The advance is an
+// angle. The lead is a time: it compensates a phase's L/R and the delay of filters and converters. Times are
+// readings of a free-running 32-bit counter, finer than the control tick; a compare match of this counter
+// commutates.
 #pragma once
 #include <cstdint>
 
@@ -33,12 +34,12 @@ struct CommutationClockState {
   bool guessed = false;        ///< the last crossing was not found
 };
 
-/// True if counter reading `a` is before `b`, for times less than half the counter's range apart.
+/// True if counter reading `a` is before `b`; their distance must be less than half of the counter's range.
 constexpr bool comes_before(std::uint32_t a, std::uint32_t b) {
   return a != b && static_cast<std::uint32_t>(b - a) < 0x80000000u;
 }
 
-/// Takes a crossing that was found.
+/// Adds a crossing that was found.
 constexpr void commutation_clock_crossing(CommutationClockState& state, std::uint32_t at,
                                           std::int8_t direction) {
   HallSpeedState& c = state.crossings;
@@ -47,7 +48,8 @@ constexpr void commutation_clock_crossing(CommutationClockState& state, std::uin
   hall_speed_edge(c, at, direction);
 }
 
-/// Puts a crossing that was not found one sector of T ticks after the last crossing, but no later than now.
+/// Adds a guess for a crossing that was not found: one sector of T ticks after the last crossing, but at most
+/// now.
 constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32_t T, std::int8_t direction,
                                        std::uint32_t now) {
   const std::uint32_t due = state.crossings.times[0] + T;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the magnet's flux linkage with the free phase, and commutates at its level:
+// Computes the magnet's flux linkage with the free phase, and commutates when it has fallen by a fixed
+// amount:
 //
 //   psi = integral(w - R i) dt - L i          w: floating_voltage.hpp, without a star point
 //   discretised exactly:   psi[n+1] - psi[n] = T g,   g = w - (i[n+1] - a i[n])/b,   a = exp(-R T/L),   b = (1 - a)/R
 //
-// In the sector in which its leg floats, psi grows up to the zero crossing and falls after it. From the
-// crossing to the commutation 30 degrees later psi falls by
+// In the sector in which the phase's leg floats, psi grows up to the zero crossing and falls after it. From
+// the crossing to the commutation 30 degrees later psi falls by
 //
 //   psi_c = K_e/p integral_0^(pi/6) (2 s_f - s_s - s_k)/3 dtheta      s: the shapes of the three back-EMFs
 //
-// at every speed and acceleration. Nothing is extrapolated from the sectors before, and the only number of
-// the motor is K_e. The angle grows with the root of the fall, so that a K_e wrong by 10 % shifts the
-// commutation by 1.5 degrees. psi is counted from its own maximum in each sector, so that a drift lasts one
-// sector only. The integral averages the noise of the terminals. R and L matter only while the leg's old
-// current decays, before the fall is counted.
+// at every speed and acceleration. Nothing is extrapolated from earlier sectors, and K_e is the only data of
+// the motor in psi_c. The fall grows with the square of the angle: an error of 10 % in K_e shifts the
+// commutation by 1.5 degrees. psi is counted from its own maximum in each sector; a drift therefore lasts one
+// sector only. The integral averages the noise of the terminals. R and L have an effect only while the leg's
+// old current decays, before the fall is counted.
 //
-// Texas Instruments' InstaSPIN-BLDC uses this law with a threshold that is tuned at the bench.
+// Texas Instruments' InstaSPIN-BLDC uses this law with a threshold that the user adjusts on the bench.
 #pragma once
 #include <cstdint>
 
@@ -24,8 +25,8 @@
 
 namespace sixstep::control {
 
-/// With the default nothing is counted. psi is stored as a multiple of 4 psi_c, so that the level is 1/4 for
-/// every motor.
+/// With the default nothing is counted. psi is stored as a multiple of 4 psi_c: the level is 1/4 for every
+/// motor.
 template <class Scalar>
 struct FluxLinkageConfig {
   Gain<Scalar> decay{};      ///< a, decay of the current over a period
@@ -35,7 +36,7 @@ struct FluxLinkageConfig {
   bool operator==(const FluxLinkageConfig&) const = default;
 };
 
-/// The signs are such that g falls through zero.
+/// The signs are chosen so that g falls through zero.
 template <class Scalar>
 struct FluxLinkageState {
   Scalar i_A{};                      ///< current at the last sample
@@ -43,7 +44,7 @@ struct FluxLinkageState {
   Accumulator<Scalar> psi{}, top{};  ///< psi and its maximum since the sector began
   Scalar per_tick{};                 ///< fall of psi in the last period
   Scalar steeper{};                  ///< increase of per_tick over the period before
-  std::uint16_t falling = 0;         ///< periods since psi was greatest
+  std::uint16_t falling = 0;         ///< periods since the maximum of psi
 };
 
 /// Advances by a period with the mean voltage w_V, and the current i_A at the period's end. Returns the mean
@@ -67,7 +68,7 @@ constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, Flux
   return state.g_V;
 }
 
-/// Begins a sector, in which the next leg floats. The signs are again such that g falls, so that g begins at
+/// Begins a sector, in which the next leg floats. The signs are again chosen so that g falls: g begins at
 /// minus its last value.
 template <class Scalar>
 constexpr void flux_linkage_begin(FluxLinkageState<Scalar>& state) {
@@ -76,8 +77,8 @@ constexpr void flux_linkage_begin(FluxLinkageState<Scalar>& state) {
   state.g_V = g_V;
 }
 
-/// Advances by a period of unknown voltage. After the crossing psi continues to fall, with a back-EMF on the
-/// straight line from the crossing on.
+/// Advances by a period of unknown voltage. After the crossing psi continues to fall, with a back-EMF that
+/// grows linearly from the crossing on.
 template <class Scalar>
 constexpr Scalar flux_linkage_hold(FluxLinkageState<Scalar>& state, Scalar i_A) {
   using T = ScalarTraits<Scalar>;
@@ -91,8 +92,7 @@ constexpr Scalar flux_linkage_hold(FluxLinkageState<Scalar>& state, Scalar i_A) 
   return state.g_V;
 }
 
-/// True if the level is reached within the next period; `part`: the fraction of the period after which it is
-/// reached.
+/// True if the level is reached within the next period. `part`: fraction of the period until then.
 template <class Scalar>
 constexpr bool flux_level_comes(const FluxLinkageConfig<Scalar>& config,
                                 const FluxLinkageState<Scalar>& state, Scalar& part) {

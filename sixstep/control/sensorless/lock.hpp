@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks whether the commutation still follows the rotor, by the zero crossing of each sector, and names the
+// Checks by the zero crossing of each sector whether the commutation still follows the rotor, and names the
 // cause of a loss. A loss is detected within two commutations of its cause.
 //
 //   masked crossing        no crossing within `window` of the sector's expected time
@@ -7,8 +7,9 @@
 //                          window
 //   wrong sector           one of these:
 //                          - in `tolerated` sectors in a row the terminal showed a crossing too early
-//                          - in as many, the time between crossings was below 5/8 or above 8/5 of the one
-//                            before, or shorter than this motor on this bus can turn
+//                          - in `tolerated` sectors in a row the time between crossings was below 5/8 or
+//                            above
+//                            8/5 of the time before, or shorter than this motor can reach on this bus
 //                          - in `unlike_samples` samples in a row the back-EMF had returned after its
 //                            crossing, or was larger than at the assumed speed: 2 u_f - u_s - u_k times T is
 //                            at most 3 K_e (pi/3)/p
@@ -33,25 +34,24 @@ enum class LockLoss : std::uint8_t {
 
 struct LockConfig {
   std::uint8_t window_eighths = 16;          ///< window in eighths of a sector, from crossing to crossing
-  std::uint8_t tolerated = 2;                ///< consecutive sectors without a found crossing that are
-                                             ///< tolerated
-  std::uint8_t unlike_samples = 4;           ///< consecutive samples that contradict the command and mean a
-                                             ///< loss
-  std::uint32_t shortest_ticks = 0;          ///< shortest sector: no rotor is faster
+  std::uint8_t tolerated = 2;                ///< consecutive sectors without a crossing at which a loss is
+                                             ///< reported
+  std::uint8_t unlike_samples = 4;           ///< consecutive samples that contradict the command until a loss
+  std::uint32_t shortest_ticks = 0;          ///< shortest possible sector, at the largest speed
   std::uint32_t longest_ticks = 0xffffffff;  ///< longest sector: a slower rotor cannot be followed
   std::uint32_t most_flux = 0xffffffff;      ///< largest y times T of a rotor, counts times ticks
-  std::int32_t threshold = 0x7fffffff;       ///< counts of y above which it is a voltage and not noise
+  std::int32_t threshold = 0x7fffffff;       ///< counts of |y| above which y is a voltage and not noise
   std::uint8_t retries = 3;                  ///< consecutive losses and failed starts before the drive stops
-  std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which the count of losses
-                                             ///< begins again
+  std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which the count of losses is
+                                             ///< reset
   bool operator==(const LockConfig&) const = default;
 };
 
 struct LockState {
   std::uint8_t hidden = 0;  ///< consecutive sectors whose crossing the old current hid
   std::uint8_t early = 0;   ///< consecutive sectors whose crossing had passed before it could be found
-  std::uint8_t odd = 0;     ///< consecutive samples that no rotor makes in this sector at this speed
-  std::uint8_t jumps = 0;   ///< consecutive sectors whose time differed too much from the one before
+  std::uint8_t odd = 0;     ///< consecutive samples that are impossible in this sector at this speed
+  std::uint8_t jumps = 0;   ///< consecutive sectors whose time differed too much from the sector before
   std::uint8_t losses = 0;  ///< consecutive losses
   std::uint16_t held = 0;   ///< sectors since the last loss
   LockLoss last = LockLoss::none;
@@ -66,7 +66,7 @@ constexpr void lock_begin(LockState& state) {
   state.held = 0;
 }
 
-/// True if a rotor can need `interval` ticks for a sector after a sector of T ticks.
+/// True if a sector of `interval` ticks is possible after a sector of T ticks.
 constexpr bool follows_on(std::uint32_t interval, std::uint32_t T) {
   return interval / 5 >= T / 8 && interval / 8 <= T / 5;
 }
@@ -93,8 +93,7 @@ constexpr LockLoss lock_crossing(const LockConfig& config, LockState& state, Cro
   return ++state.early < config.tolerated ? LockLoss::none : LockLoss::wrong_sector;
 }
 
-/// Checks a sample y of the back-EMF. `crossed`: the crossing of this sector is past; otherwise it is still
-/// to come.
+/// Checks a sample y of the back-EMF. `crossed`: true after the crossing of this sector.
 constexpr LockLoss lock_sample(const LockConfig& config, LockState& state, std::int32_t y, bool crossed,
                                std::uint32_t T) {
   const std::uint32_t size = static_cast<std::uint32_t>(y < 0 ? -y : y);
@@ -108,7 +107,7 @@ constexpr LockLoss lock_sample(const LockConfig& config, LockState& state, std::
   return ++state.odd < config.unlike_samples ? LockLoss::none : LockLoss::wrong_sector;
 }
 
-/// Checks a sector whose crossing is missing, `since` ticks after the last one, with sectors of T ticks.
+/// Checks a sector whose crossing is missing. `since`: ticks since the last crossing. T: ticks of a sector.
 /// `hides`: the old current still flows.
 constexpr LockLoss lock_waiting(const LockConfig& config, std::uint32_t since, std::uint32_t T, bool hides,
                                 std::uint8_t unlike_samples) {
@@ -119,7 +118,7 @@ constexpr LockLoss lock_waiting(const LockConfig& config, std::uint32_t since, s
   return hides ? LockLoss::long_demagnetisation : LockLoss::masked_crossing;
 }
 
-/// Counts a loss. Returns true if the drive must stop.
+/// Counts a loss. Returns true if the drive must stop, after more than config.retries losses.
 constexpr bool lock_lost(const LockConfig& config, LockState& state, LockLoss loss) {
   lock_begin(state);
   state.last = loss;

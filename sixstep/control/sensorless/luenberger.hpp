@@ -5,12 +5,12 @@
 //   L di/dt = w - R i - e,   de/dt = 0                                              the model, (1) of model.md
 //   i_p = a i^ + b (w - e^),   a = exp(-R T/L),   b = (1 - a)/R                      exact for w, e constant in a period
 //   eps = i - i_p,   i^ = i_p + l eps,   e^ = e^ - h eps
-//   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      its two poles p1, p2 in z
+//   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      two poles p1, p2 in z
 //
 // w is the mean over the period that ends with the sample of i. With both poles at p, the estimate of a
-// back-EMF that grows as a ramp is 2 p/(1 - p) periods late. Half a period is added, because a mean is valid
-// for the middle of its period. This delay is a time, the same at every speed, and observer.hpp subtracts it.
-// A phase without current has w = e: then R and L only shape the decay of the old estimate, by the factor p
+// back-EMF that grows as a ramp is 2 p/(1 - p) periods late. The mean adds half a period, because it is valid
+// for the middle of its period. The sum is a time that is the same at every speed; observer.hpp subtracts it.
+// A phase without current has w = e: R and L then only determine how the old estimate decays, by the factor p
 // in each period.
 //
 // D. G. Luenberger, Observing the state of a linear system, IEEE Trans. Military Electronics 8 (1964) 74.
@@ -50,21 +50,21 @@ constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, Luenber
   return T::signal(state.e_V);
 }
 
-/// Begins a sector, in which the next leg floats. The signs are again such that its back-EMF falls, so that
-/// the estimate begins at minus its last value.
+/// Begins a sector, in which the next leg floats. The signs are again chosen so that its back-EMF falls: the
+/// estimate begins at minus its last value.
 template <class Scalar>
 constexpr void luenberger_begin(LuenbergerState<Scalar>& state) {
   state.e_V = -state.e_V;
 }
 
-/// Sets the estimate: the leg's old current has just ended, and the terminal shows the back-EMF.
+/// Sets the estimate when the leg's old current has just ended and the terminal shows the back-EMF.
 template <class Scalar>
 constexpr void luenberger_set(LuenbergerState<Scalar>& state, Scalar e_V, Scalar i_A) {
   state.i_A = i_A;
   state.e_V = ScalarTraits<Scalar>::accumulator(e_V);
 }
 
-/// Advances by a period of unknown voltage: the estimate is kept.
+/// Advances by a period of unknown voltage, without changing the estimate.
 template <class Scalar>
 constexpr Scalar luenberger_hold(LuenbergerState<Scalar>& state, Scalar i_A) {
   state.i_A = i_A;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the back-EMF that the drive follows: the terminal's own (zero_crossing.hpp), or an observer's,
-// which averages the converters' noise and has a known delay. Call it once per control tick with terminals,
-// currents and the command in effect.
+// Selects the source of the back-EMF: the terminal (zero_crossing.hpp), or an observer, which averages the
+// converters' noise and has a known delay. Call it once per control tick with terminals, currents and the
+// command in effect.
 //
-// The observer gives the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, as zero_crossing.hpp
-// reads them from the terminal, so that lock, clock and thresholds are the same. While the leg's old current
-// decays the observer has no input. The first sample after it sets the estimate. A crossing in that time is
-// reported as passed, as for the terminal's own back-EMF.
+// The observer returns the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, like
+// zero_crossing.hpp, so that lock, clock and thresholds need no change. While the leg's old current decays
+// the observer has no input. The first sample after this time sets the estimate. A crossing during this time
+// is reported as passed, as for the terminal's back-EMF.
 //
 //   luenberger     crossing of the estimate, minus the estimate's lag; commutation half a sector later by the
 //                  clock
 //   sliding mode   as luenberger
-//   flux           crossing of the mean back-EMF; commutation where the flux linkage has fallen by its level
+//   flux           crossing of the mean back-EMF; commutation when the flux linkage has fallen by its level
 //
 // One observer serves all legs: its estimate passes from one floating leg to the next. Samples are in the
 // middle of a centred pulse, and commands take effect half a period later. The mean voltage from sample to
-// sample is therefore the mean of the two samples. A period in which the pair changed, or the diode stopped
-// conducting, has no known mean and leaves the estimate unchanged.
+// sample is therefore the mean of the two samples. If the pair changed or the diode stopped conducting within
+// a period, the period has no known mean and leaves the estimate unchanged.
 #pragma once
 #include <cstdint>
 
@@ -28,15 +28,14 @@
 
 namespace sixstep::control {
 
-/// Source of the crossings. comparators: their edges are the terminal's own crossings
-/// (captured_crossing.hpp), also without an observer.
+/// Source of the crossings. comparators: the comparators' edges (captured_crossing.hpp), without an observer.
 enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux, comparators };
 
 constexpr bool observes(Follow follow) {
   return follow != Follow::crossings && follow != Follow::comparators;
 }
 
-/// With the default the terminal's crossings are followed, which costs one branch.
+/// With the default the terminal's crossings are used, which costs one branch.
 template <class Scalar>
 struct ObserverConfig {
   Follow follow = Follow::crossings;
@@ -51,26 +50,25 @@ struct ObserverConfig {
 
 template <class Scalar>
 struct ObserverState {
-  FloatingVoltage<Scalar> before{};  ///< voltage at the last sample
+  FloatingVoltage<Scalar> before{};  ///< voltage of the floating phase at the last sample
   LuenbergerState<Scalar> luenberger{};
   SlidingModeState<Scalar> sliding_mode{};
   FluxLinkageState<Scalar> flux{};
   std::uint32_t at = 0;  ///< time of the last sample
   std::uint8_t sector = no_sector;
-  bool runs_out = false;  ///< the old current of this sector's leg still flows
-  bool crossed = false;   ///< the estimate has fallen below zero in this sector
+  bool runs_out = false;  ///< true: the old current of this sector's leg still flows
+  bool crossed = false;   ///< true: the estimate has fallen below zero in this sector
 };
 
 /// Result of the observer for the drive.
 struct Observed {
-  bool follows = false;         ///< false: the terminal's own crossing is used
+  bool follows = false;         ///< true: the observer's crossing is used; false: the terminal's crossing
   bool blind = false;           ///< the old current still hides the back-EMF
-  std::int32_t y = 0;           ///< y, counts, with the sign for which it falls through zero
+  std::int32_t y = 0;           ///< y, counts, with the sign with which it falls through zero
   std::uint32_t lag_ticks = 0;  ///< age of y
   bool by_level = false;        ///< the flux linkage determines the commutation
   bool due = false;             ///< the commutation is due within the next period
-  /// Ticks from now to the commutation, at least 1. A compare match changes the pair at once; a command would
-  /// do so later.
+  /// Ticks from now to the commutation, at least 1. A compare match changes the pair exactly then.
   std::uint32_t due_ticks = 0;
 };
 
@@ -110,7 +108,7 @@ constexpr void observer_begin(Follow follow, ObserverState<Scalar>& state, std::
   state.crossed = false;
 }
 
-/// Sets all estimates: the old current has ended.
+/// Sets all estimates when the old current has ended.
 template <class Scalar>
 constexpr void observer_set(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state, Scalar e_V,
                             Scalar i_A) {
@@ -164,8 +162,8 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const bool blind = state.runs_out && now.held && !config.voltage.through_freewheel;
   const bool released = state.runs_out && !now.held && now.known && state.before.held && !moved;
   if (now.known && !now.held) state.runs_out = false;
-  // After the crossing soft chopping's freewheel holds the leg at the same rail again, and the terminal shows
-  // no voltage.
+  // After the crossing the freewheel of soft chopping holds the leg at the same rail again, and the terminal
+  // does not show the back-EMF.
   const bool known = !moved && !blind && now.known && state.before.known && now.held == state.before.held &&
                      !(now.held && state.crossed);
   const Scalar w = T::half_difference(state.before.w_V, -now.w_V);
@@ -188,7 +186,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   return observed;
 }
 
-/// As zero_crossing_step(), but with the observer's y instead of the terminal's.
+/// Like zero_crossing_step(), with the observer's y instead of the terminal's y.
 constexpr CrossingReading observed_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                                  const TerminalSample& s, const Observed& observed, bool on) {
   if (state.sector > 5) return {};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the source of the commutation: Hall probes, or the back-EMF. Both are followed all the time, so
-// that the drive can change from one to the other while it turns if the two agree, and to the back-EMF if a
+// Selects the source of the commutation: Hall probes, or the back-EMF. Both are followed all the time. The
+// drive can therefore change the source while it turns, if both agree, and can change to the back-EMF if a
 // Hall line fails.
 //
 //   Hall to back-EMF   `agreed` sectors in a row, each with a crossing found between its two edges
 //   back-EMF to Hall   `agreed` edges in a row, each within a quarter of a sector of the commutation
-//   a line fails       (hall.hpp: an invalid code) at once; if no crossings were found before, by catching
-//                      the spin
+//   a line fails       (hall.hpp: an invalid code) at once; if no crossings were found before, by the phase
+//                      `catching` of sensorless.hpp
 #pragma once
 #include <cstdint>
 
@@ -33,13 +33,13 @@ struct PositionSourceState {
   HallSpeedState edges{};  ///< times of the probes' edges
   std::uint8_t agreed = 0;
   std::uint8_t line = 0;  ///< 1..3: the line that failed; 0: none, or unknown
-  bool broken = false;    ///< a line has failed; stays true until the drive is started anew
+  bool broken = false;    ///< true: a line has failed; stays true until the drive restarts
   bool started = false;
 };
 
 namespace detail {
 
-/// True if a Hall edge into `sector` agrees with the commutation that follows the back-EMF.
+/// True if a Hall edge into `sector` agrees with the commutation by the back-EMF.
 template <class Scalar>
 constexpr bool edge_agrees(const SensorlessConfig<Scalar>& config, const SensorlessState& sensorless,
                            std::uint8_t sector, std::uint32_t now) {
@@ -68,7 +68,8 @@ constexpr void line_died(const PositionSourceConfig& config,
 
 }  // namespace detail
 
-/// The Hall pins changed at a captured time. Returns true if the probes commutate and the code is valid.
+/// Processes a change of the Hall pins at a captured time. Returns true if the probes commutate and the code
+/// is valid.
 template <class Scalar>
 constexpr bool source_hall_edge(const PositionSourceConfig& config,
                                 const SensorlessConfig<Scalar>& sensorless_config, PositionSourceState& state,
@@ -97,8 +98,8 @@ constexpr bool source_hall_edge(const PositionSourceConfig& config,
   return true;
 }
 
-/// Call it once per control tick, before the steps. It selects the first source, and changes from Hall probes
-/// to back-EMF.
+/// Call it once per control tick, before the steps. It selects the first source, and changes the source from
+/// Hall probes to the back-EMF.
 template <class Scalar>
 constexpr void source_step(const PositionSourceConfig& config,
                            const SensorlessConfig<Scalar>& sensorless_config, PositionSourceState& state,
@@ -116,8 +117,7 @@ constexpr void source_step(const PositionSourceConfig& config,
       sensorless_follow_edge(sensorless_config, sensorless, reading.sector, 0, now);
     return;
   }
-  // The change is made after a crossing, when its commutation is scheduled: nothing of this sector is then
-  // still to be found.
+  // The change follows a crossing whose commutation is scheduled: this sector then needs no further crossing.
   if (state.source != RotorSource::hall || config.wanted != RotorSource::back_emf) return;
   if (state.agreed < config.agreed || !sensorless.clock.scheduled) return;
   if (sector_ticks(sensorless_config.clock, sensorless.clock) > sensorless_config.start.trusted_ticks) return;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Position without a sensor: computes, from terminal voltages, speed, position and the code that Hall probes
-// would give. drive.hpp uses the code as if probes were there; the timer's compare match replaces the Hall
-// interrupt.
+// Position without a sensor: computes speed, position and the code of Hall probes from the terminal voltages.
+// drive.hpp uses the code as if the motor had probes; the timer's compare match replaces the Hall interrupt.
 //
 //   off -> catching -> aligning -> ramping -> running        if a direction is wanted
 //           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than lock.retries in a row
 //           '-> running                                        if the rotor spins already (spin.hpp)
 //
-// In phase `following` another source commutates. Crossings are only followed, so that the back-EMF can take
-// over while the motor turns.
+// In phase `following` another source commutates. Crossings are only followed, so that the back-EMF can
+// replace the source while the motor turns.
 //
-// Call sensorless_step once per control tick with the samples of that tick, and sensorless_commutate when the
-// timer reaches state.clock.next while state.clock.scheduled. If a commutation is already due when its
+// Call sensorless_step once per control tick with the samples of that tick. Call sensorless_commutate when
+// the timer reaches state.clock.next while state.clock.scheduled. If a commutation is already due when its
 // crossing is found, the step commutates. With comparators at the terminals, call sensorless_capture at each
 // of their edges.
 #pragma once
@@ -21,10 +20,10 @@
 
 namespace sixstep::control {
 
-/// What the drive has to do in the present phase.
+/// Commands for the drive in the present phase.
 template <class Scalar>
 struct SensorlessAnswer {
-  bool drives = false;    ///< false: the bridge is off
+  bool drives = false;    ///< true: the drive is on; false: the bridge is off
   bool by_start = false;  ///< the current loop holds start_A, in every mode and for any setpoint
   Scalar start_A{};       ///< current of the start, with the sign of its direction
 };
@@ -37,7 +36,8 @@ constexpr void sensorless_commutate(const SensorlessConfig<Scalar>& config, Sens
   if (state.phase == SensorlessPhase::ramping) ramp_commutated(state.start);
 }
 
-/// The capture interrupt of comparators at the terminals. `lines`: their three levels from `at` on.
+/// The capture interrupt of comparators at the terminals. `lines`: levels of the three comparators from `at`
+/// on.
 constexpr void sensorless_capture(SensorlessState& state, std::uint8_t lines, std::uint32_t at) {
   capture_lines(state.captured, lines, at);
 }
@@ -76,7 +76,7 @@ constexpr void sensorless_step(const SensorlessConfig<Scalar>& config, Sensorles
   if (state.clock.scheduled && !comes_before(now, state.clock.next)) sensorless_commutate(config, state, now);
 }
 
-/// Takes an edge into `sector` from another source, which commutates.
+/// Processes an edge into `sector` of another source, which commutates.
 template <class Scalar>
 constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       std::uint8_t sector, std::int8_t moved, std::uint32_t now) {
@@ -87,8 +87,8 @@ constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, Se
   state.position.sectors += moved;
 }
 
-/// A control tick while another source commutates: crossings are found and commutations scheduled as if the
-/// back-EMF did.
+/// A control tick while another source commutates: finds crossings and schedules commutations as if the
+/// back-EMF commutated.
 template <class Scalar>
 constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                  const SensorlessInput& input) {
@@ -97,7 +97,7 @@ constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, Sensorl
   if (reading.crossing == Crossing::seen) detail::take_crossing(config, state, reading.at);
 }
 
-/// What the drive has to do now.
+/// Commands for the drive now.
 template <class Scalar>
 constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scalar>& config,
                                                      const SensorlessState& state, std::int8_t wanted) {

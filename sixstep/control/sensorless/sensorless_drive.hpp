@@ -5,10 +5,10 @@
 //   sensorless_drive_hall       in the Hall interrupt of a motor that also has probes
 //   sensorless_capture          (sensorless.hpp) in the interrupt of comparators
 //
-// During the start the current loop holds the start's current in every mode. At the hand-over the loops
-// continue from there. A speed loop's output begins at the part of that current that the ramp needs, because
-// the rest was a reserve. A current or duty setpoint is approached by a limited change per tick. The same
-// limit applies later, because a step of the setpoint could make a current that hides the crossings.
+// During the start the current loop controls the start's current in every mode. At the hand-over the loops
+// continue from this state. A speed loop's output begins at the ramp's part of the start's current, because
+// the rest was a reserve. A current or duty setpoint is approached by a limited change per tick. This limit
+// applies later too, because a step of the setpoint could cause a current that hides the crossings.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -21,7 +21,7 @@ struct SensorlessDriveConfig {
   DriveConfig<Scalar> drive{};
   SensorlessConfig<Scalar> sensorless{};
   PositionSourceConfig source{};
-  ObserverConfig<Scalar> observer{};  ///< source of the back-EMF that is followed
+  ObserverConfig<Scalar> observer{};  ///< source of the back-EMF
   Scalar start_output{};              ///< output of the speed loop at the hand-over, computed from the ramp's
                                       ///< torque
   SlewConfig<Scalar> duty{};          ///< change of a duty setpoint per tick; default: no limit
@@ -40,8 +40,8 @@ struct SensorlessDriveState {
   bool by_start = true;  ///< true: the start determined the current at the last tick
 };
 
-/// Values of the registers at a tick. `measured` has currents and bus, and with Hall probes also speed and
-/// position.
+/// Values of the registers at a tick. `measured` contains currents and bus, and with Hall probes also speed
+/// and position.
 template <class Scalar>
 struct SensorlessDriveInput {
   Measurement<Scalar> measured{};
@@ -63,7 +63,7 @@ constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar
   return way > zero ? std::int8_t{1} : way < zero ? std::int8_t{-1} : std::int8_t{0};
 }
 
-/// Sets the loops to values that continue the end of the start.
+/// Sets the loops' states so that they continue from the end of the start.
 template <class Scalar>
 constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Scalar setpoint, bool forward, bool caught) {
@@ -82,13 +82,13 @@ constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, Sensorless
       speed_reference(drive, state.drive, drive.mode, setpoint, measured) - measured.speed_rad_s;
 }
 
-/// Lengthens a pulse so that a sample fits into it.
+/// Lengthens a pulse so that a sample is possible within it.
 template <class Scalar>
 constexpr void keep_visible(Scalar least_duty, BridgeCommand<Scalar>& command) {
   if (command.enabled && command.watch == Watch::none && command.duty < least_duty) command.duty = least_duty;
 }
 
-/// A duty or current setpoint that changes no faster than the crossings allow.
+/// The duty or current setpoint, with a limited change per tick so that the crossings stay visible.
 template <class Scalar>
 constexpr Scalar approached(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                             Scalar setpoint) {
@@ -127,7 +127,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, input.on_ticks, observed});
   const SensorlessAnswer<Scalar> answer = sensorless_answer(config.sensorless, rotor, wanted);
   measured.hall = hall_of_sector(rotor.sector);
-  // The speed estimate is valid for an earlier instant: a crossing after that instant cannot be missing yet.
+  // The speed estimate is valid at the earlier instant `told`: a crossing after `told` cannot be missing yet.
   const std::uint32_t told = now - observed.lag_ticks, last = rotor.clock.crossings.times[0];
   measured.speed_rad_s = sensorless_speed(config.sensorless, rotor, comes_before(told, last) ? last : told);
   measured.position_deg = sensorless_position(config.sensorless, rotor, now);
@@ -149,7 +149,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   return state.drive.command;
 }
 
-/// The timer has reached next_commutation: changes the pair.
+/// Changes the pair when the timer has reached next_commutation.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& sensorless_drive_commutate(const SensorlessDriveConfig<Scalar>& config,
                                                                   SensorlessDriveState<Scalar>& state,

@@ -29,7 +29,7 @@ struct SensorlessConfig {
 
 struct SensorlessInput {
   TerminalSample terminals{};
-  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: the motor is to rest or coast
+  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: rest or coast
   bool on = false;             ///< the driven pair's switches are on at the sample
   std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators against half
                                ///< the bus
@@ -69,7 +69,7 @@ constexpr void begin_sector(const SensorlessConfig<Scalar>& config, SensorlessSt
   zero_crossing_begin(state.crossing, state.sector, since < half ? half - since : 0, now);
 }
 
-/// The terminal's own crossing after the start, from samples or from the comparators' edges.
+/// The crossing at the terminal after the start, from samples or from the comparators' edges.
 template <class Scalar>
 constexpr CrossingReading crossing_of(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       const SensorlessInput& input) {
@@ -104,8 +104,8 @@ constexpr void lose(const SensorlessConfig<Scalar>& config, SensorlessState& sta
   if (ends) state.phase = SensorlessPhase::gave_up;
 }
 
-/// Time of a crossing that was not found. If the old current hid it, this is its expected time; otherwise it
-/// is halfway between the commutation and now.
+/// Time of a crossing that was not found. If the old current hid the crossing, this is its expected time;
+/// otherwise the middle between the commutation and now.
 template <class Scalar>
 constexpr std::uint32_t passed_at(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                   std::uint32_t now) {
@@ -115,7 +115,7 @@ constexpr std::uint32_t passed_at(const SensorlessConfig<Scalar>& config, const 
   return comes_before(due, began) ? began : comes_before(now, due) ? now : due;
 }
 
-/// Takes a crossing and schedules its commutation.
+/// Adds a crossing and schedules its commutation.
 template <class Scalar>
 constexpr void take_crossing(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                              std::uint32_t at) {
@@ -219,7 +219,7 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
     if (loss != LockLoss::none) return lose(config, state, loss, now);
     if (reading.crossing == Crossing::seen) return take_crossing(config, state, at);
     commutation_clock_guess(state.clock, T, state.direction, now);
-    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // T is less now if the crossing
+    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // T is smaller now if the crossing
                                                                            // came early
     return schedule_commutation(state.clock, at + delay_ticks(config.clock, sooner < T ? sooner : T));
   }
@@ -236,8 +236,8 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
   catch_spin(state, now);  // the rotor coasted or was braked as commanded: this is no loss
 }
 
-/// After a crossing that was found, the flux linkage, if it is followed, determines the commutation instead of
-/// the clock.
+/// After a crossing that was found, the flux linkage determines the commutation instead of the clock, if
+/// observed.by_level is set.
 constexpr void commutate_by_level(SensorlessState& state, const SensorlessInput& input) {
   if (!input.observed.by_level || state.phase != SensorlessPhase::running) return;
   if (!state.crossing.done || state.clock.guessed) return;

@@ -6,11 +6,11 @@
 //   discretised exactly:   i^[n+1] = a i^[n] + b (w - z[n]),   a = exp(-R T/L),   b = (1 - a)/R
 //   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass of z: the equivalent control
 //
-// If k is above every back-EMF, the error i^ - i is driven into the layer. Inside the layer error[n+1] = (a -
-// b k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would chatter
-// over 2 b k. phi = k b/a is the narrowest layer without chatter: the error is constant after one period, and
-// z = a e of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half a
-// period. observer.hpp subtracts this time, which compensates the phase lag at every speed.
+// If k is above every back-EMF, the error i^ - i moves into the layer. Inside the layer error[n+1] =
+// (a - b k/phi) error[n] + b e. A chip updates z once per period: with the sign function the error would
+// chatter over 2 b k. phi = k b/a is the narrowest layer without chatter: the error is constant after one
+// period, and z is a e of the period that has just ended. The low-pass is (1 - c)/c periods late, the mean
+// half a period. observer.hpp subtracts this time, which compensates the phase lag at every speed.
 //
 // V. I. Utkin, Variable structure systems with sliding modes, IEEE Trans. Automatic Control 22 (1977) 212; the layer:
 // J.-J. Slotine, S. S. Sastry, Int. J. Control 38 (1983) 465.
@@ -56,8 +56,8 @@ constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, Slid
   return T::signal(state.e_V);
 }
 
-/// Begins a sector, in which the next leg floats. The signs are again such that its back-EMF falls, so that
-/// the estimate begins at minus its last value.
+/// Begins a sector, in which the next leg floats. The signs are again chosen so that its back-EMF falls: the
+/// estimate begins at minus its last value.
 template <class Scalar>
 constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.error_A = -state.error_A;
@@ -65,7 +65,7 @@ constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.e_V = -state.e_V;
 }
 
-/// Sets the state: the leg's old current has just ended, and the terminal shows the back-EMF e. The
+/// Sets the state when the leg's old current has just ended and the terminal shows the back-EMF e. The
 /// equivalent control is then a e, at an error of b e.
 template <class Scalar>
 constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
@@ -77,7 +77,7 @@ constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, Sliding
   state.e_V = T::accumulator(e_V);
 }
 
-/// Advances by a period of unknown voltage: error and estimate are kept.
+/// Advances by a period of unknown voltage, without changing error and estimate.
 template <class Scalar>
 constexpr Scalar sliding_mode_hold(SlidingModeState<Scalar>& state, Scalar i_A) {
   state.i_A = i_A;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the motion of the rotor while the bridge is off. The signs of the three back-EMFs (terminals against
-// their mean) make six patterns, in the order of the codes of Hall probes. The pattern changes at the zero
+// their mean) form six patterns, in the order of the codes of Hall probes. The pattern changes at the zero
 // crossings. Forward, the pattern of sector n begins in the middle of sector n. Backward, every back-EMF has
 // the opposite sign, and the change back to pattern m is in the middle of sector m + 4.
 //
 //   3 e_k = 3 u_k - (u_a + u_b + u_c)      without current: the star point need not be connected
 //
-// The order of the patterns gives the direction, and their times the speed (commutation_clock.hpp). This
-// suffices to continue with a spinning rotor without stopping it.
+// The order of the patterns gives the direction, and their times give the speed (commutation_clock.hpp). With
+// both the drive can take over a spinning rotor without stopping it.
 #pragma once
 #include <cstdint>
 
@@ -17,7 +17,8 @@
 namespace sixstep::control {
 
 struct SpinConfig {
-  std::int32_t threshold = 0x7fffffff;  ///< counts of 3 e_k above which the value is a voltage and not noise
+  std::int32_t threshold = 0x7fffffff;  ///< counts of |3 e_k| above which the value is a voltage and not
+                                        ///< noise
   std::uint8_t crossings = 4;           ///< consecutive crossings at similar intervals in one direction that
                                         ///< prove a spin
   std::uint32_t settle_ticks = 0;       ///< time after turning the bridge off until currents have ended
@@ -50,13 +51,15 @@ constexpr void spin_begin(SpinState& state, std::uint32_t now) {
 
 namespace detail {
 
-/// Updates the signs. A sign counts once the voltage is beyond the threshold. The time of its change is the
+/// Updates the signs. A sign changes when the voltage exceeds the threshold. The time of its change is the
 /// zero of the straight line between two samples.
 constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, const TerminalSample& s) {
   std::uint8_t signs = state.signs;
   for (std::uint8_t k = 0; k < 3; ++k) {
     const std::int32_t e = above_neutral(s, k), before = state.e[k];
-    if (!state.looked) state.zero[k] = s.at;  // a crossing before the first sample counts as now
+    if (!state.looked)
+      state.zero[k] = s.at;  // before the first sample the time of a crossing is unknown:
+                             // now is used
     if (state.looked && before < 0 && e >= 0) state.zero[k] = crossed_at(state.at, -before, s.at, -e);
     if (state.looked && before >= 0 && e < 0)
       state.zero[k] = before == 0 ? state.at : crossed_at(state.at, before, s.at, e);
@@ -98,8 +101,8 @@ constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, Comm
   return reading;
 }
 
-/// True after config.crossings crossings, at least two, at similar intervals: the drive may then run on from
-/// the present speed.
+/// True after config.crossings crossings, at least two, at similar intervals: the drive may then continue
+/// from the present speed.
 constexpr bool spin_found(const SpinConfig& config, const SpinState& state) {
   return state.found >= config.crossings && state.found >= 2;
 }

@@ -2,22 +2,24 @@
 // Starts the motor from standstill until crossings can be trusted: alignment, then a ramp.
 //
 // Alignment. A pair pulls the rotor to the angle at which the pair's torque is 0, two sectors ahead of the
-// pair's own sector s: 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too. Therefore a
-// second pair follows, one sector further, which has no dead point there.
+// pair's own sector s: 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too. A second pair,
+// one sector further, therefore follows: its torque is not 0 there.
 //
-// The rotor swings about its place with the frequency sqrt(p K_t I/J). Only friction damps this swing,
-// because the pair's own back-EMF is 0 at that place. But the floating leg shows the speed of the swing.
-// While this speed grows, the rotor moves towards its place, and the current is low. While it falls, the
-// rotor moves away, against the full current. So each half swing reduces the energy by the ratio of the two
-// currents.
+// The rotor swings about its final angle with the frequency sqrt(p K_t I/J). Only friction damps this swing,
+// because the pair's back-EMF is 0 at this angle. The floating leg, however, shows the speed of the swing.
+// While this speed grows, the rotor moves towards the final angle, and the current is low. While the speed
+// falls, the rotor moves away, against the full current. Each half swing therefore reduces the energy by the
+// ratio of the two currents.
 //
-// Ramp. The pair two sectors further drives the rotor from there. The field turns by its own law,
+// Ramp. The pair two sectors further then drives the rotor. The field turns by its own law,
 //
 //   w(t) = a t  (+ j t^2/2),    a commutation each 60 degrees
 //
-// but only while the back-EMF shows no crossing. A crossing that is found sets the next commutation half a
-// sector later. A crossing that is still expected is waited for, up to a whole sector. If a crossing had
-// passed before it could be found, twice in a row or after two that were found, the drive commutates at once.
+// but only while the back-EMF shows no crossing.
+// - If a crossing is found, the next commutation follows half a sector later.
+// - If a crossing is still expected, the drive waits for it, up to a whole sector.
+// - If a crossing had passed before it could be found, the drive commutates at once: the second time in a
+//   row, or after two crossings that were found.
 #pragma once
 #include <cstdint>
 
@@ -53,9 +55,10 @@ struct StartUpState {
   bool falls = false;        ///< true: the swing's speed grows, and falling_A applies
   std::uint32_t angle = 0;   ///< angle of the field within its sector, 2^-32 sectors
   std::uint32_t speed = 0;   ///< speed of the field, 2^-32 sectors per tick
-  std::uint32_t faster = 0;  ///< acceleration in addition to the configured one, in 1/65536 of its unit
+  std::uint32_t faster = 0;  ///< increase of the acceleration by the jerk, in 1/65536 of the unit of
+                             ///< `acceleration`
   std::uint16_t ticks = 0;   ///< control ticks in the present sector
-  std::uint8_t waited = 0;   ///< whole sectors for which a crossing has been waited for
+  std::uint8_t waited = 0;   ///< whole sectors of waiting for a crossing
   std::uint8_t trusted = 0;  ///< consecutive found crossings
   std::uint8_t passed = 0;   ///< consecutive sectors whose crossing had passed before it could be found
 };
@@ -93,7 +96,7 @@ constexpr void ramp_begin(const StartUpConfig<Scalar>& config, StartUpState& sta
   state.speed = config.first_speed;
 }
 
-/// A sector of the ramp begins.
+/// Begins a sector of the ramp.
 constexpr void ramp_commutated(StartUpState& state) {
   state.angle = 0;
   state.ticks = 0;
@@ -127,7 +130,7 @@ constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& stat
   if (reading.crossing == Crossing::seen) {
     state.passed = 0;
     if (state.trusted < 255) ++state.trusted;
-    // The field continues at the speed that gives half a sector in the time since the commutation.
+    // The field continues at the speed of half a sector per time since the commutation.
     const std::uint32_t seen =
         0x80000000u / (state.ticks == 0 ? 1u : static_cast<std::uint32_t>(state.ticks));
     if (seen > state.speed) state.speed = seen < config.last_speed ? seen : config.last_speed;

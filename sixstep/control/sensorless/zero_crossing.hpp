@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the back-EMF's zero crossing in the floating leg, from the three terminal voltages.
 //
-//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      if both other legs are connected and f carries
-//                                                            no current (model.md 2)
+//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      if both driven legs s, k are connected and the
+//                                                            floating leg f carries no current (model.md 2)
 //
-// The star point drops out, and so does the bus. With the legs at both rails, by switches or diodes, u_s +
-// u_k is the bus; in a freewheel through two lower switches or diodes it is about zero. The crossing is in
-// the middle of a sector. The back-EMF falls in sectors 0, 2, 4 and rises in 1, 3, 5, in both directions of
-// rotation. The sum is counted with the sign with which it falls: y > 0 before the crossing, y < 0 after it.
+// The voltages of star point and bus cancel in this sum. With the driven legs at both rails, by switches or
+// diodes, u_s + u_k is the bus; in a freewheel through two lower switches or diodes it is about zero. The
+// crossing is in the middle of a sector. The back-EMF falls in sectors 0, 2, 4 and rises in 1, 3, 5, in both
+// directions of rotation. y is the sum with the sign with which it falls: y > 0 before the crossing, y < 0
+// after it.
 //
 // After a commutation the leg's old current decays through a diode, and its terminal is at a rail. There are
 // three cases.
-//   driving motor    The rail is the one that looks like "crossed already". Until the current has ended the
-//                    sum shows nothing (blanking), and this time is measured.
-//   braking motor    The rail is the other one, which looks like "not yet": nothing needs to be blanked.
+//   driving motor    At this rail the crossing seems to have passed. Until the current has ended the sum has
+//                    no meaning (blanking). The duration of this time is measured.
+//   braking motor    At the opposite rail the crossing seems to be still to come: no blanking is needed.
 //   small duty       In soft chopping a negative e_f drives a current through the leg's lower diode, and the
-//                    on-time is too short to end it. This rail has the sign of e_f too.
-// The crossing is on the straight line between the last sample with y > 0 and the first with y <= 0. If the
-// former was at the rail and shows no voltage, the crossing is halfway between the two.
+//                    on-time is too short to end the current. This rail has the sign of e_f too.
+// The crossing is the zero of the straight line between the last sample with y > 0 and the first sample with
+// y <= 0. If the last sample with y > 0 was at the rail and shows no voltage, the crossing is halfway between
+// both.
 //
 // All numbers are integers: counts of the converter, the same for terminals and bus, and counts of the timer.
-// They are the same in every arithmetic of the drive, so that this file has no Scalar.
+// Every arithmetic of the drive uses the same integers; this file therefore has no Scalar.
 #pragma once
 #include <cstdint>
 
@@ -43,8 +45,8 @@ struct TerminalSample {
 /// With the default no crossing is found.
 struct ZeroCrossingConfig {
   NeutralSeen seen = NeutralSeen::on_time;
-  std::uint16_t rail_counts = 0;        ///< a terminal this near to a rail is held by a diode or a switch
-  std::int32_t threshold = 0x7fffffff;  ///< counts of y above which y is a voltage and not noise
+  std::uint16_t rail_counts = 0;        ///< a diode or a switch holds a terminal this near to a rail
+  std::int32_t threshold = 0x7fffffff;  ///< counts of |y| above which y is a voltage and not noise
   std::int32_t below = 0x7fffffff;      ///< threshold for negative voltages; less in a freewheel, where a
                                         ///< diode holds u_f
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
@@ -54,18 +56,18 @@ struct ZeroCrossingConfig {
 
 struct ZeroCrossingState {
   std::uint8_t sector = no_sector;
-  bool freewheels = false;      ///< the leg's old current may still flow
+  bool freewheels = false;      ///< true: the leg's old current may still flow
   bool hidden = false;          ///< true: in this sector the old current was found to flow
-  bool armed = false;           ///< y was above the threshold in this sector
-  bool done = false;            ///< the crossing is past
+  bool armed = false;           ///< true: y was above the threshold in this sector
+  bool done = false;            ///< true: the crossing is past
   std::uint8_t unlike = 0;      ///< consecutive samples that contradict the command
   std::uint32_t began = 0;      ///< time of the commutation
   std::uint32_t earliest = 0;   ///< ticks since `began` before which no crossing is possible
   std::uint32_t blank = 0;      ///< ticks since `began` up to which samples are ignored
   std::uint32_t freewheel = 0;  ///< ticks of the last freewheel, as far as samples show it
-  bool held = false;            ///< at the last sample a diode held the terminal
+  bool held = false;            ///< true: at the last sample a diode held the terminal
   std::uint32_t at = 0;         ///< time of the last y
-  std::int32_t y = 0;           ///< the last y that was evaluated
+  std::int32_t y = 0;           ///< value of y at the last evaluated sample
 };
 
 enum class Crossing : std::uint8_t {
@@ -79,7 +81,7 @@ struct CrossingReading {
   std::uint32_t at = 0;
   bool visible = false;  ///< the sample shows the star point
   bool free = false;     ///< the sample also shows the back-EMF y, because no diode holds the terminal
-  std::int32_t y = 0;    ///< valid if `visible`, also while it is blanked
+  std::int32_t y = 0;    ///< valid if `visible`, also during the blanking
 };
 
 /// The leg, 0..2, that floats in a sector.
@@ -131,7 +133,7 @@ constexpr std::uint32_t crossed_at(std::uint32_t from, std::int32_t y_from, std:
   std::uint32_t sum = before + static_cast<std::uint32_t>(-y_to);
   const std::uint32_t ticks = to - from;
   while (before > (ticks == 0 ? 0xffffffffu
-                              : 0xffffffffu / ticks)) {  // one factor loses digits, so that the product fits
+                              : 0xffffffffu / ticks)) {  // dropping digits of one factor lets the product fit
     before >>= 1;
     sum >>= 1;
   }
@@ -143,7 +145,7 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   CrossingReading reading{Crossing::none, now, true, !held, y};
   const bool falls = state.sector % 2 == 0;
   const bool early = static_cast<std::uint32_t>(now - state.began) < state.earliest;
-  // `below` is for a negative terminal voltage, of which a freewheel shows less.
+  // `below` is for a negative terminal voltage, whose magnitude is smaller in a freewheel.
   const std::int32_t before = falls ? config.threshold : config.below,
                      after = falls ? config.below : config.threshold;
   if (y > before) state.armed = true;
@@ -160,8 +162,8 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   return reading;
 }
 
-/// One sample. look(y, held) evaluates it if the star point is visible, no old current hides the back-EMF,
-/// and no crossing has been found in this sector yet.
+/// One sample. Calls look(y, held) under three conditions: the star point is visible, no old current hides
+/// the back-EMF, and no crossing has been found in this sector yet.
 template <class Look>
 constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                     const TerminalSample& s, bool on, Look&& look) {
@@ -195,7 +197,7 @@ constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossi
 
 }  // namespace detail
 
-/// One sample. `on`: the pair's switches are on at the sample, so that the driven legs must be at the rails.
+/// One sample. `on`: the pair's switches are on at the sample; the driven legs must then be at the rails.
 constexpr CrossingReading zero_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                              const TerminalSample& s, bool on) {
   return detail::looked_at(config, state, s, on, [&](std::int32_t y, bool held) {

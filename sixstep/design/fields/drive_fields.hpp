@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the drive's configuration (control/drive.hpp) once, in the order of an exported
-// header. Each list binds all members of its struct, so that a member that is missing here does not compile.
+// header. Each list binds all members of its struct: if a member is missing here, it does not compile.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/design/fields/field.hpp"
 
 namespace sixstep::design {
 
-/// Loops that a drive runs.
+/// True if a drive runs the loop.
 template <class Scalar>
 constexpr bool runs_speed(const control::DriveConfig<Scalar>& d) {
   return d.mode == control::Mode::speed || d.mode == control::Mode::position;
@@ -160,7 +160,8 @@ void fields(Walk&& w, const control::SlidingSpeedConfig<double>& d, Kept& kept) 
   w.signal({"layer", "rad/s"}, d.layer, layer, Base::speed);
 }
 
-/// Fields of other laws of the speed loop. Fixed point has no such laws, because their scaling is not proved.
+/// Fields of other laws of the speed loop. They do not exist in fixed point, because their scaling is not
+/// proved.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   if constexpr (requires { kept.observed; }) {
@@ -170,7 +171,7 @@ void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   }
 }
 
-/// Fields of a jerk profile. Its scalars have their own units: a walk that converts by bases leaves them out.
+/// Fields of a jerk profile. Its scalars have their own units: a walk that converts by bases skips them.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::JerkProfileConfig<double>& d, Kept& kept) {
   auto& [counts_per_deg, deg_per_part, rad_s_per_part, rad_s2_per_part, stride_per_tick, acceleration, ticks,
@@ -196,7 +197,7 @@ void fields(Walk&& w, const control::MotionFeedForwardConfig<double>& d, Kept& k
   w.signal({"coulomb", "of full torque"}, d.coulomb, coulomb, Base::one);
 }
 
-/// Fields of a profiled position. Fixed point has no profile, because its scaling is not proved.
+/// Fields of a profiled position. It does not exist in fixed point, because its scaling is not proved.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ProfiledPositionConfig<double>& d, Kept& kept) {
   if constexpr (requires { kept.profile; }) {
@@ -217,7 +218,7 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
   constexpr Ratio of_current{Base::one, Base::current};
   if (!w.when_on(d.on)) {
-    // The speed loop of a field-oriented drive has this limit even without extras.
+    // The speed loop of a field-oriented drive uses this field even without extras.
     if (d.torque_fraction_per_A != 0)
       w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
     return;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Description of each field of a controller's configuration (drive_fields.hpp, product_fields.hpp), and the
-// simplest walk over the fields. A walk has one member function per kind of field:
+// simplest walk over the fields, which copies them. A walk has one member function per kind of field:
 //
 //   flag, choice, count   a switch, an enumeration, an integer
 //   signal                a Scalar, in units of its base
 //   threshold             a Scalar with which a signal is compared: it must be below full scale
 //   gain, raw_gain        output per input; the output of raw_gain is in the last bits of its number
 //   divisor, sum, ticks   the other types of control/scalar.hpp
-//   part                  a nested configuration, whose fields() are walked; further arguments are passed on
+//   part                  a nested configuration, whose fields() are visited with the further arguments
 //
 // Two more functions return whether the walk continues: when_run(runs) before the fields of a loop that may
-// not run, and when_on(on) before fields that depend on a flag. Each function gets the designed value
+// be unused, and when_on(on) before fields that depend on a flag. Each function receives the designed value
 // (double, SI) and the member that stores it, in the chip's number type.
 #pragma once
 #include <cstdint>
@@ -20,8 +20,8 @@
 
 namespace sixstep::design {
 
-/// Base of a fixed-point number: the quantity whose value the number 1.0 stands for. A, V, rad/s, degrees,
-/// the setpoint's unit, or 1.
+/// Base of a fixed-point number: the quantity whose value 1.0 represents, in A, V, rad/s, degrees, the
+/// setpoint's unit, or 1.
 enum class Base : std::uint8_t { one, current, voltage, speed, position, setpoint };
 
 /// Bases of a gain's output and input.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the field-oriented drive's configuration (control/field/) around its drive once. Each
-// list binds all members of its struct, so that a member that is missing here does not compile. A Ratio
-// cannot express the base of a gain on a product of speed and current, so that this list is for floating
-// point only.
+// list binds all members of its struct: if a member is missing here, it does not compile. A Ratio cannot
+// express the base of a gain on a product of speed and current; this list is therefore for floating point
+// only.
 #pragma once
 #include <string>
 

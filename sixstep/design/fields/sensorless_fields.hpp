@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the sensorless drive's configuration (control/sensorless/) around its drive once. Each
-// list binds all members of its struct, so that a member that is missing here does not compile. Times are
-// counts of the timer, voltages counts of the converter; only the references and limits of the inner loops
-// are Scalars.
+// list binds all members of its struct: if a member is missing here, it does not compile. Times are counts of
+// the timer, voltages counts of the converter; only the references and limits of the inner loops are Scalars.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
@@ -109,7 +108,7 @@ void fields(Walk&& w, const control::SensorlessConfig<double>& d, Kept& kept, bo
   if (w.when_run(measures_position)) w.part("position", d.position, position);
 }
 
-/// Lists all fields except those of `drive`, which has its own list, and of `observer`
+/// Lists all fields except the members `drive`, which has its own list, and `observer`
 /// (observer_scaling.hpp).
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kept) {
@@ -122,7 +121,7 @@ void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kep
   w.signal({"least_duty"}, d.least_duty, least_duty, Base::one);
 }
 
-/// Lists the fields of a converter, whose numbers are the same in every arithmetic.
+/// Lists the fields of a converter. Its numbers are the same in every arithmetic.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::AdcConfig<control::Q30>& d, Kept& kept) {
   auto& [per_eighth, offset_counts, offset_tolerance, log2_samples] = kept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Designs a deadbeat current loop (control/deadbeat.hpp) from R and L of the driven pair, K_t, the control
-// period and the delay from a sample to its answer. Both poles are at 0 and cannot be chosen. The only choice
-// is how fast the loop corrects voltages that the model does not contain.
+// period and the delay from a sample to its output. Both poles are fixed at 0. The only free parameter is the
+// speed at which the loop corrects voltages that are missing in the model.
 #pragma once
 #include <vector>
 
@@ -12,7 +12,7 @@
 
 namespace sixstep::design {
 
-/// Fraction of the prediction error that each sample corrects: 1 % is left after 16 samples.
+/// Fraction of the prediction error that each sample corrects; after 16 samples 1 % of the error remains.
 inline constexpr double usual_correction = 0.25;
 
 struct DeadbeatSpec {
@@ -29,10 +29,10 @@ struct Deadbeat {
   std::vector<DerivationStep> steps;
 };
 
-/// The design. Problem: wait_periods above 1, for which two voltages would have to be stored.
+/// The design. Problem: wait_periods above 1, which would require a second stored voltage.
 base::Result<Deadbeat> deadbeat(const DeadbeatSpec& spec);
 
-/// The loop's equivalent open loop, L = T/(1 - T) with T = z^-(1 + wait), for a wait of whole periods.
+/// The equivalent open loop, L = T/(1 - T) with T = z^-(1 + wait), for a wait of whole periods.
 Transfer open_deadbeat_loop(int wait_periods);
 
 }  // namespace sixstep::design

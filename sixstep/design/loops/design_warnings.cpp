@@ -12,7 +12,7 @@
 namespace sixstep::design {
 namespace {
 
-/// A number times 1000 in three digits, the form of numbers in warnings.
+/// A number times 1000 with three digits, as used in warnings.
 std::string milli(double x) { return base::three_digits(x * 1e3); }
 std::string milliseconds(double s) { return milli(s) + " ms"; }
 
@@ -23,7 +23,7 @@ struct Collector {
   }
 };
 
-/// The bound that the phase is below: ", less than 20" if the loop is not usable, else ", less than 45".
+/// The bound that exceeds the phase: ", less than 20" if the loop is not usable, else ", less than 45".
 std::string below_bound(double phase_deg) {
   return ", less than " +
          base::three_digits(phase_deg < unusable_phase_deg ? unusable_phase_deg : least_phase_deg);
@@ -32,7 +32,8 @@ std::string below_bound(double phase_deg) {
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
     return out.add(Concern::stability, "the " + loop.name + " loop is unstable", true);
-  // The figures have the drive's own delay; only the table shows the effect of another board's delay.
+  // The figures are computed with the drive's own delay; only the table shows the effect of another board's
+  // delay.
   const double late = d.spec.late_periods();
   const std::string with = late > 0.0 ? "with " + periods_words(late) + " of delay the " : "the ";
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
@@ -46,7 +47,7 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
                                 base::three_digits(loop.figures.sensitivity_peak) + " times");
 }
 
-/// Checks the phase margin that is left with the lag of the speed's sensor at the lowest speed.
+/// Checks the phase margin with the lag of the speed's sensor at the lowest speed.
 void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
   const LoopDesign& speed = d.loops[1];
@@ -65,8 +66,8 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
             phase_deg < unusable_phase_deg);
 }
 
-/// Warns of a coarse measured speed. Only in speed mode: a position drive's speed depends on the move, so
-/// that a run must show the effect.
+/// Warns of a coarse measured speed, in speed mode only: a position drive's speed depends on the move, and
+/// only a run can show the effect.
 void look_at_grain(const DriveDesign& d, Collector& out) {
   if (!is_grainy(d)) return;
   out.add(Concern::grain,
@@ -78,7 +79,8 @@ void look_at_grain(const DriveDesign& d, Collector& out) {
 }
 
 /// Warns of a position loop on counted edges. The loop is a P loop: one step away from the setpoint it
-/// commands K_p steps per second. The next edge comes after 1/K_p, and the measured speed is then so old.
+/// commands K_p steps per second. The next edge follows after 1/K_p, and until then the age of the measured
+/// speed grows to 1/K_p.
 void look_at_steps(const DriveDesign& d, Collector& out) {
   if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
@@ -117,7 +119,8 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
                                      " loop, less than " + base::three_digits(least_separation));
 }
 
-/// A ripple above the nominal current heats the winding more than that current does, for any mean current.
+/// A ripple above the nominal current heats the winding more than the nominal current does, for any mean
+/// current.
 void look_at_ripple(const DriveDesign& d, Collector& out) {
   const double allowed_A = greatest_ripple * d.nominal_current_A;
   if (!(d.ripple.worst_A > allowed_A)) return;
@@ -125,7 +128,8 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
   std::string what = "the PWM ripple reaches " + base::three_digits(d.ripple.worst_A) + " A, " +
                      base::rounded(100.0 * d.ripple.worst_A / d.nominal_current_A, 4) + " % of " +
                      nominal_current_words(d);
-  // The period with this ripple is proportional to L, also if L/R is not long compared with it.
+  // The period with the allowed ripple is proportional to L, also if L/R is not long compared with the
+  // period.
   const double allowed_s = period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, allowed_A);
   if (grave)
     what += ": " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
@@ -202,7 +206,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
     look_at_sign(d, loop, out);
     look_at_overshoot(loop, out);
   }
-  // The position loop is not checked here: its gain is chosen so that it does not overshoot.
+  // The position loop is not checked here: its gain is chosen for a response without overshoot.
   if (d.loops.size() > 1) look_at_separation(d.loops[0], d.loops[1], out);
   look_at_sensing(d, out);
   look_at_grain(d, out);

@@ -17,11 +17,11 @@ namespace {
 
 using control::Mode;
 
-// Ratio of the speeds of the thesis's two loops (chapter 6).
+// Ratio of the settling times of the thesis's two loops (chapter 6).
 constexpr double inner_faster = 10.0;
 
-/// Longest default settling time of a current loop, in L/R: a pole pair placed slower than 2
-/// time_constants_to_settle L/R (9.2 L/R) needs a negative proportional gain.
+/// Longest default settling time of a current loop, in L/R. A pole pair with a settling time above 2
+/// time_constants_to_settle L/R (9.2 L/R) would need a negative proportional gain.
 constexpr double winding_times = 8.0;
 
 /// Shortest settling time of a placed pole pair, in control periods.
@@ -135,8 +135,8 @@ bool overshoots(const Transfer& open, double gain, double period_s) {
   return step_response(whole, period_s, watched_s(whole, period_s)).overshoot > 1e-9;
 }
 
-/// The largest position gain with which the linear loop does not overshoot, by bisection: the overshoot grows
-/// with the gain.
+/// The largest position gain with which the linear loop does not overshoot. Bisection is possible because the
+/// overshoot grows with the gain.
 double largest_position_gain(const DriveDesign& d) {
   DriveLoops loops = loops_of(d, d.motor, d.spec.late_periods());
   loops.position_gain_rad_s_per_deg = 1.0;
@@ -167,8 +167,8 @@ LoopDesign position_loop(double gain, const char* method, const char* meaning) {
           .step = {}};
 }
 
-/// Phase margin of a current loop with the longer of the board's two delays, rad; empty if the loop never
-/// crosses over.
+/// Phase margin of a current loop with the longer of the board's two delays, rad; empty if the loop has no
+/// crossover.
 std::optional<double> phase_left_rad(const DriveDesign& d, const PiGains& gains, double period_s) {
   const LoopWinding winding = driven_pair(d.motor, d.spec.chopping);
   if (!d.spec.sampled_in_middle) {
@@ -180,12 +180,13 @@ std::optional<double> phase_left_rad(const DriveDesign& d, const PiGains& gains,
                          .period_s = period_s,
                          .late_periods = d.spec.later_periods(),
                          .current = gains};
-  constexpr int points = 256;  // points suffice, because a PI loop's phase has no narrow features
+  constexpr int points = 256;  // this number of points suffices, because a PI loop's phase has no narrow
+                               // features
   return loop_figures(open_current_loop(loops), period_s, points).phase_rad;
 }
 
-/// The longest period at which the same rule of design keeps 45 degrees with the longer of the delays, by
-/// bisection: the phase falls with the period.
+/// The longest period at which the same design rule gives a phase margin of 45 degrees with the longer of the
+/// delays. Bisection is possible because the phase falls with the period.
 double longest_period(const DriveDesign& d) {
   const auto holds = [&](double period_s) {
     DriveDesign at = d;
@@ -207,7 +208,7 @@ double longest_period(const DriveDesign& d) {
   return low;
 }
 
-/// The speed loop's crossover by its proportional gain alone, rad/s; 0 without a speed loop.
+/// The speed loop's crossover with its proportional gain only, rad/s; 0 without a speed loop.
 double crossover_of(const DriveDesign& d) {
   if (d.loops.size() < 2) return 0.0;
   return speed_crossover_rad_s(d.loop("speed").gains.d1, d.torque_limit_Nm / d.motor.shaft.J_kg_m2);
@@ -217,13 +218,14 @@ SettlingQuestion settling_question(const DriveDesign& d) {
   return {loops_of(d, d.motor, d.spec.late_periods()), d.torque_limit_Nm, d.spec.damping};
 }
 
-/// Factor on the time that the torque limit alone needs for the step. The rest of the time is for the loop's
-/// settling after the limit.
+/// Factor on the time of the step at the torque limit. The additional time is for the loop's settling after
+/// the limit.
 constexpr double times_of_torque = 1.5;
 
-/// Chooses the default settling time: the thesis's, or the limit by sensor or by torque if that is longer.
+/// Chooses the default settling time: the thesis's time, or the longer limit by sensor or torque.
 void choose_settling(DriveDesign& d) {
-  if (d.spec.mode == Mode::speed)  // a move is at its limits most of the time, for any speed of the loop
+  if (d.spec.mode == Mode::speed)  // a move is at its limits most of the time, for any settling time of the
+                                   // loop
     d.settle_by_torque_s =
         times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.most_torque_Nm();
   if (d.spec.settle_s) return;
@@ -236,8 +238,8 @@ void choose_settling(DriveDesign& d) {
 }
 
 /// A step of the measured speed causes a step of the torque command, d1 times the speed step. It is computed
-/// at high speed, because a tick of the timer is a larger fraction of the measured time there, and of a
-/// larger speed.
+/// at high speed: a tick of the timer is then a larger fraction of the measured time, and the speed itself is
+/// larger.
 void add_speed_step(DriveDesign& d, double crossover) {
   d.high_speed_rad_s =
       base::shortened(high_speed_part * std::fmax(d.headroom_end_rad_s, 0.0), 2, base::Towards::down);
@@ -267,7 +269,7 @@ void add_sensing(DriveDesign& d) {
                              {.lowest = d.lowest_speed_rad_s, .highest = d.high_speed_rad_s});
 }
 
-/// Derivation for a P loop that counts edges: one step away from the setpoint it commands K_p steps per
+/// Derivation for a P loop with counted edges: one step away from the setpoint it commands K_p steps per
 /// second.
 void add_steps(DriveDesign& d) {
   if (!d.spec.rotor.hall || d.loops.size() < 3) return;
@@ -317,8 +319,8 @@ void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, c
   if (!loop.built.stable) return;
   const Transfer whole = closed(open);
   const double watched = watched_s(whole, period_s);
-  // Limits shape the step of a position loop, not the linear loop: its step is not computed with the sensor's
-  // lag.
+  // The step of a position loop is determined by limits, not by the linear loop; it is not computed with the
+  // sensor's lag.
   loop.step = lags && loop.name == "speed" ? sensed_step(sensed, period_s, 2 * watched, band)
                                            : step_response(whole, period_s, watched);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs the gains of a whole drive from a motor and a spec, loop by loop from the inside out. With the
-// gains come the figures by which a designer judges each loop, and warnings where a figure is poor. All is in
-// closed form; nothing is simulated here.
+// Designs the gains of a whole drive from a motor and a spec, loop by loop from the inside out. It also
+// computes the figures by which a designer judges each loop, and warnings where a figure is poor. Everything
+// is in closed form, without simulation.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -22,16 +22,16 @@ namespace sixstep::design {
 
 enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical_optimum };
 
-/// Demands on a drive. An empty member has the thesis's choice, scaled to this motor.
+/// Demands on a drive. An empty member has the thesis's value, scaled to this motor.
 struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  /// Settling time of the PI of `mode`, s. Default for current: 1 ms, or 8 L/R if that is shorter. Default
-  /// for speed: 10 ms, or the limit by the sensor or by torque and inertia (settle_by_torque_s), if that is
-  /// longer.
+  /// Settling time of the PI of `mode`, s. Default for current: 1 ms, or 8 L/R if it is shorter. Default for
+  /// speed: the longest of 10 ms, the limit by the sensor, and the limit by torque and inertia
+  /// (settle_by_torque_s).
   std::optional<double> settle_s;
   /// Settling time of the current loop inside a speed loop, s. Default: as for current, or a tenth of the
-  /// speed loop's if that is shorter.
+  /// speed loop's settling time if it is shorter.
   std::optional<double> current_settle_s;
   double damping = usual_damping;
   std::optional<double> current_damping;  ///< damping of the current loop inside a speed loop; default:
@@ -44,31 +44,31 @@ struct DesignSpec {
                                           ///< usual_torque_limit_Nm
   std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
   double load_inertia_kg_m2 = 0.0;        ///< inertia on the shaft, in addition to the rotor's inertia
-  int delay_periods = 0;           ///< whole periods from a sample until its result takes effect, 0 or 1
-  bool sampled_in_middle = false;  ///< samples in the middle of a period; the result acts at the next
-                                   ///< period's start or later
+  int delay_periods = 0;                  ///< whole periods from a sample until its output acts, 0 or 1
+  bool sampled_in_middle = false;         ///< samples in the middle of a period; the output acts at the next
+                                          ///< period's start or later
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
-  /// Lowest speed that the drive must hold; default: a tenth of the speed that the bus reaches, bus/K_t.
+  /// Lowest required speed; default: a tenth of the speed that the bus reaches, bus/K_t.
   std::optional<double> lowest_speed_rad_s;
 
-  /// Control periods from a sample until its result takes effect: 0, 1/2, 1 or 3/2.
+  /// Control periods from a sample until its output acts: 0, 1/2, 1 or 3/2.
   double late_periods() const { return delay_periods + (sampled_in_middle ? 0.5 : 0.0); }
-  /// The shorter of the two delays that a board with these samples can have, in periods; later_periods() is
-  /// the longer one.
+  /// The shorter of the two possible delays of a board with these samples, in periods; later_periods() is the
+  /// longer delay.
   double sooner_periods() const { return sampled_in_middle ? 0.5 : 0.0; }
   double later_periods() const { return sooner_periods() + 1.0; }
 };
 
-/// Default settling time of a current loop, s: 1 ms, or 8 L/R if that is shorter.
+/// Default settling time of a current loop, s: 1 ms, or 8 L/R if it is shorter.
 double usual_current_settle_s_of(const MotorModel& motor);
 
 /// Default clock of the timer that captures a sensor's edges, Hz. For Hall probes it is the default of a
-/// scenario's sensors. For an encoder, with far more edges, it is that of an ordinary chip, whose tick is
-/// short compared with a control period.
+/// scenario's sensors. An encoder has far more edges; its clock is the clock of an ordinary chip, whose tick
+/// is short compared with a control period.
 inline constexpr double usual_capture_Hz = 1e6, usual_encoder_capture_Hz = 16e6;
 
-/// A spec for a real board: Hall probes, and a command that takes effect one period late.
+/// A spec for a real board: Hall probes, and an output that acts one period late.
 inline DesignSpec on_a_board() {
   DesignSpec spec;
   spec.rotor.hall = true;
@@ -79,14 +79,14 @@ inline DesignSpec on_a_board() {
 
 struct LoopDesign {
   std::string name;    ///< "current", "speed", "position"
-  std::string method;  ///< method of the design, in words
+  std::string method;  ///< method of the design, as text
   PiGains gains;       ///< position: d1 is the gain in rad/s per degree, d0 = 0
   std::vector<DerivationStep> steps;
   std::optional<PolePlacement> placed;
   Transfer loop;        ///< open loop with the spec's delay and with closed inner loops
   LoopFigures figures;  ///< figures of `loop`
-  LoopFigures other;    ///< figures of the loop with the other of the board's two delays, one period more or
-                        ///< less
+  LoopFigures other;    ///< figures of the loop with the other of the board's two delays, one period longer
+                        ///< or shorter
   LoopFigures built;    ///< figures of `loop` with the lag of the speed sensor at the lowest speed
   StepResponse step;    ///< step of the closed loop with the sensor's lag
 };
@@ -126,7 +126,7 @@ struct Warning {
 
 struct DriveDesign {
   DesignSpec spec;
-  MotorModel motor;  ///< with the load's inertia added to the rotor's
+  MotorModel motor;  ///< with the sum of the load's and the rotor's inertia
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;
@@ -144,27 +144,30 @@ struct DriveDesign {
   std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
   double longest_period_s =
-      0.0;  ///< longest period at which the current loop keeps 45 degrees of phase with the longer of the
-            ///< delays
+      0.0;  ///< longest period at which the current loop has 45 degrees of phase margin with the longer
+            ///< of the delays
   double headroom_end_rad_s = 0.0;   ///< highest speed at which the bus drives the nominal current
   double high_speed_rad_s = 0.0;     ///< with a speed loop: nine tenths of headroom_end_rad_s
   double speed_step_rad_s = 0.0;     ///< step of the measured speed at high_speed_rad_s while the speed is
                                      ///< constant
-  double speed_step_part = 0.0;      ///< answer of the speed loop to speed_step_rad_s, relative to the torque
-                                     ///< limit
-  double speed_step_V = 0.0;         ///< answer of the current loop to that torque step, in the same sample
-  double high_speed_left_V = 0.0;    ///< voltage of the bus that is left at high_speed_rad_s and half the
+  double speed_step_part = 0.0;      ///< output step of the speed loop for speed_step_rad_s, relative to the
+                                     ///< torque limit
+  double speed_step_V = 0.0;         ///< output step of the current loop for this torque step, in the same
+                                     ///< sample
+  double high_speed_left_V = 0.0;    ///< remaining voltage of the bus at high_speed_rad_s and half the
                                      ///< nominal current
-  double braking_limit_rad_s = 0.0;  ///< highest speed at which soft chopping brakes by the nominal current
+  double braking_limit_rad_s = 0.0;  ///< highest speed at which soft chopping can limit the braking current
+                                     ///< to the nominal current
   double commutation_limit_rad_s =
       0.0;  ///< highest speed at which a duty can hold the nominal current's torque through a commutation
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
-  /// Largest current at the output of the speed loop, A: that of full output, or the spec's current limit.
+  /// Largest current at the output of the speed loop, A: the current at full output, or the spec's current
+  /// limit.
   double most_current_A() const;
   double most_torque_Nm() const;
-  /// A loop's figures with the shorter of the two delays; later() has them with the longer one.
+  /// A loop's figures with the shorter of the two delays; later() returns them with the longer delay.
   const LoopFigures& sooner(const LoopDesign& loop) const {
     return spec.delay_periods > 0 ? loop.other : loop.figures;
   }
@@ -173,7 +176,7 @@ struct DriveDesign {
   }
 };
 
-/// Name of nominal_current_A in messages; the name tells if the value is not from the sheet.
+/// Name of nominal_current_A in messages; the name shows if the value is not from the sheet.
 inline const char* nominal_current_words(const DriveDesign& d) {
   return d.nominal_printed ? "the nominal current"
                            : "a tenth of the stall current (the sheet names no nominal one)";
@@ -187,8 +190,8 @@ double settling_band(const DriveDesign& design, const LoopDesign& loop);
 /// of this speed.
 double settling_band(const DriveDesign& design);
 
-/// Designs the gains for the spec. In position mode the gain is the largest with which the linear loop does
-/// not overshoot. study/ then finds the largest gain that the limits allow, and applies it by
+/// Designs the gains for the spec. In position mode the gain is the largest gain without overshoot of the
+/// linear loop. study/ then finds the largest gain that the limits allow, and sets it with
 /// with_position_gain(). Problems name the option.
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec);
 

@@ -20,11 +20,11 @@ Polynomial scaled_gains(Polynomial p, double factor) {
 }
 
 int whole_periods(const DriveLoops& d) { return static_cast<int>(std::floor(d.late_periods)); }
-/// The fraction of a period in the delay, s.
+/// The fractional part of the delay, s.
 double late_s_of(const DriveLoops& d) { return (d.late_periods - std::floor(d.late_periods)) * d.period_s; }
 
 /// The motor, sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)). It
-/// includes the fraction of a period in the delay, but no whole periods.
+/// includes the fractional part of the delay, but no whole periods.
 struct Plant {
   Polynomial den, i, w, theta;
 };

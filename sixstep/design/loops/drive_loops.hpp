@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the drive's loops as open loops in z, from the motor with back-EMF, the held voltage, the delay,
-// and the inner loops.
+// Computes the drive's loops as open loops in z, including back-EMF, the held voltage, the delay and the
+// inner loops.
 #pragma once
 #include <vector>
 
@@ -24,11 +24,11 @@ struct LoopWinding {
 LoopWinding driven_pair(const MotorModel& motor, control::Chopping chopping);
 /// Current plant with the rotor held: 1/(L s + R), sampled with zero-order hold.
 ZohPlant current_plant(const LoopWinding& winding, double period_s);
-/// Adds a step about the chopping to a derivation if volts_per_duty() is not 1.
+/// Adds a step about the chopping to a derivation, unless volts_per_duty() is 1.
 void tell_chopping(control::Chopping chopping, std::vector<DerivationStep>& steps);
 /// Winding of the axis across the magnet: R, L_q and p psi of a phase, and 3/2 p psi of torque. If the axes
-/// are decoupled, the controller adds the voltage of the rotation to its output, and this voltage does not
-/// act on the loop.
+/// are decoupled, the controller adds the voltage of the rotation to its output; this voltage then has no
+/// effect in the loop.
 LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled);
 
 struct DriveLoops {
@@ -36,7 +36,7 @@ struct DriveLoops {
   LoopWinding winding;
   double period_s = 0.0;
   double late_periods =
-      0.0;  ///< delay from a sample until its answer acts; half a period more if samples are in the middle of
+      0.0;  ///< delay from a sample until its output acts; half a period more if samples are in the middle of
             ///< a period
   PiGains current{};
   PiGains speed{};
@@ -50,16 +50,16 @@ struct LinearLaw {
   Polynomial r, y, q;
 };
 
-/// Open current loop with the rotor held, as the design assumes. The controller's voltage acts late_periods
-/// after its sample, for one period.
+/// Open current loop with the rotor held, as in the design. The controller's voltage acts late_periods after
+/// its sample, for one period.
 Transfer open_current_loop(const DriveLoops& drive);
 /// Open current loop with the rotor free: the current accelerates the rotor, and the back-EMF reacts to slow
 /// changes.
 Transfer open_current_loop_turning(const DriveLoops& drive);
 /// Open speed loop, from speed error to speed, with the current loop closed.
 Transfer open_speed_loop(const DriveLoops& drive);
-/// The loop L that has the setpoint response T = L/(1 + L) of the law, as a PI's open loop would. A
-/// measurement of T gives this L.
+/// The loop L with the law's setpoint response T = L/(1 + L), as for a PI's open loop. A measurement of T
+/// gives this L.
 Transfer speed_loop_by_setpoint(const DriveLoops& drive, const LinearLaw& law);
 /// The speed loop, opened at the controller's output. Margins are defined for this loop.
 Transfer open_speed_loop(const DriveLoops& drive, const LinearLaw& law);

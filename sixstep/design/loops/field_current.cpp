@@ -13,7 +13,7 @@ namespace {
 
 constexpr double ln_2 = 0.69314718055994531;
 
-/// Ratio of the current loops' bandwidth to that of the field weakening.
+/// Bandwidth of the current loops, divided by the bandwidth of the field weakening.
 constexpr double weakening_is_slower = 10.0;
 
 }  // namespace

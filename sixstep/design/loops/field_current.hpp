@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs the current loops of a field-oriented drive (control/field/) from R, L, the control period and a
+// Designs the current loops of a field-oriented drive (control/field/) from R, L, the control period T and a
 // bandwidth w. With decoupling, an axis is a winding of R and L, sampled with zero-order hold as b0/(z + a0),
-// as in six-step (pole_placement.hpp). The PI's zero cancels that pole, d0 = a0 d1. With n periods between a
-// sample and the period of its answer
+// as in six-step (pole_placement.hpp). The PI's zero cancels the winding's pole, d0 = a0 d1. n is the number
+// of periods between a sample and the period of its output.
 //
 //   n = 0   L = b0 d1/(z - 1)          one pole     z_1 = exp(-w T),              b0 d1 = 1 - z_1
 //   n = 1   L = b0 d1/(z (z - 1))      two poles    z_1 = exp(-w T), 1 - z_1,     b0 d1 = z_1 (1 - z_1)
 //
-// With a delay the second pole is the slower one for z_1 below 1/2: w T is therefore at most ln 2. This holds
-// for the decoupled axis at rest; with a turning rotor w_e L i also changes within a period.
+// With a delay the second pole is slower if z_1 is below 1/2; w T is therefore at most ln 2. This holds for
+// the decoupled axis at rest; with a turning rotor w_e L i also changes within a period.
 //
-// Weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), acts on v_q by w_e L_d per ampere. It is designed at
-// the speed w_0 = U/(sqrt 3 p psi), at which the magnet's back-EMF fills the whole voltage circle. There it
-// is ten times slower than the current loops that follow it:
+// In the weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), v_q changes by w_e L_d per ampere. K is
+// designed at the speed w_0 = U/(sqrt 3 p psi), at which the magnet's back-EMF equals the radius of the
+// voltage circle. At w_0 the weakening is ten times slower than the current loops:
 //
 //   1 - K w_0 p L_d = exp(-w T/10)
 #pragma once
@@ -43,7 +43,7 @@ inline double torque_per_q_A(const FieldMachine& machine) { return 1.5 * machine
 struct FieldLoopSpec {
   double bandwidth_rad_s = 0.0;
   double period_s = 0.0;
-  int delay_periods = 0;  ///< n, periods from a sample to its answer, 0 or 1
+  int delay_periods = 0;  ///< n, periods from a sample to its output, 0 or 1
 };
 
 /// Default bandwidth: a twentieth of the control frequency, w T = pi/10.
@@ -63,13 +63,14 @@ base::Result<FieldAxis> field_axis(double R_ohm, double L_H, const FieldLoopSpec
 /// Gain K of the weakening, A per V and sample.
 double weakening_gain(const FieldMachine& machine, double bus_V, const FieldLoopSpec& spec);
 
-/// Largest current that weakens the field, psi/L_d, A: more current against the magnet raises the voltage
+/// Largest current that weakens the field, psi/L_d, A: a larger current against the magnet raises the voltage
 /// again.
 inline double most_weakening_A(const FieldMachine& machine) {
   return machine.magnet_V_s / (machine.pole_pairs * machine.L_d_H);
 }
 
-/// Fraction m of the voltage circle at which weakening begins; the rest is for changes of the currents.
+/// Fraction m of the voltage circle at which weakening begins; the rest is a reserve for changes of the
+/// currents.
 inline constexpr double usual_weakening_part = 0.95;
 
 /// Gain k of torque_per_ampere.hpp, 1/A; 0 for a round rotor.

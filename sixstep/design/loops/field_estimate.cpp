@@ -15,15 +15,15 @@ namespace {
 
 constexpr double by_root_3 = 0.57735026918962576;
 constexpr double turn_48 = 281474976710656.0;  // 2^48
-/// Least current for finding north, relative to I_sat: with less, no converter distinguishes the saturation
-/// from noise.
+/// Least current for finding north, relative to I_sat: with a smaller current no converter distinguishes the
+/// saturation from noise.
 constexpr double least_saturation = 0.01;
 
 /// Ratio w_b/w_n for damping 1.
 const double band_of_natural = std::sqrt(3 + std::sqrt(10.0));
 constexpr double behind_rad = 5 * base::pi / 180;
 
-/// x of the header, and the promised y: fractions of the largest torque that the start current can make.
+/// x of the header, and the guaranteed y: fractions of the start current's largest torque.
 constexpr double start_acceleration_part = 0.125, start_load_part = 0.6;
 
 double usual_bandwidth_rad_s(const FieldMachine& m, const FieldEstimateSpec& s) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the model by which control/field/finite_set.hpp predicts a current, and the band within which the
-// current stays. In a period the bus U changes the current by 2/3 b U in one of six directions, or not at
-// all. The seven end points are corners of equilateral triangles with this side. Within the hexagon of these
-// points, each point is therefore no further from one of them than the triangles' radius,
+// current stays. In a period T the bus voltage U changes the current by 2/3 b U in one of six directions, or
+// not at all. The seven end points are corners of equilateral triangles with this side. The distance from any
+// point within the hexagon of these points to the nearest end point is at most the triangles' circumradius,
 //
 //   2/(3 sqrt 3) b U,   b = (1 - exp(-R T/L))/R
 #pragma once
@@ -13,7 +13,7 @@
 namespace sixstep::design {
 
 struct FiniteSet {
-  control::FiniteSetConfig<double> config;  ///< with neither weight of switching nor bound of the current
+  control::FiniteSetConfig<double> config;  ///< without weight of switching and without bound of the current
   double band_A = 0.0;  ///< largest distance from the reference to the predicted current, with the smaller L
   std::vector<DerivationStep> steps;
 };

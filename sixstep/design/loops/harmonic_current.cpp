@@ -15,7 +15,7 @@ namespace {
 
 using control::shape_points;
 
-/// The magnet is 150 degrees behind the electrical angle: half a sector plus two whole sectors.
+/// The magnet is 150 degrees behind the electrical angle: two whole sectors and half a sector.
 constexpr double sector_middle_rad = 5 * base::pi / 6;
 
 /// Back-EMF per speed of the three phases, V s, at the angle x, rad, after the start of a sector.
@@ -55,7 +55,7 @@ control::HarmonicCurrentConfig<double> harmonic_shape(const plant::general::Mach
   control::HarmonicCurrentConfig<double> c;
   c.on = true;
   for (int n = 0; n < shape_points; ++n) {
-    // Magnet angle 0 lies in the middle of a sector, so that the table starts half a sector later.
+    // Magnet angle 0 is in the middle of a sector; the table therefore starts half a sector later.
     const int from = (n + shape_points / 2) % shape_points;
     control::Dq<double>& g = c.shape[n] = in_magnets_frame(table, from * base::sector_rad / shape_points);
     g.d /= magnet_V_s;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words for the delay of a command after its sample.
+// Text for the delay of a command after its sample.
 #pragma once
 #include <string>
 
 namespace sixstep::design {
 
-/// Delay of a command in words: "at once", "half a period late", "one period late", "1.5 periods late".
+/// Delay of a command as text: "at once", "half a period late", "one period late", "1.5 periods late".
 std::string late_words(double periods);
-/// A number of periods in words: "half a period", "one period", "1.5 periods".
+/// A number of periods as text: "half a period", "one period", "1.5 periods".
 std::string periods_words(double periods);
 
 }  // namespace sixstep::design

@@ -43,7 +43,8 @@ double lowest_turn(const Transfer& loop) {
   return std::clamp(decay > 0.0 ? 0.01 * decay : 1e-5, 1e-12, 0.1);
 }
 
-/// The phase margin as in margins.hpp: pi + arg L with arg L in (-2 pi, 0], negative beyond -180 degrees.
+/// The phase margin as in margins.hpp: pi + arg L with arg L in (-2 pi, 0]; negative if the phase is below
+/// -180 degrees.
 double phase_left(Complex L) {
   const double angle = L.angle_rad();
   return base::pi + (angle > 0.0 ? angle - 2.0 * base::pi : angle);
@@ -67,7 +68,8 @@ void look_at_axis(LoopFigures& f, Complex L) {
 
 namespace {
 
-/// Scans a loop L over frequency. loop(turn) gives its value, left(turn) its phase distance to -180 degrees.
+/// Scans a loop L over frequency. loop(turn) returns the value of L, left(turn) its phase distance to -180
+/// degrees.
 template <class Loop, class Left>
 LoopFigures scanned(const Loop& loop, const Left& left, double lowest, double period_s, int points) {
   LoopFigures f;
@@ -160,7 +162,7 @@ std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_r
 namespace {
 
 /// num/den in its first canonical form: x_1' = x_2, .., x_n' = u - sum den_k x_(k+1), where ' is the
-/// difference to the next sample. This form keeps all digits for slow systems too.
+/// difference to the next sample. With this form slow systems lose no digits.
 class Recursion {
  public:
   explicit Recursion(const Transfer& t) : num_(t.num), den_(t.den), x_(t.den.size() - 1) {
@@ -226,7 +228,7 @@ class Late {
   std::size_t at_ = 0;
 };
 
-/// Figures of a step response whose samples come from `next`.
+/// Figures of a step response; `next` returns its samples.
 template <class Next>
 StepResponse response(const Next& next, double period_s, double seconds, double band) {
   StepResponse r;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the figures of a sampled loop: margins, bandwidth, peak of sensitivity, Bode data, step response.
-// They are for any ratio of polynomials, so that inner loops, delay and hold are included. margins.hpp has
-// the closed form for a single loop.
+// The loop is any ratio of polynomials, with inner loops, delay and hold included. margins.hpp contains the
+// closed form for a single loop.
 #pragma once
 #include <limits>
 #include <optional>
@@ -17,9 +17,9 @@ struct LoopFigures {
   std::optional<double> crossover_rad_s;  ///< last frequency at which |L| falls through 1
   std::optional<double> phase_rad;        ///< smallest phase distance to -180 degrees at which |L| = 1
   std::optional<double> gain;             ///< factor on the gain at which the loop becomes unstable; empty:
-                                          ///< none above 1
+                                          ///< no factor above 1
   std::optional<double> delay_s;  ///< additional dead time at which the loop becomes unstable; 0 if it is
-                                  ///< unstable already
+                                  ///< unstable without it
   std::optional<double> bandwidth_rad_s;  ///< frequency at which |L/(1 + L)| falls below 1/sqrt 2
   double sensitivity_peak = 1.0;          ///< largest |1/(1 + L)|; its inverse is the distance of L to -1
   double sensitivity_peak_rad_s = 0.0;
@@ -31,7 +31,7 @@ struct LoopFigures {
 LoopFigures loop_figures(const Transfer& loop, double period_s, int points = 4096);
 
 /// A loop with a speed sensor H: the open loop is L H. With `around`, the struct is a position loop around
-/// that speed loop, `loop` (1 + around)/(1 + around H). The position itself is measured without lag.
+/// this speed loop, `loop` (1 + around)/(1 + around H). The position itself is measured without lag.
 struct SensedLoop {
   Transfer loop;
   SpeedLag lag;
@@ -39,7 +39,7 @@ struct SensedLoop {
 };
 
 /// Figures of a loop with its sensor's lag. `stable`: the loop is stable without the lag, and at each
-/// crossing some phase is left with the lag.
+/// crossing the phase margin with the lag is above 0.
 LoopFigures sensed_figures(const SensedLoop& sensed, double period_s, int points = 4096);
 
 struct BodePoint {

@@ -21,8 +21,8 @@ std::array<std::optional<double>, 2> roots(double a, double b, double c) {
   return found;
 }
 
-/// L on the unit circle as a function of v = 1 - cos(w T_s). This variable keeps its digits if the loop is
-/// slow compared with the sampling.
+/// L on the unit circle as a function of v = 1 - cos(w T_s), which keeps its digits for a loop that is slow
+/// compared with the sampling.
 struct OpenLoop {
   ZohPlant plant;
   PiGains gains;
@@ -48,8 +48,8 @@ struct OpenLoop {
   }
 };
 
-/// Finds where L is real, in addition to z = -1: Im(N conj D) = 0, divided by sin(w T_s), with c = cos(w
-/// T_s), p = a0 - 1, q = -a0.
+/// Finds where L is real, in addition to z = -1: Im(N conj D) = 0, divided by sin(w T_s). N and D are
+/// numerator and denominator of L; c = cos(w T_s), p = a0 - 1, q = -a0, m = 1 if delayed.
 ///   m = 0: 2 d0 c = d1 (q - 1) - d0 p
 ///   m = 1: 4 d0 c^2 + 2 (d1 + d0 p) c + d1 p + d0 (q - 1) = 0
 std::optional<double> gain_margin(const OpenLoop& loop) {

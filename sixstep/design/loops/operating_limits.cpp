@@ -13,10 +13,10 @@ namespace sixstep::design {
 
 namespace {
 
-/// Ripple, A peak to peak, of a pair that switches between two voltages `swing_V` apart.
+/// Ripple, A peak to peak, of a pair that switches between two voltages with the difference `swing_V`.
 double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, double period_s) {
   const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
-  // R b0 = 1 - exp(-R T/L) without cancellation: b0 is that of pole_placement's plant with R = L = 1.
+  // R b0 = 1 - exp(-R T/L) without cancellation; b0 is taken from pole_placement's plant with R = L = 1.
   const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
   return swing_V / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
 }
@@ -48,8 +48,8 @@ Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, cont
   return r;
 }
 
-// At d = 1/2 the ripple is (dU/R) tanh(x/4), dU the swing of the voltage. So x = 2 ln((1 + y)/(1 - y)) with y
-// = ripple R/dU.
+// At d = 1/2 the ripple is (dU/R) tanh(x/4), where dU is the swing of the voltage. Therefore x = 2 ln((1 +
+// y)/(1 - y)) with y = ripple R/dU.
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A) {
   const double y = ripple_A * 2.0 * motor.machine.R_ohm / (volts_per_duty(chopping) * bus_V);
@@ -99,8 +99,8 @@ double soft_braking_limit_rad_s(const MotorModel& motor, double current_A) {
   return current_A / motor.K_t_Nm_A * 2.0 * motor.machine.R_ohm;
 }
 
-// At the edge the staying phase is in the middle of its top, the other two are 120 degrees from the middle of
-// theirs.
+// At the edge the staying phase is in the middle of its top. The other two phases are 120 degrees from the
+// middle of their tops.
 double commutation_emfs(const plant::Machine& machine) {
   if (machine.back_emf == plant::BackEmf::sine) return 3.0;
   const double ramp_deg = 90.0 - machine.flat_deg / 2;

@@ -69,7 +69,7 @@ ZohPlant current_plant(double R_ohm, double L_H, double period_s) {
   return {-base::exp(-x), one_minus_exp(x) / R_ohm};
 }
 
-// Thesis 6.18 (erratum: the exponent is T_s B/J): the plant T_max/(J s + B). For B -> 0 b0 is T_max T_s/J.
+// Thesis 6.18 (erratum: the exponent is T_s B/J): the plant T_max/(J s + B). For B -> 0, b0 is T_max T_s/J.
 ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double period_s) {
   if (B_Nm_s == 0.0) return {-1.0, torque_max_Nm * period_s / J_kg_m2};
   const double x = period_s * B_Nm_s / J_kg_m2;

@@ -54,12 +54,12 @@ ZohPlant current_plant(double R_ohm, double L_H, double period_s);
 /// integrator T_max T/J.
 ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double period_s);
 
-/// The gains that give the closed loop the pair z_re +- j z_im: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) =
-/// z^2 - 2 z_re z + z_re^2 + z_im^2.
+/// The gains with which the closed loop has the pair z_re +- j z_im: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0)
+/// = z^2 - 2 z_re z + z_re^2 + z_im^2.
 PiGains gains_for_poles(const ZohPlant& plant, double z_re, double z_im);
 
 /// Designs gains for a settling time and a damping: matches z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) with the
-/// pole pair. Problems: settle_s, damping or period_s out of range. Damping is at most 1: above it the poles
+/// pole pair. Problems: settle_s, damping or period_s out of range. Damping is at most 1: above 1 the poles
 /// are real, and the thesis's rule places a complex pair.
 base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, double damping,
                                         double period_s);

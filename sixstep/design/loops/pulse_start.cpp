@@ -12,18 +12,18 @@
 namespace sixstep::design {
 namespace {
 
-constexpr double clear = 2.0;     // factor of the signals over the certain level
-constexpr double of_range = 0.9;  // fraction of the converter's range for the current, so that noise and
-                                  // rounding stay within it
+constexpr double clear = 2.0;     // required ratio of a signal to the level `certain`
+constexpr double of_range = 0.9;  // largest current as a fraction of the converter's range; noise and
+                                  // rounding then stay within the range
 constexpr double most_turned =
     15.0;  // electrical degrees: a quarter of a sector costs 3 % of the ramp's torque
 constexpr double tolerance = 0.125;  // fraction of the range: a larger offset means that an amplifier is
                                      // broken
-constexpr double least_counts = 64;  // difference between source and sink; with less the chip assumes an open
+constexpr double least_counts = 64;  // difference between source and sink; below it the chip reports an open
                                      // wire
 constexpr double noises = 5.0;
 
-/// Values from which the others are computed.
+/// Values from which the other values are computed.
 struct Basis {
   const MotorModel& motor;
   const PulseSpec& spec;
@@ -44,7 +44,8 @@ Basis basis_of(const MotorModel& motor, const PulseSpec& spec) {
   b.limit_A = std::min(spec.most_A, of_range * (spec.current_range_A - std::fabs(spec.offset_A)));
   const bool saturates = spec.saturation_A > 0.0;
   if (saturates) b.limit_A = std::min(b.limit_A, base::root_3 / 2 * spec.saturation_A / 2);
-  // With the largest current along the magnet the inductance is least, against the magnet it is greatest.
+  // The inductance is least with the largest current along the magnet, and greatest with this current against
+  // the magnet.
   const double bent = saturates ? 2 / base::root_3 * b.limit_A / (2 * spec.saturation_A) : 0.0;
   b.L_least = std::min(spec.L_d_H * (1 - bent), spec.L_q_H);
   b.L_most = std::max(spec.L_d_H * (1 + bent), spec.L_q_H);
@@ -71,14 +72,14 @@ double noise_8(const Basis& b, const control::PulsePositionConfig& p) {
   return std::sqrt(s2 / p.rounds + 3 * s2 / static_cast<double>(1 << p.current.log2_samples) + 45.0);
 }
 
-/// Upper bound of the angle by which the pulses turn the rotor, electrical degrees: the two parts that the
-/// header explains.
+/// Upper bound of the angle by which the pulses turn the rotor, electrical degrees: the sum of the two parts
+/// in the header.
 double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
   const double I = s.greatest_A, D = (s.pulses.pulse_ticks + s.pulses.rest_ticks) * b.spec.period_s;
   const double pairs = b.motor.machine.pole_pairs;
   const double P = base::pi / 3 * b.motor.K_t_Nm_A * I * t_s;
-  // Impulse p |L_d - L_q| i^2 over a rising and a falling ramp of i, plus 2 m P cos^3 sin, which is at most 3
-  // sqrt 3/16 of 2 m P.
+  // Impulse p |L_d - L_q| i^2 over a rising and a falling ramp of i, plus 2 m P cos^3 x sin x, which is at
+  // most 3 sqrt 3/16 of 2 m P.
   const double P_e =
       pairs * std::fabs(2 * b.L_D) * I * I * 2 / 3 * t_s + 6 * base::root_3 / 16 * depth(b, I) * P;
   const double turned_rad = s.pulses.rounds * D / b.motor.shaft.J_kg_m2 * (2 * P + 12 * P_e);
@@ -88,7 +89,7 @@ double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
 double off_deg(const Basis& b, const PulseStart& s) {
   const double m = depth(b, s.current_A), saliency = std::fabs(b.L_D) / b.L_S;
   // In addition to the noise there is a second error. If the axis is seen, it is the part of saturation in
-  // the second harmonic; if not, it is the effect of 1/I on cos^3, a tenth of its depth.
+  // the second harmonic; if not, it is the effect of 1/I on cos^3 x, a tenth of the depth of saturation.
   const bool axis_seen = s.axis >= s.pulses.certain && 1000 * saliency > s.pulses.amplifiers;
   const double off_rad = axis_seen     ? (noises / s.axis + 3.0 / 32.0 * m * m / saliency) / 2
                          : s.north > 0 ? noises / s.north + m / 10
@@ -103,7 +104,8 @@ PulseStart of_length(const Basis& b, int ticks) {
   s.pulses.current.offset_tolerance =
       static_cast<std::uint16_t>(tolerance * static_cast<double>(1 << (b.spec.adc_bits - 1)));
   s.pulses.pulse_ticks = static_cast<std::uint16_t>(ticks);
-  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // long enough: it falls faster than it rose
+  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // long enough: the current falls faster than
+                                                                // it rose
   s.current_A = current_A(b, t_s, b.L_S);
   s.greatest_A = current_A(b, t_s, b.L_least);
   const double k = x / (base::exp(x) - 1);

@@ -49,7 +49,7 @@ SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_
   if (sensing.edges > 0) return {sensing.edges * T, T, sensing.late_s};
   const double window = hall_window_s(crossover_rad_s);
   const SpeedLag one{T, T, sensing.late_s};
-  // Six edges are used from the speed on at which they fit into the window; at higher speeds they come
+  // Six edges are used above the speed at which they fit into the window; at higher speeds they follow
   // faster.
   const double at_most = std::fmin(window, one_turn * T);
   const SpeedLag six{at_most, at_most / one_turn, sensing.late_s};
@@ -71,22 +71,22 @@ double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double s
 
 namespace {
 
-/// Crossover of the loop by its proportional gain alone, from which the chip's window is computed too. With
-/// its integral and lags the loop crosses over at another frequency.
+/// Crossover of the loop with its proportional gain only; the chip's window is computed from it too. With its
+/// integral and lags the loop crosses over at another frequency.
 void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
   if (!(crossover_rad_s > 0.0)) return;
   steps.push_back(
       {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
 }
 
-/// True if at this speed the speed is taken over one edge, so that the errors of the probes' positions do not
+/// True if at this speed the speed is measured over one edge: the errors of the probes' positions then do not
 /// cancel.
 bool one_edge_at(const RotorSensing& sensing, double pole_pairs, double speed_rad_s, double crossover_rad_s) {
   const double turn_s = one_turn * sector_s(pole_pairs, speed_rad_s);
   return sensing.edges == 1 || (sensing.edges == 0 && turn_s > hall_window_s(crossover_rad_s));
 }
 
-/// Adds the delay and the phase that a sensor costs to a derivation.
+/// Adds the delay of a sensor and the loss of phase by it to a derivation.
 void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
               std::vector<DerivationStep>& steps) {
   steps.push_back({"delay", formula, lag.delay_s(), "s"});

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the lag of a speed loop's sensor. A speed from Hall edges (control/hall_speed.hpp) is the mean over the
-// last k sectors, held until the next edge. At speed w a sector takes T = (pi/3)/(p w), so the loop measures w
-// through
+// Computes the lag of a speed loop's sensor. A speed from Hall edges (control/hall_speed.hpp) is the mean
+// over the last k sectors, held until the next edge. At the mechanical speed w a sector takes T = (pi/3)/(p
+// w). The loop therefore measures w through
 //
 //   H(jv) = sinc(v k T/2) exp(-j v k T/2) . sinc(v T/2) exp(-j v T/2),        sinc x = sin x / x,
 //
-// the mean over k T and the hold over T (averaged over the position of a control tick in the sector). This is
-// nearly a pure delay of (k + 1)/2 T. The delay grows as the rotor slows down, so that a loop is judged at
-// the lowest required speed. The delay of the lines is added.
+// the product of the mean over k T and the hold over T (averaged over the position of a control tick in the
+// sector). H is nearly a pure delay of (k + 1)/2 T. The delay grows with falling speed; a loop is therefore
+// judged at the lowest required speed. The delay of the Hall lines is added.
 //
-// If k sectors together deviate by s from k pi/3, their speed deviates by w s/(k pi/3). A sector longer than
-// the time-out makes the speed 0. shaft_sensing.hpp is for encoders and resolvers, whose angle may be late
-// too.
+// If the total length of k sectors deviates by s from k pi/3, the measured speed deviates by w s/(k pi/3). If
+// a sector lasts longer than the time-out, the speed reads 0. shaft_sensing.hpp is for encoders and
+// resolvers, whose angle may be late too.
 #pragma once
 #include <string>
 #include <vector>
@@ -25,11 +25,11 @@ namespace sixstep::design {
 /// Sensors of speed and position.
 struct RotorSensing {
   bool hall = true;  ///< true: Hall probes; false: an ideal sensor, like an encoder with very many lines
-  int edges = 0;  ///< edges over which a speed is taken, 1..6; 0: six if their delay costs the loop little,
-                  ///< else one
+  int edges = 0;     ///< edges over which the speed is measured, 1..6; 0: six if their delay is small for the
+                     ///< loop, else one
   ShaftSensing shaft{};     ///< an encoder or a resolver, which replaces Hall probes and the ideal sensor
   double late_s = 0.0;      ///< delay from a probe's edge to the pin of the chip
-  double stray_rad = 0.0;   ///< largest deviation of k sectors together from k pi/3, electrical
+  double stray_rad = 0.0;   ///< largest deviation of the total length of k sectors from k pi/3, electrical
   double timeout_s = 0.0;   ///< time without an edge after which the speed reads 0; 0: not given
   double capture_Hz = 0.0;  ///< clock of the timer that captures the probes' edges; 0: not given
 
@@ -37,16 +37,16 @@ struct RotorSensing {
   bool lags() const { return hall || shaft.kind != ShaftSensorKind::none; }
 };
 
-/// The speed's sensor in words: "Hall, 1 edge", "Hall, 6 edges or 1"; sensor_words() for an encoder or a
+/// The speed's sensor as text: "Hall, 1 edge", "Hall, 6 edges or 1"; sensor_words() for an encoder or a
 /// resolver.
 std::string edges_words(const RotorSensing& sensing);
 
-/// Phase, rad, by which six edges may delay a speed loop at its crossover; if they delay it more, one edge is
+/// Phase, rad, by which six edges may delay a speed loop at its crossover; with a larger delay, one edge is
 /// used instead. The value is an eighth of the half turn that makes feedback unstable.
 inline constexpr double six_edges_phase_rad = 0.39269908169872415480783;
 
-/// Time within which six edges must come to be averaged, s, for a loop with crossover at `crossover_rad_s`.
-/// The delay of six edges is 7/12 of this time. 0 without a speed loop: one edge suffices then.
+/// Time within which six edges must occur to be averaged, s, for a loop with crossover at `crossover_rad_s`.
+/// The delay of six edges is 7/12 of this time. 0 without a speed loop: one edge then suffices.
 double hall_window_s(double crossover_rad_s);
 
 /// Crossover of a PI of gain d1 (rad/s -> fraction of full output) without its integral, rad/s: d1 times the
@@ -64,18 +64,18 @@ struct SpeedLag {
   Complex at(double v_rad_s) const;
 };
 
-/// The lag with the longest delay at any speed from `speed_rad_s` upwards. `crossover_rad_s`: of the speed
-/// loop; it decides between six edges and one.
+/// The lag with the longest delay at any speed from `speed_rad_s` upwards. `crossover_rad_s`: crossover of
+/// the speed loop; it selects six edges or one.
 SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                    double crossover_rad_s);
 
-/// Largest step of the measured speed between two readings at constant speed, mechanical, rad/s. It comes
-/// from a tick of the timer, a count, or wrong positions of probes; for a resolver it is the rms value of the
-/// noise.
+/// Largest step of the measured speed between two readings at constant speed, mechanical, rad/s. Its cause is
+/// a tick of the timer, a count, or wrong positions of probes. For a resolver the result is the rms value of
+/// the noise.
 double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                         double crossover_rad_s);
 
-/// Derivation of the lag for a reader, with the phase that it costs at the crossover.
+/// Derivation of the lag for a reader, with the loss of phase at the crossover.
 std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                                       double crossover_rad_s);
 

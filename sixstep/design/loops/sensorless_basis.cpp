@@ -13,8 +13,8 @@ constexpr double noises = 5.0;           // number of standard deviations that n
 constexpr double clear = 4.0;            // ratio of the lowest speed's back-EMF to the threshold
 constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the back-EMF of a slow rotor
 
-/// Problem of filters that are too slow. Samples are in the middle of the on-time: half of it must be long
-/// enough for the legs to reach their rails.
+/// Problem of filters that are too slow. Samples are in the middle of the on-time: the legs must reach their
+/// rails within half of the on-time.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
   return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
@@ -24,8 +24,8 @@ base::Problem too_slow(const SensorlessBasis& b) {
           "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
 }
 
-/// Problem of the comparators' low-pass. Without one, comparators change at each edge of the pulse; with one
-/// that is too slow they show the voltage of an earlier time.
+/// Problem of the comparators' low-pass. Without a low-pass, comparators switch at each edge of the pulse;
+/// with a low-pass that is too slow they show an earlier voltage.
 base::Problem badly_filtered(const SensorlessBasis& b) {
   const ComparatorSpec& c = b.spec.comparators;
   const std::string least = base::rounded(1.01 / (2.0 * base::pi * b.longest_comparator_lag_s()), 3) +
@@ -58,7 +58,7 @@ double SensorlessBasis::ramp_rad_s2() const {
 }
 
 /// Current that the ramp's acceleration and the sheet's drag need. The rest of start_A is a reserve for a
-/// load. A speed loop that began with all of start_A would overshoot until its integral has decreased.
+/// load. A speed loop that began with the whole start_A would overshoot until its integral has decreased.
 double SensorlessBasis::ramp_A() const {
   const plant::Shaft& shaft = motor.shaft;
   const double drag_Nm = shaft.coulomb_Nm + shaft.B_Nm_s * lowest_rad_s;
@@ -76,8 +76,8 @@ double SensorlessBasis::comparators_V() const {
   return (c.against_half_bus ? 2.0 : 3.0) * (c.offset_V + c.hysteresis_V / 2.0);
 }
 
-/// Virtual star: the freewheel's effect must have decayed after half a sector. Half the bus: the low-pass
-/// must settle in half a pulse.
+/// Virtual star: half a sector must suffice for the decay of the freewheel's effect. Half the bus: half a
+/// pulse must suffice for the low-pass to settle.
 double SensorlessBasis::longest_comparator_lag_s() const {
   if (spec.comparators.against_half_bus) return least_on_s() / (2.0 * rail_lags);
   return sector_s(no_load_rad_s) / (2.0 * forgetting_lags);
@@ -113,8 +113,8 @@ SensorlessBasis sensorless_basis(const MotorModel& motor, const SensorlessSpec& 
               std::max(motor.shaft.coulomb_Nm, motor.shaft.static_Nm);
   const double range_V = spec.adc_range_V > 0.0 ? spec.adc_range_V : 1.25 * spec.bus_V;
   b.lsb_V = range_V / static_cast<double>(1 << spec.adc_bits);
-  // Noise of 2 u_f - u_s - u_k: variances 4 + 1 + 1 times that of a converter, and half a step of rounding in
-  // each converter.
+  // Noise of 2 u_f - u_s - u_k: its variance is 4 + 1 + 1 times a converter's variance. Rounding adds half a
+  // step in each converter.
   b.threshold_V = noises * std::sqrt(6.0) * spec.adc_noise_V + 2.0 * b.lsb_V + spec.mismatch * spec.bus_V;
   b.lock_V = b.threshold_V + b.comparators_V();
   b.lowest_rad_s =

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the basic values of a sensorless drive, and finds what a motor and a board cannot do
-// (sensorless_start.hpp has the rules).
+// Computes the basic values of a sensorless drive, and finds limits of a motor and a board (the rules are in
+// sensorless_start.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/sensorless_start.hpp"
 
 namespace sixstep::design {
 
-inline constexpr double rail_lags = 3.5;  ///< number of lags after which a terminal is within exp(-3.5) of
-                                          ///< its rail
+inline constexpr double rail_lags = 3.5;  ///< number of lags after which a terminal's distance to its rail is
+                                          ///< exp(-3.5) of the bus
 
 /// Basic values of the design, in SI units.
 struct SensorlessBasis {
@@ -38,13 +38,13 @@ struct SensorlessBasis {
                                             ///< low-pass, s
 };
 
-/// Problems of values with which no sensorless drive works.
+/// Problems of values that no sensorless drive can use.
 base::Problems unusable(const MotorModel& motor, const SensorlessSpec& spec);
 
 /// The basic values, if unusable() finds no problem. motor and spec must outlive the result.
 SensorlessBasis sensorless_basis(const MotorModel& motor, const SensorlessSpec& spec);
 
-/// Problem of a load, a converter, a filter or comparators with which the drive cannot work: at most one.
+/// Problem of a load, a converter, a filter or comparators that exclude sensorless operation: at most one.
 base::Problems out_of_reach(const SensorlessBasis& b);
 
 }  // namespace sixstep::design

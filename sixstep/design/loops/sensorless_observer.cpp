@@ -22,7 +22,7 @@ double shape(const plant::Machine& machine, double deg) {
   return std::clamp((90.0 - std::fabs(from_top)) / (90.0 - machine.flat_deg / 2.0), -1.0, 1.0);
 }
 
-/// shape() minus the common part of all three phases.
+/// shape() minus the part that is common to all three phases.
 double own_shape(const plant::Machine& machine, double deg) {
   return (2.0 * shape(machine, deg) - shape(machine, deg + 120.0) - shape(machine, deg + 240.0)) / 3.0;
 }

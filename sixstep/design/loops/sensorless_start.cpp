@@ -11,12 +11,12 @@ namespace sixstep::design {
 namespace {
 
 constexpr double two_to_32 = 4294967296.0;
-constexpr double swings = 6.0;    // periods of the rotor's swing that each alignment step lasts
+constexpr double swings = 6.0;    // duration of each alignment step, in periods of the rotor's swing
 constexpr double falling = 0.25;  // fraction of the start current, while the rotor swings towards its
                                   // alignment
 constexpr double fastest = 1.5;   // factor on the no-load speed: no rotor turns faster
 constexpr double slowest = 0.4;   // fraction of the lowest speed: a slower rotor counts as lost
-constexpr double fluxes = 2.0;    // factor by which T may be late during a steep acceleration
+constexpr double fluxes = 2.0;    // factor by which T may be too long during a steep acceleration
 constexpr double periods_a_sector = 4.0, filtered_periods_a_sector = 5.0, captured_periods_a_sector = 3.0;
 constexpr double rail_part = 0.03;  // fraction of the bus: a terminal this near to a rail is at the rail
 
@@ -30,8 +30,8 @@ control::ZeroCrossingConfig crossing_of(const SensorlessBasis& b) {
   c.seen = b.spec.seen;
   c.rail_counts = static_cast<std::uint16_t>(whole(rail_part * b.spec.bus_V / b.lsb_V));
   c.threshold = counts(b.threshold_V);
-  // In the freewheel a diode holds the terminal one drop beyond the rail, and the driven pair half a drop: y
-  // shows the difference.
+  // In the freewheel a diode holds the terminal one diode drop beyond the rail; the driven pair's mean is
+  // beyond it by half a drop. y shows the difference.
   c.below = b.spec.seen == control::NeutralSeen::on_time ? c.threshold
                                                          : std::min(c.threshold, counts(b.spec.diode_V / 2));
   const auto through = [](double ticks) { return whole(std::ceil(ticks)); };
@@ -41,7 +41,7 @@ control::ZeroCrossingConfig crossing_of(const SensorlessBasis& b) {
   return c;
 }
 
-/// Part of half a pulse, s, that the filters need to settle.
+/// Time within half a pulse, s, that the filters need to settle.
 double settled_s(const SensorlessBasis& b) {
   const bool in_pulse = b.spec.comparators.followed && b.spec.comparators.against_half_bus;
   return std::max(b.settle_s(), in_pulse ? rail_lags * b.comparator_lag_s : 0.0);
@@ -93,7 +93,7 @@ control::LockConfig lock_of(const SensorlessBasis& b) {
   l.threshold = static_cast<std::int32_t>(b.lock_V / b.lsb_V) + 1;
   l.most_flux = whole(fluxes * 3.0 * b.motor.machine.K_e_V_s / b.lsb_V * b.counts(b.sector_s(1.0)));
   // If a leg's diode stops conducting within the on-time, the sample is taken while the leg is still moving
-  // away from the rail: its voltage gives no flux.
+  // away from the rail: the flux cannot be computed from its voltage.
   if (b.lag_s > 0.0 && b.spec.chopping != control::Chopping::hard) l.most_flux = 0xffffffffu;
   l.longest_ticks = whole(b.counts(b.sector_s(slowest * b.lowest_rad_s)));
   return l;
@@ -164,8 +164,8 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
   out.start_output =
       current_at_full_output_A > 0.0 ? std::min(1.0, b.ramp_A() / current_at_full_output_A) : 0.0;
   const double K_t = motor.K_t_Nm_A;
-  // Hard chopping changes the voltage by twice the bus per duty. Complementary chopping keeps the old current
-  // flowing while it brakes.
+  // Hard chopping changes the voltage by twice the bus per duty. With complementary chopping, the old current
+  // continues while the motor brakes.
   const double swing_V = spec.chopping == control::Chopping::soft ? spec.bus_V : 2.0 * spec.bus_V;
   out.duty_per_period = b.nominal_A * K_t * K_t / (motor.shaft.J_kg_m2 * swing_V) * spec.period_s;
   out.current_per_period = b.nominal_A * spec.period_s / usual_current_settle_s;

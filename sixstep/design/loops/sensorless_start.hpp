@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes every number of a sensorless drive (control/sensorless/) from motor and board, so that no number
-// has to be tuned:
+// Computes every number of a sensorless drive (control/sensorless/) from motor and board, so that the user
+// need not tune any number. U is the bus, I the start current, J the inertia, T the control period:
 //
 //   threshold       for y = 2 u_f - u_s - u_k: noise of three converters, their steps, and the mismatch of
 //                   the dividers
 //   lowest speed    2 K_e w is `clear` times the threshold; at least lowest_part of the no-load speed
 //   start current   `overload` times the nominal current, and at most 4/5 of the current that the bus drives
 //                   through a held rotor
-//   alignment       each of its two steps (start_up.hpp) lasts `swings` periods of sqrt(p K_t I/J)
+//   alignment       each of its two steps (start_up.hpp) lasts `swings` periods of the swing sqrt(p K_t I/J)
 //   ramp            half of the start current's excess over the greatest load: a = (K_t I - T_load)/(2 J)
-//   hand-over       a speed loop continues from the ramp's current, (J a + T_c + B w)/K_t, not from the start current
+//   hand-over       a speed loop continues from the ramp's current, (J a + T_c + B w)/K_t, not from the start
+//                   current
 //   catching        currents are zero after 6 L_s I/U. The rotor is at rest if there is no crossing for two
 //                   sectors of the lowest speed
-//   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), with I_N in
-//                   addition to the load's current. A faster growth would hide the crossing behind its
-//                   freewheel. Half of it in two cases. Hard chopping: its duty changes the voltage twice as
-//                   much. Complementary chopping: while braking, the freewheel holds the old leg at its
-//                   diode, and the current there grows until K_e w |s_f| has fallen below d U/2
-//   highest speed   two samples before the crossing and one after the freewheel: four control periods per sector
+//   throttle        the duty grows no faster than the back-EMF can follow: d' = I_N K_t^2/(J U), with the
+//                   nominal current I_N in addition to the load's current. A faster growth would cause a
+//                   freewheel that hides the crossing. In two cases the growth is half of d'. Hard chopping:
+//                   its duty changes the voltage twice as much. Complementary chopping: while the motor
+//                   brakes, the freewheel holds the old leg at its diode, and the leg's current grows until
+//                   K_e w |s_f| has fallen below d U/2
+//   highest speed   two samples before the crossing and one after the freewheel: four control periods per
+//                   sector
 //   filters         terminals and bus have equal lags tau: y is tau late, and the lead is reduced by tau. 3.5
-//                   tau after an edge a leg is at its rail within the 3 % that the chip requires. This time
-//                   is half of the least on-time, and the blanking after commutation and freewheel. It costs
-//                   one sample: five control periods per sector. With hard chopping a diode may hold the leg
-//                   up to any instant of the on-time: the sign of y is then right, but its size has no
-//                   meaning
-//   comparators     offset and half the hysteresis are added to the threshold, counted in y: 3 times with the
-//                   virtual star, 2 times with half the bus. The lead is reduced by the low-pass's tau. With
-//                   the virtual star 5 tau are at most half a sector at no-load speed, so that the
+//                   tau after an edge the distance of a leg to its rail is 3 %, as the chip requires. This
+//                   time is half of the least on-time, and the blanking after commutation and freewheel. The
+//                   filters require an additional sample: five control periods per sector. With hard chopping
+//                   a diode may hold the leg up to any instant of the on-time: the sign of y is then right,
+//                   but its size has no meaning
+//   comparators     offset and half the hysteresis are added to the threshold, as a change of y: 3 times with
+//                   the virtual star, 2 times with half the bus. The lead is reduced by the low-pass's tau.
+//                   With the virtual star 5 tau are at most half a sector at no-load speed, so that the
 //                   freewheel's effect has decayed; with half the bus 7 tau are at most the least on-time.
 //                   One sample after the freewheel and one after the edge: three control periods per sector
 #pragma once
@@ -64,7 +67,7 @@ struct SensorlessSpec {
   double lowest_part = 0.05;    ///< fraction of the no-load speed at which the ramp ends
   double advance_deg = 0.0;     ///< advance of the commutation before the middle between two crossings,
                                 ///< electrical
-  double sampling_s = 0.25e-6;  ///< time that a pulse must have on either side of its middle for a sample
+  double sampling_s = 0.25e-6;  ///< time that a sample needs on either side of the pulse's middle
   double pulse_late_s =
       0.0;                  ///< delay of the pulse after the timer's command: a dead time, with complementary
                             ///< chopping
@@ -73,8 +76,8 @@ struct SensorlessSpec {
   double terminal_bandwidth_Hz = 0.0;  ///< bandwidth of the first-order lags of terminals and bus; 0: no
                                        ///< filters
   double speed_window_s =
-      0.0;  ///< a speed is taken over six crossings if they come within this time, else over one
-            ///< (hall_speed.hpp); 0: always six
+      0.0;  ///< a speed is measured over six crossings if they occur within this time, else over one
+            ///< (hall_speed.hpp); 0: always over six
   control::Chopping chopping = control::Chopping::soft;
   control::NeutralSeen seen = control::NeutralSeen::on_time;
   double diode_V = 0.0;  ///< drop of the bridge's diodes; a measurement in the freewheel contains it
@@ -85,7 +88,8 @@ struct SensorlessSpec {
 /// Configuration of the rotor's part of the chip, and figures of the design.
 struct SensorlessStart {
   control::SensorlessConfig<double> rotor;
-  double start_output = 0.0;        ///< the ramp's current relative to that of the speed loop's full output
+  double start_output = 0.0;        ///< the ramp's current, relative to the current of the speed loop's full
+                                    ///< output
   double duty_per_period = 0.0;     ///< largest change of a duty setpoint per period
   double least_duty = 0.0;          ///< least duty whose pulse is long enough for a sample
   double current_per_period = 0.0;  ///< largest change of a current setpoint per period, A
@@ -94,9 +98,10 @@ struct SensorlessStart {
   std::vector<DerivationStep> steps;
 };
 
-/// `motor` includes the load's inertia on its shaft. `current_at_full_output_A` belongs to the speed loop; 0
-/// without one. Problems name the key to change: the bus is not given, the start current does not move the
-/// load, or converter or comparators are too inexact to measure the back-EMF below half the no-load speed.
+/// `motor` includes the load's inertia on its shaft. `current_at_full_output_A` is the speed loop's; 0
+/// without a speed loop. Problems name the key to change: the bus is not given, the start current does not
+/// move the load, or converter or comparators are too inexact to measure the back-EMF below half the no-load
+/// speed.
 base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const SensorlessSpec& spec,
                                                double current_at_full_output_A);
 

@@ -11,7 +11,8 @@ namespace sixstep::design {
 namespace {
 
 constexpr double longest_s = 1000.0;
-constexpr int points = 512;  // points suffice, because a PI loop's phase has no narrow features
+constexpr int points = 512;  // this number of points suffices, because a PI loop's phase has no narrow
+                             // features
 
 bool holds(const SettlingQuestion& q, const RotorSensing& sensing, double speed_rad_s, double settle_s) {
   const plant::Shaft& shaft = q.drive.motor.shaft;
@@ -30,8 +31,8 @@ bool holds(const SettlingQuestion& q, const RotorSensing& sensing, double speed_
 
 std::optional<double> fastest_settling_s(const SettlingQuestion& q, const RotorSensing& sensing,
                                          double lowest_speed_rad_s) {
-  // The phase margin grows with the settling time. The time is doubled until the loop holds, and then
-  // bisected to a thousandth.
+  // The phase margin grows with the settling time. The time is doubled until the loop has enough phase
+  // margin, and then bisected to a thousandth.
   double low = 2 * q.drive.period_s, high = 4 * q.drive.period_s;
   while (!holds(q, sensing, lowest_speed_rad_s, high)) {
     low = high;

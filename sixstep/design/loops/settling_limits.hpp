@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how fast a speed loop may be with the lag of its sensor at the lowest speed that it must hold.
+// Computes how fast a speed loop may be with the lag of its sensor at the lowest required speed.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace sixstep::design {
 
-/// A speed loop by pole placement around a current loop. `drive` has the current loop's gains, delay and
+/// A speed loop by pole placement around a current loop. `drive` contains the current loop's gains, delay and
 /// period.
 struct SettlingQuestion {
   DriveLoops drive;
@@ -18,9 +18,9 @@ struct SettlingQuestion {
   double damping = usual_damping;
 };
 
-/// The shortest settling time, s, whose loop keeps least_phase_deg with the sensor's lag at the lowest speed.
-/// Such a loop is stable; with a third of that time the loop has no margin left. Empty if no time up to 1000
-/// s suffices.
+/// The shortest settling time, s, for which the loop has the phase margin least_phase_deg with the sensor's
+/// lag at the lowest speed. Such a loop is stable; with a third of this time the loop would have no margin.
+/// Empty if no time up to 1000 s suffices.
 std::optional<double> fastest_settling_s(const SettlingQuestion& question, const RotorSensing& sensing,
                                          double lowest_speed_rad_s);
 
@@ -29,14 +29,14 @@ struct SettlingLimit {
   double lowest_speed_rad_s = 0.0;
   std::optional<double> settle_s;
 };
-/// Lowest speeds that a drive may have to hold, rad/s: `lowest`, and twice and five times it, as far as these
-/// are at most `highest`.
+/// Lowest required speeds for the table, rad/s: `lowest`, and twice and five times `lowest`, if they are at
+/// most `highest`.
 struct SpeedsToHold {
   double lowest = 0.0, highest = 0.0;
 };
 
 /// Limits for each kind of sensing and each speed, one kind after the other. The kinds are Hall probes with
-/// one edge, with six edges and adaptive, or the given encoder or resolver.
+/// one edge, with six edges and with an adaptive number, or the given encoder or resolver.
 std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, const RotorSensing& rotor,
                                            const SpeedsToHold& speeds);
 /// Number of speeds for each kind of sensing.

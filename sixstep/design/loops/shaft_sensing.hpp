@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the lag of an encoder or a resolver in a speed loop, the jitter of its speed, and the lowest speed that it
-// measures.
+// Computes the lag of an encoder or a resolver in a speed loop, the jitter of its speed, and the lowest speed
+// that it can measure.
 //
-//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over the time T between two edges that control
-//              ticks have found, T = max(T_s, c), held for c = (2 pi/4N)/w until the next edge. A tick of the
-//              timer in T is 1/(f T) of the speed; the lowest speed is one count per time-out
+//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over the time T between two edges used at
+//              control ticks, T = max(T_s, c), held for c = (2 pi/4N)/w until the next edge. A timer tick in
+//              T is the fraction 1/(f T) of the speed. The lowest speed is one count per time-out.
 //   absolute   the mean over k samples, late by the code's latency. One count in k T_s is (2 pi/2^n)/(k T_s);
-//              a lower speed reads as zero or as this speed
+//              a lower speed reads as zero or as this speed.
 //   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2). It is 2 D/w_n late at
-//              frequencies far below w_n, where a speed loop should be; the delay of the angle is added.
-//              Noise of s rad in each step of T_l makes a jitter of s sqrt(T_l w_n^3/(4 D)). Every speed is
-//              measured
+//              frequencies far below w_n, where a speed loop should be. The delay of the angle is added.
+//              Noise of s rad in each step of T_l causes a jitter of s sqrt(T_l w_n^3/(4 D)). Every speed is
+//              measured.
 //
 // All speeds are mechanical. On the load's side of a gear, n turns of the motor are one turn of the sensor.
 #pragma once
@@ -27,8 +27,8 @@ enum class ShaftSensorKind : std::uint8_t { none, encoder, absolute, resolver };
 struct ShaftSensing {
   ShaftSensorKind kind = ShaftSensorKind::none;
   double gear = 1.0;      ///< n, turns of the motor per turn of the sensor
-  bool linear = false;    ///< a linear scale: n is the magnets' period over 2 pi, in m, and N the lines in a
-                          ///< period
+  bool linear = false;    ///< a linear scale: n is the magnets' period divided by 2 pi, in m, and N the
+                          ///< number of lines in a period
   double period_s = 0.0;  ///< T_s, the control period
   // incremental encoder
   int lines = 0;            ///< N, lines per turn
@@ -36,7 +36,7 @@ struct ShaftSensing {
   double timeout_s = 0.0;
   // absolute encoder
   int bits = 0;            ///< n, bits of the code
-  int samples = 1;         ///< k, samples over which a speed is taken
+  int samples = 1;         ///< k, samples over which the speed is measured
   double latency_s = 0.0;  ///< latency of the code, or of a resolver's angle
   // resolver
   int pole_pairs = 1;          ///< pole pairs of the resolver
@@ -46,11 +46,10 @@ struct ShaftSensing {
   double noise_rad = 0.0;      ///< s, rms noise as an angle of the resolver's turn
 };
 
-/// The sensor in words: "encoder, 1024 lines", "absolute encoder, 14 bits", "resolver, followed within 1
-/// kHz".
+/// The sensor as text: "encoder, 1024 lines", "absolute encoder, 14 bits", "resolver, followed within 1 kHz".
 std::string sensor_words(const ShaftSensing& sensing);
 
-/// Age of a measured speed: it is the mean over `mean_s`, is held for `hold_s`, and is `late_s` late.
+/// Age of a measured speed: it is the mean over `mean_s`, held for `hold_s`, and additionally `late_s` late.
 struct ShaftSpeedAge {
   double mean_s = 0.0, hold_s = 0.0, late_s = 0.0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds specs that cannot be designed: values out of range, and demands that contradict each other. The
+// Finds specs without a possible design: values out of range, and demands that contradict each other. The
 // problems name options.
 #pragma once
 #include "sixstep/base/result.hpp"

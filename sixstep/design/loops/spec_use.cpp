@@ -27,8 +27,7 @@ struct Idle {
 constexpr const char* with_speed = "add mode = speed or mode = position, or leave it out";
 constexpr const char* one_of_two = "keep one of the two";
 
-/// Reasons why a member of a spec has no effect. If a member has several rows, the first one that applies is
-/// reported.
+/// Reasons why a member of a spec has no effect. If several rows of a member apply, the first is reported.
 constexpr Idle idles[] = {
     {"current_settle_s", current_alone,
      "applies to a current loop inside a speed loop, and mode = current has no speed loop",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which members of a spec a design reads: by mode, by method of the gains, and by the rotor's sensor. Only
-// this file defines it; tests/analysis/spec_use_test.cpp checks every member for all of them.
+// Decides which members of a spec a design reads: by mode, by method of the gains, and by the rotor's sensor.
+// This file is the only definition; tests/analysis/spec_use_test.cpp checks every member for all modes,
+// methods and sensors.
 #pragma once
 #include <optional>
 #include <string_view>

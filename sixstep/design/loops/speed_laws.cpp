@@ -177,7 +177,7 @@ LinearLaw linear(const control::ObservedSpeedConfig<double>& k) {
   law.r = times(k.f + k.K * (1.0 + k.g * k.f), product(C, E));
   law.y = product(C, sum(times(k.K, E), times(-1.0, product(N, A))));
   law.q = sum(product(sum(C, {k.K * k.g * (1.0 - k.c)}), E), times(k.b * (1.0 - k.c), product(N, z_itself)));
-  law.q[0] = 0.0;  // exactly 0, because the load is integrated; the sum above leaves rounding
+  law.q[0] = 0.0;  // exactly 0, because the load is integrated; the sum above has rounding errors
   law.y[0] = law.r[0];
   return law;
 }

@@ -27,7 +27,7 @@ Square times(const Square& a, const Square& b) {
 }
 
 /// exp(M) - 1. The series is summed for M/2^n, and the result is doubled n times by E -> 2 E + E^2. With a
-/// norm below 1/16 twelve terms leave an error of (1/16)^13/13!, far below rounding.
+/// norm below 1/16 the error of twelve terms is (1/16)^13/13!, far below rounding.
 Square exponential_minus_one(Square m) {
   double norm = 0.0;
   for (const auto& row : m) {
@@ -77,7 +77,7 @@ Polynomial characteristic(const Square& e, int states) {
   return p;
 }
 
-/// True if all roots have a negative real part, by Routh's scheme: it then has no change of sign.
+/// True if all roots have a negative real part: Routh's scheme then has no change of sign.
 bool is_hurwitz(Polynomial p) {
   if (p.back() < 0.0)
     for (double& x : p) x = -x;
@@ -132,7 +132,7 @@ Transfer delay(int periods) {
 
 Transfer closed(const Transfer& loop) { return {loop.num, sum(loop.num, loop.den)}; }
 
-// With delta = 2 w/(1 - w), the roots of sum p_k (2 w)^k (1 - w)^(n - k) must be in the left half plane.
+// With delta = 2 w/(1 - w), all roots of sum p_k (2 w)^k (1 - w)^(n - k) must be in the left half plane.
 bool is_stable(const Polynomial& denominator) {
   const std::size_t n = denominator.size() - 1;
   Polynomial in_w(n + 1), power{1.0};
@@ -145,7 +145,7 @@ bool is_stable(const Polynomial& denominator) {
   return in_w.back() != 0.0 && is_hurwitz(in_w);
 }
 
-// Roots with |z| < r are those with |z/r| < 1. For these delta = r delta' - (1 - r).
+// Roots with |z| < r are roots with |z/r| < 1, for which delta = r delta' - (1 - r).
 double slowest_decay(const Polynomial& denominator) {
   const auto inside = [&](double decay) {
     const Polynomial shifted{-decay, 1.0 - decay};
@@ -178,8 +178,8 @@ Square step_of(const Linear& system, double time_s) {
   return exponential_minus_one(m);
 }
 
-/// Numerator of C (delta - E)^-1 x over `den`, from C (delta - E)^-1 x = sum C E^(k-1) x delta^-k; its powers
-/// begin at 0. E is `step`, and x is the last column of `held`.
+/// Numerator of C (delta - E)^-1 x over the denominator `den`, from C (delta - E)^-1 x = sum C E^(k-1) x
+/// delta^-k. E is `step`, and x is the last column of `held`.
 Polynomial numerator(const Square& step, const Square& held, const Polynomial& den, int output) {
   const std::size_t n = den.size() - 1;
   std::array<double, 5> x{};
@@ -198,8 +198,9 @@ Polynomial numerator(const Square& step, const Square& held, const Polynomial& d
 
 }  // namespace
 
-// G(t) is the change of the states by an input in a time t. x' = E x + (G(T) - G(T - late)) u/z + G(T - late)
-// u. Over the denominator z den, the numerator is that of G(T) plus z - 1 times that of G(T - late).
+// G(t) is the change of the states by an input during a time t. x' = E x + (G(T) - G(T - late)) u/z + G(T -
+// late) u. Over the denominator z den, the numerator is the numerator of G(T) plus z - 1 times the numerator
+// of G(T - late).
 Transfer sampled(const Linear& system, int output, double period_s, double late_s) {
   const Square step = step_of(system, period_s);
   Transfer t;

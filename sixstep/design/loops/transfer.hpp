@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear sampled systems as ratios of polynomials. They are built from a state space with zero-order hold,
+// Linear sampled systems as ratios of polynomials. They are computed from a state space with zero-order hold,
 // connected in series, closed, checked for stability, and evaluated on the unit circle. They describe the
-// drive between PWM and ADC while no limit acts. The variable is delta = z - 1 and not z: a loop that settles
-// in a second has its poles 1e-4 from z = 1, and if several poles are there, a polynomial in z loses them to
-// rounding (Middleton, Goodwin).
+// drive between PWM and ADC while no limit acts. The variable is delta = z - 1 instead of z: a loop that
+// settles in a second has poles at a distance of 1e-4 from z = 1; with several such poles, a polynomial in z
+// would lose them by rounding (Middleton, Goodwin).
 #pragma once
 #include <array>
 #include <vector>
@@ -48,15 +48,15 @@ Transfer delay(int periods);
 /// The closed loop L/(1 + L).
 Transfer closed(const Transfer& loop);
 
-/// True if all roots have |z| < 1. By z = (1 + w)/(1 - w) and Routh's scheme, so that no root is computed. It
-/// is for the degrees of a drive: above a degree of some twenty the scheme gives only rounding.
+/// True if all roots have |z| < 1, by z = (1 + w)/(1 - w) and Routh's scheme, which computes no root. It is
+/// for the degrees of a drive: above a degree of some twenty the result is only rounding.
 bool is_stable(const Polynomial& denominator);
-/// 1 - |z| of the largest root, by bisection with is_stable(): the fraction of a disturbance that disappears
-/// per period. Negative for an unstable system.
+/// 1 - |z| of the largest root: the fraction of a disturbance that decays per period. Computed by bisection
+/// with is_stable(). Negative for an unstable system.
 double slowest_decay(const Polynomial& denominator);
 
 /// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to the state
-/// `output`. late_s is less than a period: an input acts from late_s after its sample on, and until then the
+/// `output`. late_s is less than a period: an input begins to act late_s after its sample; until then the
 /// input before it acts.
 struct Linear {
   int states = 0;

@@ -18,7 +18,7 @@ Magnitudes magnitudes(const control::DriveConfig<double>& d, const OperatingRang
     m.position = r.position_deg;
     m.position_ref = r.setpoint;
   }
-  // A slewed setpoint begins at the measured value, which may be the larger one.
+  // A slewed setpoint begins at the measured value, which may be larger.
   const bool slews = d.extras.on && d.extras.slews_setpoint;
   const auto slewed = [slews](double wanted, double measured) {
     return slews ? std::max(wanted, measured) : wanted;

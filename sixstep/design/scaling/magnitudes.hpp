@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Largest magnitudes that occur in a drive's loops, in SI units, by interval arithmetic around 0 on the lines
+// Largest magnitudes in a drive's loops, in SI units, by interval arithmetic around 0 that follows the lines
 // of drive.hpp.
 #pragma once
 #include "sixstep/design/scaling/scaling.hpp"

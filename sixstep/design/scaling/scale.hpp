@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The walk that converts a configuration's fields to fixed point (design/fields). Each field is divided by
-// its base, and has its lines in the proof.
+// its base, and has lines in the proof.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -13,7 +13,7 @@ namespace sixstep::design::detail {
 
 inline constexpr double trip_ratio = 1.25;  // 5/4, as in over_limit() of limits.hpp
 
-/// Walk with conversion. Fields that the mode does not use, or that a flag turns off, keep their defaults.
+/// Walk that converts. Fields that the mode does not use, or that a flag disables, keep their defaults.
 template <class Scalar>
 class Scale {
  public:
@@ -117,7 +117,7 @@ class Scale {
   const control::DriveExtras<double>* extras_ = nullptr;
 };
 
-/// Conditions of pi_positional.hpp and derivative.hpp: the derivative's |y| is at most g times the widest
+/// Conditions of pi_positional.hpp and derivative.hpp. The derivative's |y| is at most g times the largest
 /// step of the speed, and g/b times its largest change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e
 /// may saturate. K_i and its increments are proved with DriveConfig::speed.
 template <class Scalar>
@@ -125,7 +125,7 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   const control::DerivativeConfig<double>& d = extras_->speed_derivative;
   const double steepest = d.b > 0 ? d.g / d.b * m_.speed_change : HUGE_VAL;
   const double braked = d.g > 0 ? std::min(2 * m_.speed * d.g, steepest) : 0.0;
-  // The part that a setpoint weight removes is fed forward as the derivative is, and the integral compensates
+  // The part that a setpoint weight removes is fed forward like the derivative, and the integral compensates
   // it.
   const double weighted = extras_->speed_weight_off * m_.speed_ref;
   const double integral =
@@ -146,11 +146,11 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   return true;
 }
 
-/// A converter without a gain does not exist and needs no proof.
+/// A converter with gain 0 does not exist and needs no proof.
 template <class Scalar>
 bool Scale<Scalar>::prove(const control::AdcConfig<double>& adc, const AdcUse& use) {
   if (adc.per_eighth == 0) return false;
-  // The proof names "current_adc[1]" as "current_adc b".
+  // In the proof "current_adc[1]" is called "current_adc b".
   const std::size_t phase = within_.find('[');
   const std::string name = phase == std::string::npos ? within_
                                                       : within_.substr(0, phase) + " " +

@@ -39,8 +39,8 @@ Bases bases_for(const DriveConfig<double>& drive, const OperatingRange& range, d
   double current = std::max(m.current + m.current_ref, m.current_levels);
   if (drive.extras.on && drive.extras.limits_current) {
     const control::LimitsConfig<double>& l = drive.extras.limits;
-    const double below_the_end = 1 + 1e-3;  // factor: a signal must be able to exceed a threshold, which
-                                            // therefore is below full scale
+    const double below_the_end = 1 + 1e-3;  // factor: a threshold must be below full scale, so that a signal
+                                            // can exceed it
     current = std::max(current, trip_ratio * l.current_A * below_the_end);
     if (l.limits_speed) speed = std::max(speed, m.speed + l.speed_rad_s);
     if (l.limits_regeneration) bus = std::max(bus, l.bus_V * below_the_end);

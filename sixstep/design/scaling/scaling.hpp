@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes for how many A, V, rad/s and degrees the fixed-point number 1.0 stands, and converts the drive's
-// configuration to these units. Interval arithmetic proves that, over a given range of inputs, nothing
-// saturates except where it may.
+// Computes which A, V, rad/s and degrees the fixed-point number 1.0 represents, and converts the drive's
+// configuration to these units. Interval arithmetic proves that, over a given range of inputs, only values
+// saturate that may saturate.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace sixstep::design {
 
-/// Range of the inputs: magnitudes that measurements and setpoint do not exceed. An input beyond them is an
-/// error of a sensor or a user, and saturation is the right response.
+/// Range of the inputs: largest magnitudes of measurements and setpoint. A larger input is an error of a
+/// sensor or a user, and saturation is then the correct reaction.
 struct OperatingRange {
   double current_A = 0.0;     ///< current of each phase: the ADC's range
   double speed_rad_s = 0.0;   ///< mechanical
@@ -77,16 +77,16 @@ struct Scaled {
 Bases bases_for(const control::DriveConfig<double>& drive, const OperatingRange& range, double full_scale);
 
 /// Converts the drive to fixed point. Problems name the quantity that does not fit, or the gain that the
-/// format cannot hold to its last bits, with the value and the end of the range:
+/// format cannot represent to its last bits, with the value and the limit of the range:
 ///   - a signal, a limit or a difference of signals beyond full scale;
 ///   - a gain above the mantissa, or so small that its mantissa loses bits;
 ///   - an integral gain for which an error of one digit has no effect (pi.hpp);
-///   - an integral increment that could saturate its sum (above 14 of the 16 ranges that the sum holds);
+///   - an integral increment that could saturate its sum (above 14 of the sum's 16 ranges);
 ///   - a derivative and the integral after it, together beyond 14 ranges; an integral without a gain of
 ///     back-calculation.
-/// Values that go directly into a limit (products before a clamp, the proportional kick) may saturate,
-/// because the clamp hides it. The template is instantiated for Q15, Q31 and the formats with one and two
-/// bits before the point.
+/// Values that are immediately limited (products before a clamp, the proportional kick) may saturate, because
+/// the clamp gives the same result. The template is instantiated for Q15, Q31 and the formats with one and
+/// two bits before the point.
 template <class Scalar>
 base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range,
                                     const Bases& bases);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects the proof of a scaling: one line for each value that fits, and one Problem for each that does not.
+// Collects the proof of a scaling: one line for each value that fits, and one Problem for each value that
+// does not fit.
 #pragma once
 #include <cmath>
 #include <string>
@@ -23,7 +24,7 @@ inline std::string at_most(double x) {
   return base::written(base::shortened(x, 4, x < 0 ? base::Towards::up : base::Towards::down));
 }
 
-/// Lines of the proof, and the problems that break it.
+/// Lines of the proof, and the problems of values that do not fit.
 template <class Scalar>
 struct Proof {
   std::vector<Headroom> rows;
@@ -32,15 +33,15 @@ struct Proof {
   void fits(const char* name, double largest, double base) {
     const double end = base * full_scale<Scalar>;
     rows.push_back({name, largest, end});
-    // A value of exactly the base fits, even if the format ends one digit below 1 (Q15, Q31).
+    // A value equal to the base fits, even if the format ends one digit below 1 (Q15, Q31).
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
       problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
                           "take a base of " + at_least(std::fabs(largest) / full_scale<Scalar>) +
                               " or more, or a format with more bits before the point"});
   }
 
-  /// Converts a threshold. It must be below full scale, because otherwise no signal can pass it. A threshold
-  /// of 0 always fits.
+  /// Converts a threshold. It must be below full scale, because otherwise no signal can exceed it. A
+  /// threshold of 0 always fits.
   Scalar threshold(const char* name, double value, double base) {
     if (value != 0) fits(name, std::fabs(value) + 2 * base * static_cast<double>(Scalar::from_raw(1)), base);
     return Scalar(value / base);

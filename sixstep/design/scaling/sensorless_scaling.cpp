@@ -15,7 +15,7 @@ using control::SensorlessDriveConfig;
 control::DriveConfig<double> while_it_starts(const control::DriveConfig<double>& drive) {
   control::DriveConfig<double> starting = drive;
   starting.mode = control::Mode::current;
-  starting.extras.slews_setpoint = false;  // its unit is that of the mode after the start, not of the current
+  starting.extras.slews_setpoint = false;  // its unit belongs to the mode after the start, not to the current
                                            // mode
   starting.extras.slew = {};
   return starting;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts the sensorless drive's configuration to fixed point: the drive by scaling.hpp, and the current
-// loop that runs during the start in every mode. Each value has its line in the proof.
+// loop that runs during the start in every mode. Each value has a line in the proof.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
@@ -14,14 +14,14 @@ struct ScaledSensorless {
   std::vector<Headroom> proof;
 };
 
-/// The drive during its start, in which it controls a current in every mode.
+/// The drive during its start, in which every mode uses the current loop.
 control::DriveConfig<double> while_it_starts(const control::DriveConfig<double>& drive);
 
 /// Range of the inputs during the start.
 OperatingRange while_it_starts(const OperatingRange& range,
                                const control::SensorlessDriveConfig<double>& sensorless);
 
-/// Bases that suffice both for the drive's mode and for its start.
+/// Bases that suffice for both the drive's mode and its start.
 Bases bases_for(const control::SensorlessDriveConfig<double>& sensorless, const OperatingRange& range,
                 double full_scale);
 

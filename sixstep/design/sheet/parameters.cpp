@@ -27,8 +27,8 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
     m.stall_torque_Nm = SheetReader::positive(*sheet.stall_torque_mNm, -3).value_or(0.0);
 }
 
-/// Checks the model's constants. Constants that follow from several lines, such as K_t = 2 B l r N, are
-/// checked against the same table as constants of one line.
+/// Checks the model's constants. Constants from several lines, such as K_t = 2 B l r N, have the same limits
+/// as constants from one line.
 void check_constants(SheetReader& reader, const MotorModel& m) {
   const auto hold = [&reader](const std::string& where, double value, const base::Range& own,
                               std::string_view unit, const char* what) {
@@ -44,16 +44,15 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
        base::from(0), "N m s", "the viscous friction");
 }
 
-/// Bounds of the rates. No motor in data/motors exceeds 1e4 rad/s. A rate ten times larger or more comes from
-/// a wrong unit, and its simulation would take steps of nanoseconds.
+/// Bounds of the rates. No motor in data/motors exceeds 1e4 rad/s. A rate that is ten times larger or more is
+/// caused by a wrong unit, and its simulation would need steps of nanoseconds.
 constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
 
-/// Lower bound: no winding keeps its current for minutes, and a simulation until such a current has decayed
-/// would not end.
+/// Lower bound: in no winding a current decays for minutes, and a simulation until its decay would not end.
 constexpr double slowest_winding_rad_s = 0.01;
 
-/// Checks two rates, rad/s: R/L of the winding, and K_t/sqrt(L J) of the shaft on it, both with terminal
-/// values.
+/// Checks two rates, rad/s, both with terminal values: R/L of the winding, and K_t/sqrt(L J), the oscillation
+/// of winding and shaft.
 void check_pace(SheetReader& reader, const MotorModel& m) {
   const Sheet& sheet = reader.sheet;
   const double L = 2.0 * m.machine.L_H, winding = 2.0 * m.machine.R_ohm / L;

@@ -12,8 +12,8 @@ namespace sixstep::design {
 namespace {
 
 /// Mean of f_p - f_n over a sector for a shape of peak 1 (model.md 1): torque per ampere of the driven pair
-/// over K_e. By symmetry it is twice the mean of one phase's shape over 60 degrees from the middle of its
-/// top. For a trapezoid with ramps through zero at 90 degrees, h = 90 - w/2 degrees from top to zero:
+/// divided by K_e. By symmetry it is twice the mean of one phase's shape over 60 degrees from the middle of
+/// its top. For a trapezoid with ramps through zero at 90 degrees, and h = 90 - w/2 degrees from top to zero:
 ///   w >= 120:  2
 ///   w < 120:   (2/60) (w/2 + integral of (90 - x)/h over w/2..60) = (90 - h/2 - 450/h)/30
 /// Sine: (6/pi) sin 60 = 3 sqrt(3)/pi = 1.65399
@@ -32,7 +32,7 @@ double trapezoid_wave(double x_deg, double flat_deg) {
 }
 
 /// Peak and mean square of f(x) - f(x - 120) over half a turn. The difference is linear between the corners
-/// of both terms, so that its peak is at a corner and Simpson's rule is exact for its square.
+/// of both terms: its peak is therefore at a corner, and Simpson's rule is exact for its square.
 void line_to_line(double flat_deg, ShapeFactors& out) {
   std::array<double, 6> corners = {0.0, 180.0};
   std::size_t count = 2;
@@ -88,7 +88,7 @@ ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const do
   }
   out.phase_rms = std::sqrt(phase_square);
   out.line_rms = std::sqrt(line_square);
-  // The shapes are symmetric about their middle: half a turn is scanned for their peaks, in 4096 steps.
+  // The shapes are symmetric about their middle: half a turn is searched for their peaks, in 4096 steps.
   const auto phase = [&](double x) {
     double v = base::cos(x);
     for (std::size_t n = 0; n < orders.size(); ++n) v += sizes[n] * base::cos(orders[n] * x);

@@ -32,7 +32,7 @@ class Table {
     while (n > 0 && angle_[n] > x) --n;
     return first(n) + slope(n) * (x - from(n));
   }
-  /// Integral over [begin, end], degrees, which must lie within one turn from 0.
+  /// Integral over [begin, end], degrees, within the turn from 0 to 360.
   double integral(double begin, double end) const {
     double sum = 0.0;
     for (const double turn : {-360.0, 0.0})
@@ -63,7 +63,8 @@ void line_to_line(const Table& table, ShapeFactors& out) {
   out.line_rms = std::sqrt(square / 360.0);
 }
 
-/// Reports errors that a list's own range does not exclude. Returns true if the two lists can be a table.
+/// Reports errors that the ranges of the two lists do not exclude. Returns true if the lists can form a
+/// table.
 bool are_points(SheetReader& reader) {
   const std::vector<double>&angle = reader.sheet.back_emf_angle_deg, &value = reader.sheet.back_emf_shape;
   if (angle.size() != value.size())
@@ -98,8 +99,8 @@ bool are_points(SheetReader& reader) {
 ShapeFactors table_factors(std::span<const double> angle_deg, std::span<const double> values) {
   const Table table(angle_deg, values);
   ShapeFactors out;
-  // The source's phase is in its positive third of a turn for two sectors, the sink's in its negative third:
-  // six sectors in all.
+  // Each phase is the source for two sectors, in its positive third of a turn, and the sink for two sectors,
+  // in its negative third. With three phases these are all six sectors.
   out.sector_mean = (table.integral(0.0, 120.0) - table.integral(180.0, 300.0)) / 120.0;
   line_to_line(table, out);
   double square = 0.0, cos = 0.0, sin = 0.0;
@@ -107,7 +108,7 @@ ShapeFactors table_factors(std::span<const double> angle_deg, std::span<const do
     const double a = table.first(n), b = table.last(n);
     square += (a * a + a * b + b * b) / 3.0 * (table.to(n) - table.from(n));
     out.phase_peak = std::max(out.phase_peak, std::abs(a));
-    // By parts, the integral of f cos x is that of -f' sin x, and f' is constant on each line.
+    // By parts, the integral of f cos x equals the integral of -f' sin x, and f' is constant on each line.
     const double per_rad = table.slope(n) * 180.0 / base::pi;
     const base::SinCos from = base::sin_cos(table.from(n) / 180.0 * base::pi),
                        to = base::sin_cos(table.to(n) / 180.0 * base::pi);

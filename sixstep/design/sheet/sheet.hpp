@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A motor's data sheet as printed: the sheet's own units and frames, each value with its source. Makers print
-// one constant in different forms. A file gives each constant in one form, or in several, which are then
+// a constant in different forms. A file gives each constant in one form, or in several forms, which are then
 // compared (sheet_constants.hpp, sheet_check.hpp). A linear motor's sheet uses the same members, with 1 rad
 // for 1 m, under its own key names (base/linear.hpp, sheet_spellings.hpp).
 #pragma once
@@ -30,7 +30,8 @@ struct Sheet {
   std::string notes;
   bool simulatable = true;
   std::string not_simulatable_because;
-  std::vector<std::string> known_deviation;  // names of the check's relations that this sheet breaks
+  std::vector<std::string> known_deviation;  // names of relations in the sheet check that this sheet is known
+                                             // to violate
 
   MotorKind kind = MotorKind::rotary;
   std::optional<base::Quantity> pole_pitch_mm;  // linear motor: tau, instead of pole pairs
@@ -59,7 +60,7 @@ struct Sheet {
   std::optional<base::Quantity>
       saturation_current_A;  // of a phase along the magnet: L_d i_d (1 - i_d/(2 I_sat))
 
-  // The torque constant in its printed forms. The first form that is given, in this order, is used.
+  // The torque constant in its printed forms. The first given form, in this order, is used.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
   std::optional<base::Quantity> back_emf_mV_s;         // frame phase: peak per mechanical rad/s, used without
                                                        // conversion
@@ -96,7 +97,7 @@ struct Sheet {
   std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
   std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
   std::optional<base::Quantity> max_winding_temperature_degC;
-  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; the default is that of NdFeB
+  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; default: NdFeB
 };
 
 }  // namespace sixstep::design

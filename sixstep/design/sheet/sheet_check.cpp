@@ -15,8 +15,8 @@ namespace {
 
 using base::Quantity;
 
-/// Reason why the model does not use a line. Keys without an entry here print a value that another key has
-/// given.
+/// Reason why the model does not use a line. A key without an entry here prints a value that another key has
+/// given already.
 struct Reason {
   std::string_view key;
   std::string_view why;
@@ -53,7 +53,7 @@ constexpr Reason reasons[] = {
     {"max_winding_temperature_degC", "a limit"},
 };
 
-/// Visitor that notes, for each quantity that the sheet gives, whether the model uses it.
+/// Visitor that records, for each quantity of the sheet, whether the model uses it.
 class Lines final : public base::Visitor {
  public:
   explicit Lines(const SheetConstants& constants) : constants_(constants) {}
@@ -92,7 +92,8 @@ class Lines final : public base::Visitor {
       return "another print of the torque constant, which is read from " + constants_.K_e_V_s->from;
     return "not enough to go with it";
   }
-  /// A no-load point gives the friction only if the point is complete and no other line gives the friction.
+  /// A no-load point determines the friction only if the point is complete and no other line gives the
+  /// friction.
   std::string why_no_point(std::string_view key) const {
     const Friction& f = constants_.friction;
     const auto& used = constants_.used;
@@ -122,14 +123,14 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
-/// The limit in words: "makes R J/K_t^2 440 s, and next to no motor is above 100 s".
+/// The limit as text: "makes R J/K_t^2 440 s, and next to no motor is above 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
   return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and next to no motor is above " +
          rounded(usual_s, 3) + " s";
 }
 
-/// Reports values that make a motor too slow, probably by a wrong unit. A simulation runs with them, and it
-/// may be that no relation of the sheet shows the error.
+/// Reports values with which a motor is too slow, probably because of a wrong unit. They can be simulated,
+/// and possibly no relation of the sheet shows the error.
 void doubt_pace(const Sheet& sheet, SheetCheck& check) {
   SheetConstants& c = check.constants;
   const SheetReader reader{sheet, c};

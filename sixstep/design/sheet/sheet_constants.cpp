@@ -13,20 +13,20 @@ namespace {
 
 using base::Quantity;
 
-/// Value per phase of the star equivalent: half of a value between two terminals.
+/// Value per phase of the equivalent star: half of a value between two terminals.
 double per_phase(double value, std::string_view frame) { return frame == "phase" ? value : value / 2.0; }
 
 std::string from_frame(std::string_view key, const Quantity& q) {
   return SheetReader::key_of(key, q) + (q.frame == "phase" ? ", phase: as it is" : ", terminal: halved");
 }
 
-/// Whether a value computed from `with` is the printed one: up to both roundings and 2 %.
+/// True if a value computed from `with` equals the printed value up to both roundings and 2 %.
 bool fits(double computed, const Quantity& with, const Quantity& printed) {
   constexpr double besides = 0.02;
   return std::abs(computed / printed.value - 1.0) <= relative_doubt(with) + relative_doubt(printed) + besides;
 }
 
-/// Which frame of `with` another printed value has: "fits \"terminal\"", or neither.
+/// The frame of `with` that agrees with another printed value: "fits \"terminal\"", or neither.
 std::string fitting_frame(const std::array<double, 2>& terminal_phase, const Quantity& with,
                           const Quantity& printed) {
   if (fits(terminal_phase[0], with, printed)) return "fits \"terminal\"";
@@ -64,7 +64,7 @@ void read_resistance(SheetReader& reader) {
   unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
 }
 
-/// The model has no saliency here: L_d and L_q must be one number.
+/// This model has no saliency: L_d and L_q must be equal.
 void read_axes(SheetReader& reader) {
   const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
   if (!d || !q)
@@ -117,8 +117,8 @@ void read_inductance(SheetReader& reader) {
   unknown_frame(reader, "inductance_mH", *q, candidates, hint);
 }
 
-/// Reads the nominal current's frame. The current is not part of the model; its frame is required for the
-/// comparison with the nominal torque.
+/// Reads the nominal current's frame. The current is not part of the model; the comparison with the nominal
+/// torque requires its frame.
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;
@@ -135,8 +135,8 @@ void read_nominal_current(SheetReader& reader) {
   unknown_frame(reader, "nominal_current_A", *q, candidates);
 }
 
-/// Reads the shape. If its values are wrong, which is reported, the factors are those of a valid shape, so
-/// that the other values can be read.
+/// Reads the shape. If its values are wrong, the error is reported and the factors of a valid shape are
+/// returned, so that the other values can be read.
 ShapeFactors read_shape(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const bool flat = base::strictly_between(0.0, 180.0).holds(s.flat_deg);
@@ -164,7 +164,7 @@ void read_trust(SheetReader& reader) {
 double relative_doubt(const Quantity& q) {
   if (!(q.value > 0.0)) return 0.0;
   double digit = q.last_digit.value_or(base::last_digit_of(q.value));
-  // 1690 may be a number of three digits, whose zero is a place holder. 780 has three digits only with its
+  // 1690 may be a number of three digits with a zero as place holder. 780 has three digits only with its
   // zero.
   const auto whole = [&](double unit) { return std::floor(q.value / unit) * unit == q.value; };
   while (digit >= 1.0 && digit * 1e3 <= q.value && whole(digit * 10.0)) digit *= 10.0;

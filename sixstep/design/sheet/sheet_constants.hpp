@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the machine's constants from a sheet. Each comes from one printed form and is converted to SI units
-// and the model's frame; its origin is stored with it.
+// Reads the machine's constants from a sheet. Each constant comes from one printed form and is converted to
+// SI units and the model's frame; its origin is stored too.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,37 +14,38 @@
 
 namespace sixstep::design {
 
-/// A value in SI units and the model's frame, with its derivation in words: "resistance_ohm, terminal:
+/// A value in SI units and the model's frame, with its derivation as text: "resistance_ohm, terminal:
 /// halved".
 struct Constant {
   double value = 0.0;
   std::string from;
 };
 
-/// The same constant from another line of the sheet, to be compared with the constant that the model uses.
+/// The same constant from another line of the sheet, for comparison with the constant of the model.
 struct OtherWay {
   std::string key;
   double K_e_V_s = 0.0;
   double relative_doubt = 0.0;  ///< relative rounding error of the printed value
 };
 
-/// The iron's part of the friction. Hysteresis does not depend on speed; eddy currents grow with it (model.md
-/// 7).
+/// The iron's part of the friction. The part by hysteresis is independent of speed; the part by eddy currents
+/// grows with it (model.md 7).
 struct IronDrag {
   double B_Nm_s = 0.0;
   double coulomb_Nm = 0.0;
 };
 
-/// Friction T = B w + T_c of bearings and iron together. One no-load point gives only the sum, K_t I_0 = B
-/// w_0 + T_c.
+/// Friction T = B w + T_c of bearings and iron together. One no-load point determines only the sum, K_t I_0 =
+/// B w_0 + T_c.
 struct Friction {
   double B_Nm_s = 0.0;  ///< value of the model
   double coulomb_Nm = 0.0;
   IronDrag iron;  ///< the iron's part of B and T_c, if the sheet separates it
   std::string from;
-  double no_load_speed_rad_s = 0.0;          ///< speed of the no-load point used; 0: none
-  std::optional<double> all_viscous_Nm_s;    ///< one extreme for one point, no dry friction: B = K_t I_0/w_0
-  std::optional<double> all_coulomb_Nm;      ///< the other extreme, no viscous friction: T_c = K_t I_0
+  double no_load_speed_rad_s = 0.0;          ///< speed of the no-load point used; 0: no point
+  std::optional<double> all_viscous_Nm_s;    ///< one extreme for one point, without dry friction: B = K_t
+                                             ///< I_0/w_0
+  std::optional<double> all_coulomb_Nm;      ///< the other extreme, without viscous friction: T_c = K_t I_0
   std::optional<double> split_viscous_Nm_s;  ///< B and T_c from two no-load points
   std::optional<double> split_coulomb_Nm;
 };
@@ -65,7 +66,7 @@ struct SheetConstants {
   std::optional<Constant> K_t_Nm_A;  ///< between terminals, mean over a sector
   std::optional<Constant> J_kg_m2;
   std::optional<Constant>
-      J_of_body_kg_m2;  ///< computed from the rotor's dimensions, whether or not an inertia is printed
+      J_of_body_kg_m2;  ///< computed from the rotor's dimensions, also if an inertia is printed
   double K_e_relative_doubt = 0.0;
   std::vector<OtherWay> other_ways;
   Friction friction;
@@ -75,17 +76,17 @@ struct SheetConstants {
 };
 
 /// Reads the constants; it has no side effects. Two forms of one printed value are a Problem. Two printed
-/// values of one constant are allowed, and the second goes to other_ways. A missing frame is a Problem that
-/// gives the meaning of each candidate.
+/// values of one constant are allowed, and the second is stored in other_ways. A missing frame is a Problem
+/// that explains each candidate.
 SheetConstants sheet_constants(const Sheet& sheet);
 
-/// Relative rounding error: half of the last printed digit over the value. The last digit is the one that the
-/// file writes; if the text is not known, that of the shortest decimal.
+/// Relative rounding error: half of the last printed digit, divided by the value. The last digit is the last
+/// digit in the file or, if the text is not known, of the shortest decimal.
 double relative_doubt(const base::Quantity& q);
 
-/// The sheet with all values that the model needs in the standard keys (resistance_ohm, inductance_mH,
-/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), whatever forms it
-/// prints. Values that are in a standard key already keep their bits. It is for callers that change single
+/// The sheet with all values of the model in the standard keys (resistance_ohm, inductance_mH,
+/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), in whatever forms they
+/// are printed. Values that are already in a standard key keep their bits. Callers use it to change single
 /// values.
 Sheet in_standard_keys(Sheet sheet);
 

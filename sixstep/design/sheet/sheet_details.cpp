@@ -12,8 +12,8 @@ namespace {
 
 bool is_whole(double x) { return std::floor(x) == x; }
 
-/// Bounds so that the rotations, with those of the sine and a salient rotor, fit in the general kernel
-/// (plant/general/constants.hpp).
+/// Bounds with which the rotations, including the rotations of the sine and a salient rotor, fit in the
+/// general kernel (plant/general/constants.hpp).
 constexpr std::size_t most_harmonics = 5, most_cogging = 4;
 
 void read_harmonics(SheetReader& reader) {
@@ -40,7 +40,7 @@ void read_harmonics(SheetReader& reader) {
     }
 }
 
-/// Reports lists of a table if the shape is no table.
+/// Reports lists of a table if the shape is not a table.
 void read_table_keys(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.back_emf == BackEmfShape::table) return;  // read_shape_table() checks them

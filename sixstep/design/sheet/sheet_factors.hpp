@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names the well-known factors by which two prints of one value differ: frame, unit, point.
+// Names the well-known factors between two printed forms of one value: frame, unit, point.
 #pragma once
 #include <cmath>
 #include <string>
@@ -10,7 +10,7 @@ namespace sixstep::design {
 struct Factor {
   double ratio;
   std::string_view words;
-  bool of_frames = true;  ///< applies only to a constant between terminals or of a phase, of a peak or rms
+  bool of_frames = true;  ///< true: applies only to constants with a frame: terminal or phase, peak or rms
 };
 inline constexpr Factor well_known_factors[] = {
     {2.0, "a factor 2: terminal against phase?"},
@@ -22,8 +22,8 @@ inline constexpr Factor well_known_factors[] = {
     {1000.0, "a factor 1000: the unit?", false},
 };
 
-/// Words for a ratio that is a well-known factor within the rounding, at least half a percent; the nearest two of
-/// these factors are 6 % apart.
+/// Text for a ratio that is a well-known factor within the rounding, at least half a percent; the nearest two
+/// of these factors are 6 % apart.
 inline std::string well_known_factor(double ratio, double rounding, bool frames) {
   const double size = ratio < 1.0 ? 1.0 / ratio : ratio, reach = rounding > 0.005 ? rounding : 0.005;
   for (const Factor& factor : well_known_factors)

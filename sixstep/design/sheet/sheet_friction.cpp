@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the friction from the no-load points: K_t I_0 = B w_0 + T_c contains all friction.
+// Computes the friction from the no-load points: K_t I_0 = B w_0 + T_c contains the whole friction.
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
@@ -14,7 +14,8 @@ struct Point {
   bool printed_speed = true;
 };
 
-/// A no-load point with its printed speed, or else with the speed of the ideal line, w = (U - R_tt I)/K_t.
+/// A no-load point with its printed speed, or by default with the speed of the ideal line, w = (U - R_tt
+/// I)/K_t.
 std::optional<Point> no_load_point(const SheetConstants& c, const std::optional<Quantity>& voltage,
                                    const std::optional<Quantity>& speed,
                                    const std::optional<Quantity>& current) {
@@ -56,7 +57,7 @@ void read_split(SheetReader& reader, const Point& first) {
   f.split_coulomb_Nm = T_c;
 }
 
-/// Adds the lines of the iron and the bearings' dry friction, which are part of the friction in any case.
+/// Adds the lines of the iron and the bearings' dry friction, which are always part of the friction.
 void add_given(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   Friction& f = reader.out.friction;
@@ -82,7 +83,7 @@ void check_iron(SheetReader& reader) {
   beyond("iron_viscous_Nm_s", f.iron.B_Nm_s, f.B_Nm_s, "Nm s");
 }
 
-/// Takes B = (K_t I_0 - T_c)/w_0 from one point, or B and T_c from two points.
+/// Computes B = (K_t I_0 - T_c)/w_0 from one point, or B and T_c from two points.
 void take_from_points(SheetReader& reader, const Point& point) {
   const Sheet& s = reader.sheet;
   Friction& f = reader.out.friction;
@@ -106,7 +107,7 @@ void take_from_points(SheetReader& reader, const Point& point) {
                                : "the no-load current, B = (K_t I_0 - T_c)/w_0 with w_0 = (U - R I_0)/K_t";
 }
 
-/// Uses the values that the sheet gives; the others follow from the no-load loss.
+/// Uses the values of the sheet; the other values follow from the no-load loss.
 void choose(SheetReader& reader, const std::optional<Point>& point) {
   const Sheet& s = reader.sheet;
   Friction& f = reader.out.friction;

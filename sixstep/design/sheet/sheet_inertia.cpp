@@ -28,7 +28,7 @@ std::optional<Constant> printed_inertia(SheetReader& reader) {
   return Constant{base::times_ten_to(printed.value, -7), SheetReader::key_of(key, printed)};
 }
 
-/// True if dimensions are given and make a body. Errors in them are reported.
+/// True if dimensions are given and describe a body. Errors in them are reported.
 bool has_body(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const auto needs = [&](const char* key, const char* other) {

@@ -12,8 +12,8 @@ namespace {
 
 using base::Quantity;
 
-/// A term whose error is the range of the value in the file, if that is larger than rounding. The file has a
-/// range if sources differ, or if the maker prints a tolerance.
+/// A term whose error is the range of the value in the file, if the range is larger than rounding. The file
+/// contains a range if sources differ, or if the maker prints a tolerance.
 std::optional<Term> ranged(const std::optional<Quantity>& q, double unit = 1.0) {
   std::optional<Term> t = term(q, unit);
   if (t && q->range)
@@ -21,7 +21,7 @@ std::optional<Term> ranged(const std::optional<Quantity>& q, double unit = 1.0) 
   return t;
 }
 
-/// True if a value was taken from another motor than the sheet's, and no range covers the difference.
+/// True if a value was measured on another motor than the sheet's motor, and no range covers the difference.
 bool of_another_motor(const std::optional<Quantity>& q) {
   return q && !q->range && (q->kind == base::Trust::measured || q->kind == base::Trust::derived);
 }
@@ -63,13 +63,13 @@ class NoLoad {
     return p;
   }
 
-  /// Torque of the dry friction, N m, with the iron's part.
+  /// Torque of the dry friction, N m, including the iron's part.
   Term dry_Nm() const {
     return ranged(s_.coulomb_friction_mNm, 1e-3).value_or(Term{}) +
            ranged(s_.iron_coulomb_mNm, 1e-3).value_or(Term{});
   }
 
-  /// B from its own lines, or else from the first point minus the dry friction, N m s.
+  /// B from its own lines, or by default from the first point minus the dry friction, N m s.
   Term viscous_Nm_s() const {
     const Term iron = ranged(s_.iron_viscous_Nm_s).value_or(Term{});
     if (s_.viscous_friction_Nm_s) return ranged(s_.viscous_friction_Nm_s).value_or(Term{}) + iron;
@@ -79,7 +79,7 @@ class NoLoad {
     return loss.value > dry.value ? (loss - dry) / *w : Term{};
   }
 
-  /// Speed of a line, rad/s: the printed one, or else that of the ideal line.
+  /// Speed of a line, rad/s: the printed speed, or by default the speed of the ideal line.
   std::optional<Term> rad_s(const SheetLine& at) const {
     if (at.speed_rpm) return *at.speed_rpm * (1.0 / base::rpm_per_rad_s);
     if (!at.U_V || !R_ || !at.current_A) return {};
@@ -90,8 +90,8 @@ class NoLoad {
     return w;
   }
 
-  /// Allowed relative difference between friction lines and a no-load current, if one of them is of another
-  /// motor.
+  /// Allowed relative difference between friction lines and a no-load current, if one of them belongs to
+  /// another motor.
   double friction_doubt(const std::optional<Quantity>& current) const {
     for (const std::optional<Quantity>* q : {&s_.viscous_friction_Nm_s, &s_.coulomb_friction_mNm,
                                              &s_.iron_viscous_Nm_s, &s_.iron_coulomb_mNm, &current})
@@ -99,8 +99,7 @@ class NoLoad {
     return 0.0;
   }
 
-  /// I_0 that the friction lines give, A, if none is printed: w follows from U = R I + K w and K I = T_c + B
-  /// w.
+  /// I_0 by the friction lines, A, if it is not printed: w follows from U = R I + K w and K I = T_c + B w.
   Term current_of_friction(const Term& U) const {
     const double K = K_t_->value, R = R_->value;
     const Term dry = dry_Nm(), viscous = viscous_Nm_s();
@@ -146,8 +145,7 @@ class NoLoad {
                        : "I_0 is taken as 0: neither it nor friction is printed, and both lower the speed";
   }
 
-  /// Compares a no-load current with the friction lines. If the friction was computed from this current,
-  /// there is nothing to compare.
+  /// Compares a no-load current with the friction lines, unless the friction was computed from this current.
   void current(const SheetLine& at) {
     const bool of_points = f_.split_viscous_Nm_s && !s_.coulomb_friction_mNm;
     const bool given =
@@ -165,7 +163,7 @@ class NoLoad {
          true});
   }
 
-  /// Margin of the speed below the ideal line, by what commutation may cost; at least the margin of any line.
+  /// Margin of the speed below the ideal line for the loss by commutation; at least the margin of any line.
   double commutation_margin(const Term& I) const {
     return std::max(no_load_margin, commutation_part(c_, I.value));
   }

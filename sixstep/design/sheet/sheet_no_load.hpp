@@ -9,8 +9,8 @@
 
 namespace sixstep::design {
 
-/// Two sides of a relation in one unit, not yet compared. `below`, `above`: how far left/right - 1 may be
-/// below or above 0, in addition to rounding.
+/// Two sides of a relation in one unit, before the comparison. `below`, `above`: how far left/right - 1 may
+/// be below or above 0, in addition to rounding.
 struct NoLoadSides {
   std::string name, left_words, right_words;
   Term left, right;
@@ -20,8 +20,8 @@ struct NoLoadSides {
   bool of_friction = false;  ///< true: a current that is compared with the friction lines
 };
 
-/// Relations of the first and the second point: one for each speed and each current that also follows from
-/// other lines of the sheet.
+/// Relations of the first and the second point: one for each speed and each current that can also be computed
+/// from other lines of the sheet.
 std::vector<NoLoadSides> no_load_sides(const Sheet& sheet, const SheetConstants& constants);
 
 }  // namespace sixstep::design

@@ -11,7 +11,7 @@
 
 namespace sixstep::design {
 
-/// x with four digits, the form of numbers in messages.
+/// x with four digits, for messages.
 inline std::string rounded(double x, int digits = 4) { return base::rounded(x, digits); }
 
 struct SheetReader {
@@ -21,22 +21,22 @@ struct SheetReader {
   void problem(std::string_view where, std::string value, std::string limit, std::string cure) {
     out.problems.push_back({std::string(where), std::move(value), std::move(limit), std::move(cure)});
   }
-  /// Adds a problem of a quantity: key and value as the file writes them.
+  /// Adds a problem of a quantity; key and value are written as in the file.
   void wrong(std::string_view key, const base::Quantity& q, std::string limit, std::string cure) {
     problem(key_of(key, q), value_of(key, q), std::move(limit), std::move(cure));
   }
   void missing(std::string_view where, std::string_view cure) {
     out.missing.push_back({std::string(where), "", "is missing", std::string(cure)});
   }
-  /// Notes that the model uses a key. `key` must live as long as the program.
+  /// Records that the model uses a key. `key` must live as long as the program.
   void use(std::string_view key) { out.used.push_back(key); }
 
-  /// The key as the file writes it.
+  /// The key as written in the file.
   static std::string key_of(std::string_view key, const base::Quantity& q) {
     return q.key.empty() ? std::string(key) : q.key;
   }
-  /// The value in the unit of the key that the file uses: 4.8e-06 for inertia_kgm2, where the standard key
-  /// would have 48.
+  /// The value in the unit of the file's key: 4.8e-06 for inertia_kgm2, where the standard key would contain
+  /// 48.
   std::string value_of(std::string_view key, const base::Quantity& q) const;
   /// The value times 10^ten. Empty if the value is out of its range, which note_implausible() reports.
   static std::optional<double> positive(const base::Quantity& q, int ten = 0) {
@@ -50,7 +50,7 @@ struct SheetReader {
 /// Reports every number of the sheet that is out of its key's range, or implausible for its unit.
 void note_implausible(SheetReader& reader);
 
-/// Meaning of a value in one frame, in words, for the message about a missing frame.
+/// Meaning of a value in one frame, as text, for the message about a missing frame.
 struct FrameMeaning {
   std::string_view frame;
   std::string means;

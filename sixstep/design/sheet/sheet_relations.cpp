@@ -15,7 +15,7 @@ namespace {
 
 using base::Quantity;
 
-/// Limit of a printed tolerance: a wider one would show nothing.
+/// Limit of a printed tolerance: a wider tolerance would not be useful.
 constexpr double most_above = 9.99;
 
 class Relations {
@@ -58,8 +58,8 @@ class Relations {
     r.right *= unit.factor;
   }
 
-  /// Adds a relation. `below` and `above` widen the tolerance beyond rounding. `frames`: the value has a
-  /// frame, which may be the wrong one.
+  /// Adds a relation. `below` and `above` widen the tolerance beyond rounding. `frames`: true if the value
+  /// has a frame, which may be wrong.
   Relation& add(std::string name, std::string left_words, std::string right_words, Term left, Term right,
                 std::string unit, double below = 0.0, double above = 0.0, bool frames = true) {
     Relation r;
@@ -73,7 +73,7 @@ class Relations {
     const double rounding = left.doubt + right.doubt;
     r.lowest = -(rounding + below);
     r.highest = rounding + above;
-    // A small tolerance for the arithmetic itself: two exact numbers that are equal must hold.
+    // A small tolerance for the arithmetic: two equal exact numbers must fulfil the relation.
     constexpr double arithmetic = 1e-12;
     const bool holds = r.deviation >= r.lowest - arithmetic && r.deviation <= r.highest + arithmetic;
     r.verdict = holds ? RelationVerdict::holds : RelationVerdict::broken;
@@ -85,7 +85,7 @@ class Relations {
     return std::abs(left.value / right.value - 1.0) <= left.doubt + right.doubt;
   }
 
-  /// One bad value of U/R, I_stall and the stall torque is named where the other two agree.
+  /// Names one bad value of U/R, I_stall and the stall torque if the other two agree.
   void stall() {
     const std::optional<Term> torque = term(s_.stall_torque_mNm);
     const bool computed = U_ && R_, printed = s_.stall_current_A.has_value();
@@ -108,7 +108,7 @@ class Relations {
           "mNm");
   }
 
-  /// Compares constants that the sheet prints in addition to the one that the model uses.
+  /// Compares further printed constants with the constant of the model.
   void constants() {
     for (const OtherWay& other : c_.other_ways) {
       const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
@@ -130,7 +130,7 @@ class Relations {
 
   void no_load() {
     for (const NoLoadSides& n : no_load_sides(s_, c_)) {
-      // The two sides are torques, which have no frame, although the relation is one of a current.
+      // The two sides are torques, which have no frame, although the relation is named after a current.
       Relation& r =
           add(n.name, n.left_words, n.right_words, n.left, n.right, n.unit, n.below, n.above, !n.of_friction);
       const bool lacks_dry = n.of_friction && r.verdict == RelationVerdict::broken && r.deviation < 0.0 &&
@@ -143,13 +143,14 @@ class Relations {
     }
   }
 
-  /// Torque per ampere of the current that the sheet prints: of the terminal, or of the rms value.
+  /// Torque per ampere of the printed current: of the terminal current, or of the rms value.
   Term per_ampere() const {
     const bool rms = s_.nominal_current_A && s_.nominal_current_A->frame == "rms";
     return rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
   }
 
-  /// Lowest nominal speed that a warm motor explains, by the usual drop, or by warm winding and commutation.
+  /// Lowest nominal speed that a warm motor can explain: by the usual drop, or by warm winding and
+  /// commutation.
   double slowest_nominal(const Term& top, const Term& drop, double torque_Nm) const {
     const double current_A = torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0);
     return std::fmin(top.value - most_nominal_drop * drop.value,
@@ -188,7 +189,8 @@ class Relations {
     }
   }
 
-  /// The line has no commutation, which the model has. Empty where it takes less than a twentieth of the speed.
+  /// Remark that the line neglects commutation, which the model contains. Empty if commutation reduces the
+  /// speed by less than a twentieth.
   std::string beside_the_line(double torque_Nm) const {
     constexpr double worth_it = 0.05;
     const double part =
@@ -211,16 +213,16 @@ class Relations {
   void nominal() {
     const std::optional<Term> torque = term(s_.nominal_torque_mNm), current = term(s_.nominal_current_A);
     if (torque && current && K_t_) {
-      // Some sheets subtract the friction, K_t (I_N - I_0), others do not. No torque is above K_t I_N.
+      // Some sheets subtract the friction, K_t (I_N - I_0), others do not. The torque is at most K_t I_N.
       const bool rms = s_.nominal_current_A->frame == "rms", known = idle_ && idle_->value < current->value;
       const Term computed = per_ampere() * *current * 1e3;
       double friction = 0.0;
       if (known && !rms) {
-        // I/(I - I_0) - 1, with I and I_0 at the ends of their rounding. Without friction the rounding of I
-        // is contained in I K_t already.
+        // I/(I - I_0) - 1, with I and I_0 at the limits of their rounding. Without friction, I K_t already
+        // contains the rounding of I.
         const double idle = idle_->value * (1.0 + idle_->doubt),
                      least = current->value * (1.0 - current->doubt);
-        // This factor multiplies that of the rounding, which add() adds.
+        // This factor multiplies the factor of the rounding, which add() adds.
         const double share = (1.0 + computed.doubt + torque->doubt) * idle / (least - idle);
         friction = idle < least ? std::fmin(share, most_above) : most_above;
       }
@@ -270,7 +272,7 @@ class Relations {
     return radii + doubt(s_.rotor_length_mm) + doubt(s_.rotor_density_kg_m3);
   }
 
-  /// Compares the printed inertia with that of the rotor's dimensions.
+  /// Compares the printed inertia with the inertia of the rotor's dimensions.
   void body() {
     if (!c_.J_of_body_kg_m2 || !s_.inertia_gcm2 || !J_) return;
     const Term printed{s_.inertia_gcm2->value, relative_doubt(*s_.inertia_gcm2)};
@@ -281,8 +283,8 @@ class Relations {
       r.remark = "a factor 16: a diameter for the radius?";
   }
 
-  /// Checks the no-load speed against the mechanical limit. The two need not agree, because a bus may be
-  /// lower than the nominal voltage. But a speed far above the limit is a line that was read wrongly.
+  /// Checks the no-load speed against the mechanical limit. They need not agree, because a bus may be lower
+  /// than the nominal voltage. But a speed far above the limit shows that a line was read wrongly.
   void mechanics() {
     const std::optional<Term> allowed = term(s_.max_speed_rpm), printed = term(s_.no_load_speed_rpm);
     if (!allowed || !(printed || (U_ && K_t_))) return;
@@ -297,7 +299,8 @@ class Relations {
       r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
   }
 
-  /// Says that two lines of the pole pairs agree. If they contradict each other, that is a Problem already.
+  /// Adds the relation that two lines of the pole pairs agree. A contradiction between them is already a
+  /// Problem.
   void winding() {
     if (!s_.pole_pairs || (s_.winding.empty() && !s_.poles) || !c_.pole_pairs) return;
     const double pairs = *c_.pole_pairs;

@@ -6,7 +6,7 @@
 
 namespace sixstep::design {
 
-/// Every relation of which the sheet gives both sides. known_deviation is not yet considered.
+/// Every relation whose two sides are in the sheet. known_deviation is not yet considered.
 std::vector<Relation> relations_of(const Sheet& sheet, const SheetConstants& constants);
 
 }  // namespace sixstep::design

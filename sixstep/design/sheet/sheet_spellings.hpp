@@ -14,7 +14,7 @@ constexpr Spelling linear(std::string_view key, std::string_view unit, int ten =
 }
 
 /// A line of maxon's sheets, whose numbers and frames have not changed over the years. `meaning` replaces the
-/// meaning of a key that offers a choice of frames.
+/// meaning of a key with several possible frames.
 constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "",
                         std::string_view meaning = "") {
   return {.key = key, .frame = frame, .source = source, .meaning = meaning};

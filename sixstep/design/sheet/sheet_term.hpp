@@ -22,7 +22,7 @@ inline Term operator+(Term a, Term b) {
   const double value = a.value + b.value;
   return {value, value > 0.0 ? (a.value * a.doubt + b.value * b.doubt) / value : 0.0};
 }
-/// Difference of a value and a smaller one.
+/// Difference of a value and a smaller value.
 inline Term operator-(Term a, Term b) {
   const double value = a.value - b.value;
   return {value, (a.value * a.doubt + b.value * b.doubt) / value};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the torque constant in all its printed forms, and computes the peak back-EMF K_e of a phase from
-// each. For a sine the factors are those of model.md 1's table of constants; for a trapezoid they follow from
+// Reads the torque constant in all its printed forms, and computes the peak back-EMF K_e of a phase from each
+// form. For a sine the factors are in the table of constants of model.md 1; for a trapezoid they follow from
 // its shape.
 #include <algorithm>
 #include <array>
@@ -24,28 +24,27 @@ struct Constants {
 
 constexpr int milli = -3;
 
-/// One printed form: its possible frames (if there is only one, the file need not give it), and its
-/// conversion.
+/// One printed form: its possible frames (if there is only one, the file may omit it), and its conversion.
 struct Way {
   std::string_view key;
   const std::optional<Quantity> Sheet::*member;
-  std::array<std::string_view, 5> frames;  // empty ones at the end
+  std::array<std::string_view, 5> frames;  // unused elements are empty, at the end
   Constants (*read)(double value, std::string_view frame, const ShapeFactors& f, double pole_pairs);
 };
 
 Constants by_K_t(double K_t, const ShapeFactors& f) { return {K_t / f.sector_mean, K_t}; }
 Constants by_K_e(double K_e, const ShapeFactors& f) { return {K_e, K_e * f.sector_mean}; }
 
-/// Torque constants in N m/A. A q-axis current of peak I makes the torque (3/2) K_e1 I, K_e1 the
-/// fundamental's peak; rms is peak/sqrt 2.
+/// Torque constants in N m/A. A q-axis current of peak I causes the torque (3/2) K_e1 I, with the
+/// fundamental's peak K_e1; rms is peak/sqrt 2.
 Constants by_torque(double value, std::string_view frame, const ShapeFactors& f, double) {
   if (frame == "terminal") return by_K_t(value, f);
   const double peak = frame == "rms" ? value / std::sqrt(2.0) : value;
   return by_K_e(2.0 * peak / (3.0 * f.fundamental), f);
 }
 
-/// Back-EMF constants in V/krpm; 1000 rpm are 104.72 rad/s. Six-step: the mean voltage between the driven
-/// pair over a sector, whose V s are K_t's N m/A.
+/// Back-EMF constants in V/krpm; 1000 rpm are 104.72 rad/s. Six-step: the mean voltage of the driven pair
+/// over a sector; its V s equal K_t in N m/A.
 Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, double) {
   const double V_s = value / (1000.0 * base::pi / 30.0);
   if (frame == "six-step") return by_K_t(V_s, f);
@@ -119,7 +118,7 @@ struct Read {
   std::string from;
 };
 
-/// K_t = 2 B l r N (thesis 1.1): N turns in series have 2 N conductors, each with the force B l i at the
+/// K_t = 2 B l r N (thesis 1.1): N turns in series have 2 N conductors; the force B l i acts on each at the
 /// radius r.
 void read_geometry(SheetReader& reader, std::vector<Read>& reads) {
   const Sheet& s = reader.sheet;
@@ -192,7 +191,7 @@ void read_torque_constant(SheetReader& reader) {
   const Read& first = reads.front();
   Constants c = first.constants;
   std::size_t used = 1;
-  // The torque constant between terminals and the back-EMF of a phase state one fact, and both are used
+  // The torque constant between terminals and the back-EMF of a phase are the same fact, and both are used
   // unchanged: they must agree.
   if (first.key == "torque_constant_mNm_A" && reads.size() > 1 && reads[1].key == "back_emf_mV_s") {
     const double implied = c.K_e_V_s;

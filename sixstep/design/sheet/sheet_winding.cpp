@@ -17,8 +17,8 @@ struct Winding {
   int poles = 0;
 };
 
-/// Teeth and poles of a code such as "12N14P", in upper or lower case, with optional spaces between its
-/// halves.
+/// Teeth and poles of a code such as "12N14P", in upper or lower case, optionally with spaces between its two
+/// numbers.
 std::optional<Winding> parsed(std::string_view text) {
   const auto number = [&](char letter) -> std::optional<int> {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -68,7 +68,7 @@ std::optional<int> of_poles(SheetReader& reader) {
   return {};
 }
 
-/// Compares the given pole pairs with the number `other` from another line.
+/// Compares the given pole pairs with the number `other` of another line.
 void compare(SheetReader& reader, int pole_pairs, int other, const std::string& other_line) {
   if (pole_pairs == other) return;
   const std::string pairs = std::to_string(other);

@@ -27,8 +27,8 @@ double winding_after(const ThermalModel& m, const Heating& h, double seconds) {
   return temperatures_after(m, h, ambient, seconds).winding_degC;
 }
 
-/// Smallest x at which reached(x) is true, by bisection until no number lies between. reached() is false at
-/// low and true at high.
+/// Smallest x at which reached(x) is true, by bisection down to neighbouring numbers. reached() is false at
+/// `low` and true at `high`.
 template <class Reached>
 double threshold(double low, double high, Reached&& reached) {
   for (;;) {
@@ -86,7 +86,7 @@ base::Result<ThermalModel> thermal_model(const Sheet& s) {
 std::optional<Temperatures> steady_temperatures(const ThermalModel& m, const Heating& h) {
   const plant::TwoBodies n = network(m, h);
   // Both eigenvalues are real (wh hw > 0). They are negative exactly if the determinant is positive and the
-  // trace negative. Otherwise the heat grows faster with temperature than the heat that leaves.
+  // trace negative. Otherwise the heating grows faster with temperature than the cooling.
   if (!(n.determinant() > 0 && n.ww + n.hh < 0)) return {};
   const double winding = (n.wh * n.b_h - n.hh * n.b_w) / n.determinant();
   const double housing = (n.hw * n.b_w - n.ww * n.b_h) / n.determinant();
@@ -104,7 +104,7 @@ std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& 
   if (h.ambient_degC >= m.max_winding_degC) return 0.0;
   const std::optional<Temperatures> rest = steady_temperatures(m, h);
   if (rest && rest->winding_degC <= m.max_winding_degC) return {};
-  // From ambient temperature on, both bodies only get warmer: the slopes are positive at the start, and the
+  // Starting at ambient temperature, both bodies only warm up: the slopes are positive at the start, and the
   // couplings of the network are positive.
   double late = m.winding_s;
   while (winding_after(m, h, late) < m.max_winding_degC) late *= 2;

@@ -5,10 +5,10 @@
 //   C_h dT_h/dt = (T_w - T_h)/R_wh - (T_h - T_a)/R_ha + P_f        P_f heat into the housing: friction
 //   C_w = tau_w/R_wh, C_h = tau_m/R_ha
 //
-// A given current heats more when the copper is warmer, but the equations stay linear. The steady state
-// therefore needs no iteration, and the temperatures are two exponentials, even if the current is so high
-// that there is no steady state. The magnets have the housing's temperature, K_e(T_h) = K_e (1 - b (T_h -
-// 25)). A mounting plate that cools the stator better than the sheet's R_ha is not modelled.
+// The heating by a given current grows with the copper's temperature, but the equations stay linear. The
+// steady state therefore needs no iteration, and the temperatures are sums of two exponentials, also if the
+// current is too high for a steady state. The magnets have the housing's temperature, K_e(T_h) = K_e (1 - b
+// (T_h - 25)). A mounting plate that cools the stator better than the sheet's R_ha is not modelled.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -30,21 +30,21 @@ struct ThermalModel {
   double max_winding_degC = 0.0;
 };
 
-/// The model needs all five thermal lines of the sheet. One Problem names those that are missing.
+/// The model needs all five thermal lines of the sheet. One Problem names the missing lines.
 base::Result<ThermalModel> thermal_model(const Sheet& sheet);
 
 struct Temperatures {
   double winding_degC = sheet_degC, housing_degC = sheet_degC;
 };
 
-/// Factor of temperature on the sheet's R, which holds at sheet_degC.
+/// Temperature factor of the sheet's R, which holds at sheet_degC.
 inline double on_R(const Temperatures& t) { return 1 + copper_per_K * (t.winding_degC - sheet_degC); }
-/// Factor of temperature on the sheet's K_e and K_t, which hold at sheet_degC; at least plant::least_on_K_e,
-/// as in a run.
+/// Temperature factor of the sheet's K_e and K_t, which hold at sheet_degC; at least plant::least_on_K_e, as
+/// in a run.
 inline double on_K_e(const Sheet& s, const Temperatures& t) {
   return std::fmax(plant::least_on_K_e, 1 - 1e-2 * s.magnet_loss_percent_K * (t.housing_degC - sheet_degC));
 }
-/// Problem if K_e begins at the lower bound plant::least_on_K_e; `where` names the housing's temperature.
+/// Problem if K_e is at the lower bound plant::least_on_K_e; `where` names the housing's temperature.
 std::optional<base::Problem> lost_magnets(const std::string& where, const Sheet& s, double housing_degC);
 MotorModel warmed(MotorModel motor, const Sheet& sheet, const Temperatures& t);
 
@@ -55,22 +55,24 @@ struct Heating {
   double ambient_degC = sheet_degC;
 };
 
-/// Steady state; empty if there is none, because the heat grows with the copper's resistance without end.
+/// Steady state; empty if there is no steady state, because the heating grows with the copper's resistance
+/// without limit.
 std::optional<Temperatures> steady_temperatures(const ThermalModel& model, const Heating& heating);
 
 /// Temperatures `seconds` after `start`.
 Temperatures temperatures_after(const ThermalModel& model, const Heating& heating, const Temperatures& start,
                                 double seconds);
 
-/// Time, s, for which a motor that starts at ambient temperature may be heated until its winding reaches the
-/// limit. Empty: it may be heated without end. 0: the ambient temperature is at the limit already.
+/// Time, s, until the winding reaches its limit, for a motor that starts at ambient temperature. Empty: it
+/// never reaches the limit. 0: the ambient temperature is already at the limit.
 std::optional<double> permissible_seconds(const ThermalModel& model, const Heating& heating);
 
-/// Steady temperatures with the winding at its limit and with the heat that enters the housing directly.
+/// Steady temperatures with the winding at its limit and with `housing_W` of direct heat into the housing.
 Temperatures at_the_limit(const ThermalModel& model, double housing_W, double ambient_degC);
 
 /// The copper loss at sheet_degC, W, that heats the winding to its limit: continuously, or, for
-/// short_time_copper_W(), from ambient temperature within `seconds`. 0 if the housing's heat alone does so.
+/// short_time_copper_W(), from ambient temperature within `seconds`. 0 if the housing's heat is already
+/// sufficient.
 double continuous_copper_W(const ThermalModel& model, double housing_W, double ambient_degC);
 double short_time_copper_W(const ThermalModel& model, double housing_W, double ambient_degC, double seconds);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file may give a range for a thermal value where sources differ. A limit of a winding is then computed with the
-// ends of the ranges at which the winding gets warmest; the one by the values is a note beside it.
+// A motor file may give a range for a thermal value if sources differ. A limit of a winding is then computed
+// with the ends of the ranges at which the winding is warmest; the limit by the values is only a note.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,15 +11,15 @@ namespace sixstep::design {
 
 struct WorseEnds {
   ThermalModel model;
-  std::string values;  ///< the values that differ, as the motor file writes them: "key = 11.7, key = 5.3"
+  std::string values;  ///< the values that differ, as in the motor file: "key = 11.7, key = 5.3"
 };
 
-/// The worse ends. Higher resistances and a lower limit are worse, and so are shorter time constants, because
-/// at a given resistance less copper and iron must be heated. Empty if the sheet's thermal lines are
-/// incomplete, or if no range has an end worse than its value.
+/// The worse ends. Higher resistances, a lower limit and shorter time constants are worse. With a shorter
+/// time constant at a given resistance, less copper and iron must be heated. Empty if the sheet's thermal
+/// lines are incomplete, or if no range has an end worse than its value.
 std::optional<WorseEnds> at_worse_ends(const Sheet& sheet);
 
-/// How long a winding that starts at ambient temperature withstands a heating, s. Empty: without end.
+/// Time for which a winding that starts at ambient temperature withstands a heating, s. Empty: without limit.
 struct WithstandTimes {
   std::optional<double> by_values, by_worse_ends;   ///< equal if no range has an end worse than its value
   double limit_degC = 0.0, worse_limit_degC = 0.0;  ///< the winding's limit, which may have a range too
@@ -30,7 +30,7 @@ struct WithstandTimes {
 /// A verdict on safety uses `by_worse_ends`. Problem: the sheet's thermal lines that are missing.
 base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& heating);
 
-/// The model by which a limit is safe: at the worse ends where there are any, else by the values. Problems: those of
+/// The model for a safe limit: at the worse ends if there are any, else by the values. Problems as for
 /// thermal_model().
 base::Result<ThermalModel> safe_thermal_model(const Sheet& sheet);
 

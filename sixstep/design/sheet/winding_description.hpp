@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a motor file for poles and windings. Their names, units, frames and meanings are defined only
-// here.
+// The keys of a motor file for poles and windings. This file is the only definition of their names, units,
+// frames and meanings.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
@@ -11,7 +11,7 @@ namespace sixstep::design {
 /// Bounds of the keys; the ring motors of telescopes have a hundred pole pairs.
 inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
 
-/// Highest order of a harmonic of the back-EMF; higher ones are noise of a measurement.
+/// Highest order of a harmonic of the back-EMF; higher orders are noise of a measurement.
 inline constexpr int highest_order = 23;
 
 /// Bounds of a back-EMF table: the number of its points; their smallest distance; its mean over a turn

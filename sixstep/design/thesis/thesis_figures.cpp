@@ -20,7 +20,7 @@ constexpr Printed printed[] = {
     {"speed", "K_i", 0.000155},
 };
 
-/// True if x equals the printed number within half of the last digit that the thesis prints.
+/// True if x equals the printed number within half of the thesis's last digit.
 bool same(double x, double as_printed, double half_digit) { return std::fabs(x - as_printed) <= half_digit; }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Intermediate numbers that the thesis prints, for comparison with those that sixstep computes. They have the
-// thesis's rounding, and an error: its gains belong to the poles that it prints, but these poles belong to w0
-// = 5504 rad/s, not to the printed 5111.
+// Intermediate numbers that the thesis prints, for comparison with sixstep's results. They have the thesis's
+// rounding, and one error: its gains belong to its printed poles, but these poles belong to w0 = 5504 rad/s,
+// not to the printed 5111.
 #pragma once
 #include <optional>
 #include <string_view>

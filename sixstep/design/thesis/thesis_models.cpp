@@ -11,7 +11,7 @@ double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
   const double turns = theta_e.rad / base::turn_rad;
   const double deg = (turns - std::floor(turns)) * 360.0;
   // The trapezoid is symmetric about the middle of its positive top, and odd about the angle 90 degrees from
-  // it.
+  // there.
   double from_top = std::abs(deg - 60.0);
   if (from_top > 180.0) from_top = 360.0 - from_top;
   const double ramp = 90.0 - flat_deg / 2.0;
@@ -22,8 +22,8 @@ double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
 base::Abc<double> back_emf_shape(const plant::Machine& m, base::ElectricalAngle theta_e) {
   const double third = base::turn_rad / 3.0;
   if (m.back_emf == plant::BackEmf::sine) {
-    const double top = base::turn_rad / 6.0;  // the sine of phase a is cos(theta - 60 degrees); those of b
-                                              // and c follow by 120 and 240
+    const double top = base::turn_rad / 6.0;  // the sine of phase a is cos(theta - 60 degrees); phases b and
+                                              // c follow by 120 and 240 degrees
     return {base::cos(theta_e.rad - top), base::cos(theta_e.rad - top - third),
             base::cos(theta_e.rad - top - 2.0 * third)};
   }
@@ -37,9 +37,9 @@ double electromagnetic_torque(const plant::Machine& m, const base::Abc<double>& 
 }
 
 // Thesis 3.11, corrected. The back-EMF enters the current rows with a minus and K_t/2, because it opposes the
-// current. The torque enters the speed row over J, and -1/J of the load is in the speed row. Each phase has
-// its 1/(L - M). The thesis's last state is theta_e, whose derivative is p w; here it is theta_m, whose
-// derivative is w.
+// current. The torque enters the speed row divided by J, and the load's factor -1/J is in the speed row. Each
+// phase has the factor 1/(L - M). The thesis's last state is theta_e, whose derivative is p w; here it is
+// theta_m, whose derivative is w.
 //   L i_k' = u_kn - R i_k - K_e f_k w      J w' = K_e sum f_k i_k - B w - T_load      theta_m' = w
 StateSpace<5, 4> phase_voltage_model(const plant::Machine& m, const plant::Shaft& s,
                                      base::MechanicalAngle theta_m) {

@@ -36,7 +36,7 @@ struct StateSpace {
 double trapezoid(base::ElectricalAngle theta_e, double flat_deg = 120.0);
 
 /// Shapes f_a, f_b, f_c of the machine at this angle: the same shape, each phase 120 degrees later than the
-/// one before.
+/// phase before.
 base::Abc<double> back_emf_shape(const plant::Machine& machine, base::ElectricalAngle theta_e);
 
 /// Torque, N m: T_e = K_e sum f_k i_k (model.md (3)), defined at standstill too.
@@ -44,8 +44,8 @@ double electromagnetic_torque(const plant::Machine& machine, const base::Abc<dou
                               const base::Abc<double>& i_A);
 
 /// Thesis 3.11. States: i_a, i_b, i_c (A), w_m (rad/s), theta_m (rad). Inputs: u_an, u_bn, u_cn against the
-/// star point (V), T_load (N m). i_a + i_b + i_c stays 0 only if the sum of the voltages equals that of the
-/// back-EMFs, as at a real star point.
+/// star point (V), T_load (N m). i_a + i_b + i_c stays 0 only if the sum of the voltages equals the sum of
+/// the back-EMFs, as at a real star point.
 StateSpace<5, 4> phase_voltage_model(const plant::Machine& machine, const plant::Shaft& shaft,
                                      base::MechanicalAngle theta_m);
 

@@ -17,10 +17,10 @@ namespace sixstep::analysis {
 namespace {
 
 double size_of(const Harmonic& h) { return std::sqrt(h.a_V * h.a_V + h.b_V * h.b_V); }
-/// The angle in a cos x + b sin x = size cos(x + angle).
+/// The angle with a cos x + b sin x = size cos(x + angle).
 double angle_of(const Harmonic& h) { return base::atan2(-h.b_V, h.a_V); }
 
-/// The channel's harmonics relative to the fundamental, whose peak is at angle 0.
+/// The channel's harmonics relative to the fundamental, with the fundamental's peak at angle 0.
 ShapeHarmonics seen_by(const ChannelFit& channel) {
   ShapeHarmonics out;
   out.resize(channel.harmonics.size());
@@ -34,14 +34,14 @@ ShapeHarmonics seen_by(const ChannelFit& channel) {
   return out;
 }
 
-/// Lag of the channel behind the first one, in [0, 360).
+/// Lag of the channel behind the first channel, in [0, 360).
 double lag_deg(const HarmonicFit& fit, std::size_t channel) {
   const double lag = (angle_of(fit.channels[0].harmonics[0]) - angle_of(fit.channels[channel].harmonics[0])) /
                      base::rad_per_deg;
   return lag - 360.0 * std::floor(lag / 360.0);
 }
 
-/// Finds the order in which the channels follow each other. A Problem if they are no three phases.
+/// Finds the order in which the channels follow each other. Returns a Problem if they are not three phases.
 base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
   constexpr double near_deg = 10.0;
   out.all_phases = fit.channels.size() > 1;
@@ -61,7 +61,7 @@ base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfR
   return {};
 }
 
-/// The longest run of rows at the greatest or the least value, as a fraction of the period.
+/// The largest number of successive rows at the greatest or the least value, as a fraction of the period.
 double clipped_part(const std::vector<double>& u, double rows_per_period) {
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   std::size_t longest = 0, run = 0;
@@ -91,7 +91,7 @@ void take_channels(const EmfRequest& request, const HarmonicFit& fit, EmfResult&
   }
 }
 
-/// Whether a harmonic of this order is equal in all phases, so that it does not appear between two phases.
+/// True if a harmonic of this order is equal in all phases: it then cancels between two phases.
 bool is_common(int order, const EmfResult& result) {
   return order % 3 == 0 && result.between == EmfBetween::lines;
 }
@@ -127,7 +127,7 @@ MeanShape mean_shape(const HarmonicFit& fit, const EmfResult& so_far) {
   return out;
 }
 
-/// Lists all harmonics. The shape keeps only those above the noise.
+/// Adds all harmonics to the result. The shape keeps only the harmonics above the noise.
 void take_harmonics(MeanShape& mean, EmfResult& out) {
   constexpr double one_in_twenty = 0.05;
   const double noise =
@@ -148,8 +148,8 @@ void take_harmonics(MeanShape& mean, EmfResult& out) {
   }
 }
 
-/// Uncertainty of a constant that is the fundamental times a figure of the shape. The uncertainty of the
-/// shape's harmonics adds to that of the fundamental.
+/// Uncertainty of a constant that is the fundamental times a figure of the shape. The uncertainties of the
+/// shape's harmonics and of the fundamental add.
 struct Doubt {
   double fundamental = 0.0;  ///< relative standard deviation
   double shape = 0.0;        ///< standard deviation of a value of the shape, absolute
@@ -179,7 +179,7 @@ void take_constants(const HarmonicFit& fit, const MeanShape& mean, EmfResult& ou
   const double phase = out.between == EmfBetween::lines ? size / root3 : size, line = phase * root3;
   const ShapeHarmonics between = line_of_phase(mean.phase);
   EmfConstants& k = out.constants;
-  // Harmonics that are small against the fundamental hardly change an rms value.
+  // Harmonics that are small compared with the fundamental hardly change an rms value.
   const auto peak = [&doubt](double fundamental, const ShapeHarmonics& shape) {
     const WavePeak wave = wave_peak(shape);
     Interval out_of = doubt.of(fundamental, wave.peak.value, 1.0);
@@ -220,14 +220,14 @@ void take_table(const ShapeHarmonics& phase, EmfResult& out) {
   out.angle_deg = std::move(table.angle_deg);
   out.shape = std::move(table.shape);
   // The table of the shape has straight lines between two degrees, which reduce the mean of a round shape by
-  // 1e-4. The error falls with the square of the step, so that tables with two steps allow its elimination
-  // (Richardson).
+  // 1e-4. The error is proportional to the square of the step. Tables with two steps therefore allow its
+  // elimination (Richardson).
   const double told = wave_peak(phase).peak.value;
   out.shape_sector_mean =
       (4 * table_of(phase, told, 2, 1).sector_mean() - table_of(phase, told, 1, 1).sector_mean()) / 3;
 }
 
-/// Finds the pole pairs from the speed that the user measured; they must be a whole number.
+/// Computes the pole pairs, which must be a whole number, from the shaft's speed that the user measured.
 base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
   constexpr double rpm = 30.0 / base::pi, whole = 0.1;
   out.pole_pairs = request.pole_pairs.value_or(0);

@@ -2,8 +2,8 @@
 // Measures a motor's constants in every frame, its harmonics and its back-EMF shape from open-circuit
 // voltages.
 //
-// Constants are given per electrical rad/s, which is the flux linkage of phase or line. If the pole pairs or
-// the shaft's speed are known, they are also given per mechanical rad/s, as K_e in notation.md.
+// A constant per electrical rad/s is the flux linkage of phase or line. If the pole pairs or the shaft's
+// speed are known, the constants per mechanical rad/s are also computed, like K_e in notation.md.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,13 +18,13 @@ namespace sixstep::analysis {
 struct EmfRequest {
   EmfRecord record;
   std::optional<int> pole_pairs;
-  std::optional<double> speed_rad_s;  ///< speed of the shaft; with the frequency it gives the pole pairs
+  std::optional<double> speed_rad_s;  ///< speed of the shaft; frequency and speed give the pole pairs
 };
 
 struct EmfHarmonic {
   int order = 1;
   Interval part;       ///< amplitude relative to the fundamental
-  double floor = 0.0;  ///< 95 of 100 recordings have no order of noise above this limit
+  double floor = 0.0;  ///< limit that noise exceeds at any order in 5 of 100 recordings
   bool stands_out = false;
   /// Coordinates of a harmonic of the phase's shape, relative to the fundamental: factors of the cosine and
   /// the sine of order times (theta_e - 60 deg).
@@ -38,13 +38,14 @@ struct EmfChannelResult {
   Interval phase_deg;  ///< lag behind the first channel
   double residual_rms_V = 0.0;
   double step_V = 0.0;   ///< smallest difference of two successive rows: the converter's step
-  double clipped = 0.0;  ///< longest run of rows at the greatest or least value, as a fraction of a period
+  double clipped = 0.0;  ///< largest number of successive rows at the greatest or least value, as a fraction
+                         ///< of a period
 };
 
 /// Constants in V s per electrical rad; multiplied by the pole pairs, per mechanical rad.
 struct EmfConstants {
   Interval line_peak, line_rms, line_fundamental;
-  /// Constants of a phase. If they come from voltages between lines, they lack harmonics of order 3, 9, ..
+  /// Constants of a phase. If they come from voltages between lines, harmonics of order 3, 9, .. are missing.
   Interval phase_peak, phase_rms, phase_fundamental;
 };
 
@@ -56,17 +57,17 @@ struct EmfResult {
   double change_Hz_s = 0.0;  ///< rate of change of the frequency, at the middle
   int pole_pairs = 0;        ///< 0: unknown
   std::vector<EmfChannelResult> channels;
-  bool backward = false;               ///< the voltages follow each other as c, b, a
-  bool all_phases = false;             ///< two or three channels, so that `backward` is known
+  bool backward = false;               ///< true: the voltages follow each other as c, b, a
+  bool all_phases = false;             ///< true: there are two or three channels, so that `backward` is known
   std::vector<EmfHarmonic> harmonics;  ///< harmonics from the second on
   EmfConstants constants;
-  double crest = 0.0;     ///< peak over rms of the probed voltage
+  double crest = 0.0;     ///< peak of the probed voltage, divided by its rms
   double flat_deg = 0.0;  ///< width above 95 % of the peak
   /// Phase a over an electrical turn, with peak 1. The middle of its positive half wave is at 60 degrees
   /// (notation.md). Harmonics below the noise are not included.
   std::vector<double> angle_deg, shape;
   HarmonicFit fit;                 ///< the fit, for a picture
-  double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; the table agrees within 1e-4
+  double shape_sector_mean = 0.0;  ///< K_t/K_e of the fitted shape; the table agrees within 1e-4
 };
 
 /// flat_deg of a sine and of a trapezoid with a top of 120 degrees, for comparison.

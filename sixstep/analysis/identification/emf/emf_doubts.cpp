@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Height in V that clipping may have cut off without being visible: if all rows of a top lie within one step
-/// of the converter, up to that step; with noise more.
+/// Height in V that an invisible clipping may have cut off. If all rows of a top lie within one step of the
+/// converter, it is up to this step; with noise it is more.
 double hidden_V(const EmfChannelResult& channel) { return 2.0 * (channel.step_V + channel.residual_rms_V); }
 
 double middle_of(std::vector<double> values) {
@@ -35,14 +35,14 @@ double bend_of_flanks(const std::vector<double>& t, const std::vector<double>& u
   return middle_of(std::move(bends));
 }
 
-/// A clipped top: a run of rows at the extreme, of half width h. `near` and `far` are the voltage's mean
-/// distances from the extreme: from h to 2 h and from 2 h to 3 h from the run's middle, on both sides.
+/// A clipped top: successive rows at the extreme, of half width h. `near` and `far` are the voltage's mean
+/// distances from the extreme: from h to 2 h and from 2 h to 3 h from the top's middle, on both sides.
 struct Top {
   std::size_t from = 0, to = 0;
   double near = 0.0, far = 0.0;
 };
 
-/// The windows assume rows at equal intervals. A top at the recording's ends is ignored.
+/// The windows assume rows at equal intervals. Tops at the recording's ends are ignored.
 std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, std::size_t to) {
   const std::size_t rows = to - from + 1, half = rows / 2;
   if (half == 0 || from < rows || to + rows >= u.size()) return {};
@@ -56,7 +56,7 @@ std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, 
   return top;
 }
 
-/// The last row of a top that begins at `from`. Near the top's ends, noise makes a few rows differ from the
+/// The last row of a top that begins at `from`. Near the top's ends, a few rows differ by noise from the
 /// extreme.
 std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   std::size_t end = from;
@@ -65,8 +65,8 @@ std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   return end;
 }
 
-/// Whether all rows in the inner part of a top equal the extreme. A top that is flat without clipping has
-/// noise there.
+/// True if all rows in the inner part of a top equal the extreme. A flat top without clipping has noise
+/// there.
 bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to) {
   const std::size_t edge = (to - from + 1) / 5;
   return std::all_of(u.begin() + static_cast<std::ptrdiff_t>(from + edge),
@@ -74,7 +74,7 @@ bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to
                      [&](double x) { return x == u[from]; });
 }
 
-/// The constant tops at one extreme that are at least half as long as the longest one.
+/// The constant tops at one extreme that are at least half as long as the longest top.
 std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   constexpr std::size_t fewest_rows = 8;
   std::vector<Top> all;
@@ -91,8 +91,8 @@ std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   return all;
 }
 
-/// Height in V that clipping has cut off, from the parabola u = V - b x^2 through the rows next to the run: b
-/// h^2 = V, and `near` is 4/3 V. Returns 0 if the flanks are no parabola, judged by `far` over `near`:
+/// Height V, in V, that clipping has cut off. The flanks beside the top are fitted by the parabola u = V - b
+/// x^2: b h^2 = V, and `near` is 4/3 V. Returns 0 if the flanks are no parabola. The criterion is far/near:
 /// - a parabola has 4, and a sine that has lost a fifth 3.4;
 /// - straight flanks have 3 and less;
 /// - a top that is flat without clipping and round at its ends has more than 4.
@@ -101,7 +101,7 @@ double lost_beyond(const std::vector<double>& u, double extreme, double periods)
   std::vector<double> lost, bent;
   const std::vector<Top> tops = tops_at(u, extreme);
   // Clipping appears in every period. Hum moves a flat top within one step of the converter only in some
-  // periods. So fewer flat tops than `most_periods` per period are no clipping.
+  // periods. If there are fewer flat tops per period than `most_periods`, they are therefore no clipping.
   if (static_cast<double>(tops.size()) + 1.0 < most_periods * periods) return 0.0;
   for (const Top& top : tops) {
     lost.push_back(top.near / near_of_lost);
@@ -159,8 +159,8 @@ bool may_be_clipped(const EmfChannelResult& channel) {
   return channel.clipped > much && channel.residual_rms_V > dithered * channel.step_V;
 }
 
-/// Clipping cuts V off both extremes of a sine of peak A, so that each is constant for a fraction q of the
-/// period. This reduces its fundamental and its rms by 8/3 q V/A, and its peak by V/A.
+/// Clipping cuts V off both extremes of a sine of peak A: each extreme is constant for a fraction q of the
+/// period. This reduces the sine's fundamental and rms by 8/3 q V/A, and its peak by V/A.
 void allow_for_clipping(EmfResult& result) {
   double peak = 0.0, fundamental = 0.0;
   for (const EmfChannelResult& channel : result.channels) {
@@ -203,8 +203,8 @@ double unlike(const EmfResult& result) {
   return (greatest->peak_V.value - least->peak_V.value) / (greatest->peak_V.value + least->peak_V.value);
 }
 
-/// Phases of one motor differ by a few per cent. The divider of a probe makes a factor of ten, a wrong unit
-/// one of a thousand.
+/// Phases of one motor differ by a few per cent. The divider of a probe causes a factor of ten, a wrong unit
+/// a factor of a thousand.
 base::Problems check_alike(const EmfResult& result) {
   constexpr double most = 0.05;
   if (!(unlike(result) > most)) return {};
@@ -217,8 +217,8 @@ base::Problems check_alike(const EmfResult& result) {
            .cure = "check the dividers of the probes and the units of the columns"}};
 }
 
-/// Widens the constants' bounds to reach from channel to channel, because it is unknown which channel is
-/// right.
+/// Widens the constants' bounds so that they reach from channel to channel, because it is unknown which
+/// channel is right.
 void allow_for_unlike_channels(EmfResult& result) {
   constexpr double usual = 0.01;
   const double half = unlike(result), part = half * (1.0 + half);  // the mean of squares is above the square

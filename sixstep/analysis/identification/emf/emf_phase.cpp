@@ -41,7 +41,7 @@ Curve averaged(const std::vector<double>& t, const std::vector<double>& u, std::
 }
 
 /// Times at which the voltage crosses its mean, alternately up and down. Between two crossings the voltage
-/// must exceed a part of its rms, so that noise adds no crossing.
+/// must exceed a fraction of its rms, so that noise adds no crossing.
 std::vector<double> crossings(const Curve& curve, const Level& level) {
   constexpr double beyond = 0.5;
   std::vector<double> out;
@@ -59,7 +59,7 @@ std::vector<double> crossings(const Curve& curve, const Level& level) {
   return out;
 }
 
-/// Whether successive half waves have similar lengths. Spikes do not.
+/// True if successive half waves have similar lengths; with spikes they have not.
 bool are_regular(const std::vector<double>& passed) {
   constexpr double alike = 3.0;
   for (std::size_t n = 2; n < passed.size(); ++n) {
@@ -69,7 +69,7 @@ bool are_regular(const std::vector<double>& passed) {
   return true;
 }
 
-/// Averages over more and more rows, until noise causes no crossings.
+/// Averages over an increasing number of rows, until noise causes no crossings.
 std::vector<double> regular_crossings(const std::vector<double>& t, const std::vector<double>& u,
                                       const Level& level) {
   constexpr std::size_t fewest_points = 24;
@@ -123,7 +123,7 @@ base::Result<EmfPhase> rough_phase(const EmfRecord& record) {
   const std::vector<double> passed = regular_crossings(record.t_s, strongest->u_V, level);
   if (passed.size() < 3) {
     const std::size_t in_all = crossings({record.t_s, strongest->u_V}, level).size();
-    // The mean over many rows may still have one or two crossings caused by noise.
+    // A mean over many rows may still have one or two crossings by noise.
     constexpr std::size_t few = 16;
     return no_period(record.t_s, name, in_all, passed.empty() ? in_all < 3 : in_all < few);
   }

@@ -12,7 +12,7 @@
 namespace sixstep::analysis {
 
 /// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, with tau counted from the recording's middle. The speed is
-/// constant, linear or a parabola: a drill slows down under a load, and a free motor coasts.
+/// constant, linear or a parabola in time: a drill slows down under a load, and a free motor coasts.
 struct EmfPhase {
   static constexpr std::size_t most_terms = 3;
   double middle_s = 0.0;
@@ -23,10 +23,10 @@ struct EmfPhase {
   double speed(double t_s) const;  ///< rad/s
 };
 
-/// Number of terms that this number of periods determines.
+/// Number of terms that can be determined from this number of periods.
 std::size_t phase_terms(double periods);
 
-/// The phase of the channel with the greatest voltage, or a Problem that says why no period is visible.
+/// The phase of the channel with the greatest voltage, or a Problem with the reason why no period is visible.
 base::Result<EmfPhase> rough_phase(const EmfRecord& record);
 
 }  // namespace sixstep::analysis

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double thirty_deg = base::pi / 6.0;
 
-/// Each harmonic turned by an angle.
+/// The harmonics, each rotated by angle(order).
 template <class Angle>
 ShapeHarmonics turned(const ShapeHarmonics& shape, Angle angle) {
   ShapeHarmonics out = shape;
@@ -52,8 +52,8 @@ double ShapeHarmonics::rms() const {
 }
 
 ShapeHarmonics seen_backward(ShapeHarmonics seen) {
-  // e = K w f(y) with w < 0, and time runs with x = -y - 180 deg. The fundamental is then positive at its
-  // peak again.
+  // e = K w f(y) with w < 0; time runs with x = -y - 180 deg. The fundamental is then positive at its peak
+  // again.
   for (std::size_t n = 0; n < seen.size(); ++n) {
     const bool even = n % 2 == 1;
     if (even) seen.re[n] = -seen.re[n];
@@ -80,8 +80,8 @@ WavePeak wave_peak(const ShapeHarmonics& shape) {
   for (std::size_t n = 2 * count / 3; n < count; ++n)
     high += std::sqrt(shape.re[n] * shape.re[n] + shape.im[n] * shape.im[n]);
   const ShapePeak sum = peak_of(shape);
-  // Least part of a corner: the last third of 25 harmonics contains 0.6 % and more of the fundamental for a
-  // shape with a corner, almost nothing for a round shape.
+  // Least sum of high harmonics of a shape with a corner. For such a shape, the last third of 25 harmonics
+  // contains at least 0.6 % of the fundamental; for a round shape, almost nothing.
   constexpr double least_corner = 3e-3;
   if (high < least_corner) return {sum};
   ShapeHarmonics mean = shape;
@@ -113,7 +113,7 @@ ShapePeak peak_of(const ShapeHarmonics& shape) {
   const double y0 = sign * value(top - 1), y1 = sign * value(top), y2 = sign * value(top + 1);
   const double bend = y0 - 2.0 * y1 + y2, aside = bend < 0.0 ? 0.5 * (y0 - y2) / bend : 0.0;
   ShapePeak out{y1 - 0.25 * (y0 - y2) * aside, (top + aside) * step, 0.0};
-  // A ripple on a flat top may dip below the 95 % line, so that the width counts all values above the line.
+  // A ripple on a flat top may dip below the 95 % line; the width therefore counts all values above the line.
   for (const double v : values)
     if (sign * v >= flat_part * out.value) out.flat_deg += 360.0 / steps;
   return out;

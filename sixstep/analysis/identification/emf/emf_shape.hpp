@@ -8,7 +8,7 @@
 
 namespace sixstep::analysis {
 
-/// Sum over h of re cos(h x) - im sin(h x), which is the real part of the sum of (re + j im) exp(j h x). The
+/// Sum over h of re cos(h x) - im sin(h x): the real part of the sum of (re + j im) exp(j h x). The
 /// fundamental is 1, with its peak at x = 0.
 struct ShapeHarmonics {
   std::vector<double> re{1.0}, im{0.0};  ///< [0] is the fundamental
@@ -22,11 +22,11 @@ struct ShapeHarmonics {
   double rms() const;
 };
 
-/// Converts the shape over time of a rotor that turned backwards to the shape over the angle.
+/// Converts the shape over time, measured with a rotor that turned backwards, to the shape over the angle.
 ShapeHarmonics seen_backward(ShapeHarmonics seen);
 
-/// Convert the shape of a voltage between two terminals to that of a phase, and back. Both shapes have a
-/// fundamental of 1; between lines it stands for sqrt 3 times a phase's fundamental. Harmonics of order 3, 6,
+/// Convert the shape of a voltage between two terminals to the shape of a phase, and back. Both shapes have a
+/// fundamental of 1; the line's fundamental is sqrt 3 times the phase's fundamental. Harmonics of order 3, 6,
 /// 9 are equal in all phases, so that they cancel between lines.
 ShapeHarmonics phase_of_line(const ShapeHarmonics& line);
 ShapeHarmonics line_of_phase(const ShapeHarmonics& phase);
@@ -38,11 +38,11 @@ struct ShapePeak {
 };
 ShapePeak peak_of(const ShapeHarmonics& shape);
 
-/// The peak of the wave whose first harmonics are given, with the peak's uncertainty in `below` and `above`.
+/// The peak of the wave with the given first harmonics, and the peak's uncertainty in `below` and `above`.
 ///
-/// The harmonics of a flat top continue beyond the given ones. The sum without the rest overshoots by 1 to 5
-/// % near the flanks (Gibbs). The sum averaged over a turn of the first missing harmonic (Lanczos) leaves a
-/// tenth of that overshoot. A pointed top lacks the part of the missing harmonics, and stays as summed.
+/// A flat top has harmonics beyond the given harmonics. Without them the sum overshoots by 1 to 5 % near the
+/// flanks (Gibbs). Averaging the sum over a turn of the first missing harmonic (Lanczos) reduces the
+/// overshoot to a tenth. A pointed top is not averaged; its peak lacks the missing harmonics.
 struct WavePeak {
   ShapePeak peak;
   double below = 0.0, above = 0.0;

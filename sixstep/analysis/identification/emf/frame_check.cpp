@@ -20,7 +20,7 @@ struct Frame {
   Interval V_s;
 };
 
-/// Torque per ampere: through the driven pair, and per peak and per rms ampere of a sine in each phase.
+/// Torque per ampere: through the driven pair, and per peak or rms ampere of a sine in each phase.
 std::vector<Frame> torque_frames(const EmfResult& m, double p) {
   return {{"terminal", scaled(m.constants.phase_peak, p * m.shape_sector_mean)},
           {"peak", scaled(m.constants.phase_fundamental, 1.5 * p)},
@@ -41,8 +41,8 @@ class Checks {
  public:
   explicit Checks(double tolerance) : tolerance_(tolerance) {}
 
-  /// `as` converts a constant in V s to the unit of the printed value. `only` is the frame of a key that has
-  /// one frame only.
+  /// `as` converts a constant in V s to the unit of the printed value. `only` is the frame of a key with a
+  /// single frame.
   template <class As>
   void add(std::string_view key, const std::optional<Quantity>& q, std::string_view unit,
            const std::vector<Frame>& frames, std::string_view only, As as) {

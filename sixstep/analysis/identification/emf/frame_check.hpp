@@ -10,12 +10,12 @@
 
 namespace sixstep::analysis {
 
-/// The measured value in one of the frames that the printed number may have.
+/// The measured value in one of the possible frames of the printed number.
 struct FrameReading {
-  std::string_view frame;   ///< name as in motor files; in words for a frame that they do not have
+  std::string_view frame;   ///< name as in motor files; for a frame without a name there, a description
   Interval measured;        ///< in the unit of the printed value
   double deviation = 0.0;   ///< measured/printed - 1
-  bool is_printed = false;  ///< whether this is the frame that the sheet's file names
+  bool is_printed = false;  ///< true: the sheet's file names this frame
   bool fits = false;
 };
 
@@ -29,13 +29,13 @@ struct FrameCheck {
   bool holds() const { return as_printed() && as_printed()->fits; }
 };
 
-/// Usual difference in the back-EMF between motors of one kind, and between a motor and its sheet. The causes
-/// are the magnets and their temperature.
+/// Usual difference in the back-EMF between motors of one type, and between a motor and its sheet, caused by
+/// the magnets and their temperature.
 inline constexpr double usual_emf_tolerance = 0.05;
 
 /// One check for each line of the sheet about the back-EMF. A reading fits if its interval contains the
-/// printed value; the interval is widened by the tolerance and by half of the last printed digit. Without
-/// pole pairs, only the flux linkage is checked.
+/// printed value, after widening by the tolerance and by half of the last printed digit. Without pole pairs,
+/// only the flux linkage is checked.
 std::vector<FrameCheck> check_frames(const EmfResult& measured, const design::Sheet& sheet, double tolerance);
 
 }  // namespace sixstep::analysis

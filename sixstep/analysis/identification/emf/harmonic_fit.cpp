@@ -41,7 +41,7 @@ class Fitter {
     return out;
   }
 
-  /// Adds the equations for the phase's rates that follow from the residual while the harmonics are free: a
+  /// Adds the equations of the phase's rates. They follow from the residual with free harmonics: a
   /// Gauss-Newton step with the linear unknowns eliminated.
   void add_phase_equations(std::size_t channel, const EmfPhase& phase, const Linear& linear, Symmetric& left,
                            std::vector<double>& right) {
@@ -96,7 +96,7 @@ class Fitter {
     }
   }
 
-  /// d u/d rate[k], at the point that fill() was called for.
+  /// d u/d rate[k], at the point of the last fill().
   void slopes(std::vector<double>& out, const EmfPhase& phase, const Linear& linear, double t_s) {
     const double w0 = phase.rate[0], tau = t_s - phase.middle_s, scale = phase.speed(t_s) / w0;
     double value = 0.0, by_phase = 0.0;
@@ -133,7 +133,8 @@ double least_step(const std::vector<double>& u) {
   return least;
 }
 
-/// The noise of single rows, without the part from rounding to the converter's steps. Some of the rows are enough.
+/// The noise of single rows, without the rounding to the converter's steps. Uses a part of the rows if there
+/// are more than `enough`.
 double row_noise(const EmfRecord& record, std::size_t channel, const EmfPhase& phase, const Linear& linear,
                  double step_V) {
   constexpr std::size_t enough = 20'000;
@@ -231,11 +232,12 @@ class Iteration {
   Symmetric left_;
 };
 
-/// Copies the channels from the last step; the noise near their fundamentals gives the speed's deviation.
+/// Copies the channels from the last step. The noise near the channels' fundamentals gives the speed's
+/// deviation.
 base::Problems take_channels(const EmfRecord& record, const HarmonicPoints& points, Iteration& iteration,
                              HarmonicFit& out) {
   constexpr double least_explained = 0.5;
-  double coloured = 0.0;  // noise near the fundamental over that of a white residual
+  double coloured = 0.0;  // noise near the fundamental, divided by its value for a white residual
   for (std::size_t c = 0; c < record.channels.size(); ++c) {
     out.channels.push_back(channel_of(iteration.fitter(), record, points, c, out, iteration.linear(c)));
     const ChannelFit& of_c = out.channels.back();
@@ -283,7 +285,7 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     if (*moved < nothing_rad) break;
   }
   out.periods = seconds * out.phase.rate[0] / base::turn_rad;
-  // No spectrum between the harmonics; the caller refuses such a recording.
+  // There is no spectrum between the harmonics; the caller rejects such a recording.
   if (!(out.periods > 1.0)) return out;
   if (base::Problems problems = take_channels(record, points, iteration, out); !problems.empty())
     return problems;

@@ -20,10 +20,10 @@ struct HarmonicPoints {
 
 HarmonicPoints harmonic_points(const EmfRecord& record, double periods);
 
-/// Factor to which averaging reduces a sine's amplitude.
+/// Factor by which averaging multiplies a sine's amplitude.
 double left_by_averaging(const HarmonicPoints& points, double rad_s);
 
-/// cos and sin of phase, 2 phase and so on.
+/// cos and sin of phase, 2 phase, 3 phase ..
 class Turning {
  public:
   explicit Turning(std::size_t harmonics) : cos_(harmonics), sin_(harmonics) {}

@@ -10,7 +10,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Mean error of a value through rounding to steps; value, noise and result are in steps.
+/// Mean error of a value u by rounding to steps; u, noise and result are in steps.
 double mean_error(double u, double noise) {
   double sum = 0.0;
   for (int n = 1; n <= 8; ++n) {

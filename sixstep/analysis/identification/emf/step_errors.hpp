@@ -18,9 +18,9 @@ struct StepErrors {
 };
 
 /// Error of each harmonic by the steps, rms over all positions of the steps. The spectrum near a harmonic
-/// does not show this error, because it repeats with the period. Flat tops have the largest error, because a
-/// whole top may lie on one step. On average over noise of deviation s, a value u is read as u plus the
-/// following sum, all in steps (B. Widrow, I. Kollar, "Quantization Noise", 2008, 4):
+/// does not contain this error, because the error repeats with the period. Flat tops have the largest error,
+/// because a whole top may lie on one step. With noise of deviation s, the mean reading of a value u is u
+/// plus the following sum, all in steps (B. Widrow, I. Kollar, "Quantization Noise", 2008, 4):
 ///   sum over n of (-1)^n/(pi n) exp(-2 pi^2 n^2 s^2) sin(2 pi n u)
 StepErrors step_errors(const Converted& converted);
 

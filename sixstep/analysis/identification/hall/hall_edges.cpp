@@ -19,8 +19,8 @@ std::string times(std::size_t count) { return count == 1 ? "once" : std::to_stri
 
 using Codes = std::vector<std::uint8_t>;
 
-/// The sequence of codes without repeated changes between two codes: a loose contact or a bouncing edge
-/// counts once, however often it changes.
+/// The sequence of codes without repeated changes between the same two codes: a loose contact or a bouncing
+/// edge counts once.
 Codes happenings(const std::vector<Stay>& stays) {
   Codes out;
   for (std::size_t n = 0; n < stays.size(); ++n) {
@@ -39,8 +39,8 @@ std::array<std::size_t, 3> changes_of(const Codes& codes) {
   return out;
 }
 
-/// A Problem for each line that never changes, or hardly ever. The counts of good lines differ by at most
-/// one, through the incomplete turns at the log's ends. A probe without magnet has a lower count.
+/// A Problem for each line that never or hardly ever changes. The counts of good lines differ by at most one,
+/// because of the incomplete turns at the log's ends. A probe without magnet has a lower count.
 base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
   Codes seen;
   for (const Stay& s : stays) seen.push_back(s.code);
@@ -81,8 +81,8 @@ base::Problems bridged_lines(const Codes& codes) {
 }
 
 /// Finds the pair of codes that never occurs: the mask and its complement. Every code is a glitch with the
-/// same unknown probability. Beforehand only its size is known, some per cent: its prior is a beta
-/// distribution with parameters 1/2 and 19/2.
+/// same unknown probability. Its prior, for a size of some per cent, is a beta distribution with parameters
+/// 1/2 and 19/2.
 void find_mask(const Codes& codes, HallEdges& out) {
   constexpr std::uint8_t masks[] = {0b000, 0b100, 0b010, 0b001};
   double logs[4], best = 0.0;
@@ -107,7 +107,7 @@ void find_mask(const Codes& codes, HallEdges& out) {
   out.mask_probability = 1.0 / sum;
 }
 
-/// Follows the path from one stay to the next, leaving out stays that show no sector.
+/// Follows the path from one stay to the next, without the stays that show no sector.
 class EdgeList {
  public:
   EdgeList(const std::vector<Stay>& stays, const RotorPath& way, HallEdges& out)
@@ -129,7 +129,7 @@ class EdgeList {
   }
 
  private:
-  /// Longest duration of the glitches between two stays, as a fraction of the time in a sector. With longer
+  /// Longest duration of glitches between two stays, as a fraction of the time of a sector. After longer
   /// glitches the path is unknown.
   static constexpr double too_long_part = 0.75;
   void go_on(std::size_t last, std::size_t next) {
@@ -171,9 +171,9 @@ class EdgeList {
   bool begins_ = true;
 };
 
-/// Removes a glitch that looks like a passage to the next sector and immediately back. A rotor that really
-/// turns back stays in one sector for longer. If it was no glitch, its short time contains very little
-/// information.
+/// Removes a glitch that looks like a step to the next sector and immediately back. A rotor that reverses
+/// stays in one sector for longer. If the step was real, the loss is small, because its short time contains
+/// little information.
 void drop_short_turns(HallEdges& out) {
   constexpr double short_part = 0.25;
   std::vector<HallEdge> kept;

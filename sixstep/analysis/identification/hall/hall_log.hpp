@@ -11,8 +11,8 @@ namespace sixstep::analysis {
 
 enum class RecordedVoltages : std::uint8_t {
   none,
-  lines,     ///< voltages u_ab, u_bc, u_ca of the board's legs; the last one may be left out
-  terminals  ///< voltages u_a, u_b, u_c against any one point
+  lines,     ///< voltages u_ab, u_bc, u_ca of the board's legs; u_ca may be missing
+  terminals  ///< voltages u_a, u_b, u_c against a common point
 };
 
 /// A log with one row per sample, or one per change of a line, as logic analyzers export it.

@@ -15,11 +15,11 @@ constexpr double sector_deg = 60.0;
 
 /// Bound in standard deviations: a normally distributed value exceeds it once in two million.
 constexpr double contradiction = 5.0;
-/// Largest fraction of sightings that are left out: more could not be called exceptions.
+/// Largest fraction of sightings that may be excluded.
 constexpr double most_left_out = 0.05;
 
-/// Removes in each neighbourhood the sighting that contradicts the others most. Only one, because an edge
-/// with a large error shifts its neighbours.
+/// Excludes in each neighbourhood the sighting with the largest contradiction. Only one is excluded, because
+/// an edge with a large error shifts its neighbours.
 void leave_out(FoundMotion& m) {
   const auto size = m.points.size();
   std::vector<std::size_t> worst;
@@ -96,7 +96,7 @@ std::vector<double> in_step_deg(const FoundMotion& m) {
     for (const Effect& e : s.effects)
       if (e.factor != 0.0) place_deg -= e.factor * m.fit.effects[e.index];
     const base::SinCos at = base::sin_cos(turn * (place_deg - m.points[n].angle_deg) / open_deg);
-    // Jitter spreads the computed place of an edge between two rows.
+    // Jitter spreads the computed angle of an edge between two rows.
     const double steps = m.noise.jitter_deg / open_deg, left = base::exp(-0.5 * turn * turn * steps * steps);
     Sum& sum =
         sums[repeating(static_cast<std::int64_t>(std::floor(s.says_deg / sector_deg + 0.5)), m.effects.own)];
@@ -123,7 +123,7 @@ std::optional<FoundMotion> motion_of_edges(const HallEdges& edges, std::size_t o
   m.effects.relative = true;
   m.sector_s = edges.sector_s;
   const std::vector<double> rough = rough_speeds(edges.edges);
-  // A new stretch begins where the rotor turns back. Without voltages, two things cannot be determined there:
+  // A new stretch begins where the rotor reverses. Without voltages, two unknowns cannot be determined there:
   // the rotor's path beyond the last edge, and the hysteresis of the next edge.
   std::vector<HallEdge> one_way = edges.edges;
   for (std::size_t n = 1; n < one_way.size(); ++n)

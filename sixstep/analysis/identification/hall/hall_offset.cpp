@@ -16,7 +16,7 @@ std::string parity_columns(const HallLog& log) {
   return log.u_V[2].empty() ? "u_ab, u_bc" : "u_ab, u_bc, u_ca";
 }
 
-/// The same path with its angle scaled and shifted.
+/// The path with its angle scaled and shifted.
 MotionPath turned(std::vector<MotionPoint> points, double factor, double off_deg) {
   for (MotionPoint& p : points) {
     p.angle_deg = factor * p.angle_deg + off_deg;
@@ -36,14 +36,16 @@ std::vector<HallEdge> in_place(const std::vector<HallEdge>& edges, const HallOff
 
 constexpr std::size_t fewest_each_way = 6;
 
-/// Whether enough edges lie between the rotor's reversals to find the hysteresis. An edge beyond which the
-/// rotor turns back shows the place of the reversal, not the width of the hysteresis, for two reasons:
-/// - The voltages are very low there, and the path bends most, more on one side of the reversal than on the
-///   other. A spline of one stiffness does not fit such a path, and its error would count as hysteresis.
-/// - If jitter decides whether the edge is passed, the passages are a biased sample.
+/// True if enough edges lie between the rotor's reversals to find the hysteresis. At an edge next to a
+/// reversal, the edge's angle shows where the rotor reversed, not the width of the hysteresis, for two
+/// reasons:
+/// - The voltages are very low near a reversal, and the path bends most, more on one side of the reversal
+///   than on the other. A spline of one stiffness does not fit such a path, and its error would count as
+///   hysteresis.
+/// - If jitter decides whether the rotor passes the edge, the passages are a biased sample.
 ///
-/// So these edges are excluded in all rounds. If too few edges lie between the reversals, all edges are used,
-/// and no hysteresis is given.
+/// These edges are therefore excluded in all rounds. If too few edges lie between the reversals, all edges
+/// are used, and no hysteresis is computed.
 bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   std::size_t forward = 0, backward = 0;
@@ -61,13 +63,13 @@ class Sightings {
   Sightings(const std::vector<VoltageVector>& vectors, std::vector<HallEdge> edges)
       : vectors_(vectors), edges_(std::move(edges)), left_out_(edges_.size()) {}
 
-  /// Leaves out the edges at reversals, and returns their number.
+  /// Excludes the edges at reversals, and returns their number.
   std::size_t leave_out_turns() {
     for (std::size_t n = 0; n < edges_.size(); ++n) left_out_[n] = edges_[n].at_turn;
     return static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));
   }
 
-  /// Makes the sightings of `m` with the present estimate of the path.
+  /// Computes the sightings of `m` with the present estimate of the path.
   void bring(FoundMotion& m, VoltageModel& model, const MotionPath& path) {
     if (const std::optional<VoltageModel> better = fit_voltages(vectors_, path)) model = *better;
     turned_into_place(model);
@@ -110,13 +112,14 @@ bool speeds_differ(const std::vector<MotionPoint>& points, double usual) {
   });
 }
 
-/// Finds in which of the two sequences the lines follow each other, with the odds of the two. A Problem if
-/// neither fits.
+/// Finds in which of the two sequences the lines follow each other, with the probabilities of both. Returns a
+/// Problem if neither fits.
 base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector<VoltageVector>& vectors,
                                            const FoundMotion& by_edges, MotionPath& path) {
-  // Differences of log likelihoods. With noise alone, ten unknowns reach 20 once in 60000 logs (half of chi
-  // square), and 14 once in 500, but then they explain very little. If the rotor explains most of the power,
-  // 14 is enough, for example for a log of a rotor that turns forward and backward by a few edges.
+  // Differences of log likelihoods. With pure noise, ten unknowns reach 20 once in 60000 logs (half of chi
+  // square), and 14 once in 500, but then they explain a very small part of the power. If the rotor explains
+  // most of the power, 14 is enough, for example for a log of a rotor that turns forward and backward by a
+  // few edges.
   constexpr double sure = 20.0, likely = 14.0;
   HallOffsetEstimate out;
   std::optional<VoltageModel> models[2];

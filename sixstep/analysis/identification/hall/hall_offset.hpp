@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the rotor's electrical angle along the path that the Hall lines show, by the voltages of the same
-// log.
+// Finds the rotor's electrical angle along the path from the Hall lines, by the voltages of the same log.
 #pragma once
 #include "sixstep/analysis/identification/hall/hall_voltages.hpp"
 
@@ -9,13 +8,14 @@ namespace sixstep::analysis {
 struct HallOffsetEstimate {
   bool mirrored = false;  ///< the lines' order is opposite to the rotor's direction
   double mirrored_probability = 0.0;
-  int rotation = 0;    ///< the rotor's sector if the lines show sector 0; if mirrored, the sector above it
+  int rotation = 0;    ///< the rotor's sector while the lines show sector 0; if mirrored, one more
   FoundMotion motion;  ///< in electrical angles
   VoltageModel voltages;
-  bool between_turns = false;  ///< enough edges between the rotor's reversals to find the hysteresis
-  std::size_t at_turns = 0;    ///< edges left out, because the rotor reversed beyond them
+  bool between_turns = false;  ///< true: enough edges lie between the rotor's reversals to find the
+                               ///< hysteresis
+  std::size_t at_turns = 0;    ///< edges that are excluded, because the rotor reversed beyond them
 
-  /// The rotor's sector if the lines show the sector `shown`, counted as if each line were at its own pin.
+  /// The rotor's sector while the lines show the sector `shown`, counted as if each line were at its own pin.
   int sector_of(int shown) const {
     return ((mirrored ? rotation - 1 - shown : rotation + shown) % 6 + 6) % 6;
   }

@@ -18,7 +18,7 @@ struct Stay {
   double duration_s() const { return left_s - came_before_s; }
 };
 
-/// Stays of the log: a new one begins at the first row and at each change of code. If each row is a change,
+/// Stays of the log: a new stay begins at the first row and at each change of code. If each row is a change,
 /// the times are exact.
 std::vector<Stay> stays_of(const HallLog& log);
 bool rows_are_changes(const HallLog& log);

@@ -50,10 +50,10 @@ Modelled modelled(const VoltageModel& m, const Basis& b) {
   return out;
 }
 
-/// Counts how many rows are independent. Correlated residuals of neighbouring rows have as much information
-/// as fewer independent ones. Their number follows from the correlation of two neighbours, if it decays
-/// geometrically with their distance. A residual that turns with the rotor is smooth instead, and its
-/// neighbours are almost equal.
+/// Computes the number of independent rows. Correlated residuals of neighbouring rows contain as much
+/// information as a smaller number of independent residuals. This number follows from the correlation of two
+/// neighbours, if it decays geometrically with their distance. A residual that turns with the rotor is smooth
+/// instead, and its neighbours are almost equal.
 class Memory {
  public:
   void take(const Vector& r) {
@@ -71,10 +71,10 @@ class Memory {
   Vector before_;
 };
 
-/// Uncertainty of the amplitude. Each half turn gives an amplitude of its own, with all its errors of noise
-/// and speed. If there are few half turns, or a few fast ones among slow ones, they bias the amplitude
-/// towards themselves, so that their residuals are too small. So each half turn counts by its residual
-/// without its own influence, and Student's degrees of freedom are those of the weights (R. M. Bell and D. F.
+/// Uncertainty of the amplitude. Each half turn gives a separate amplitude, with all its errors of noise and
+/// speed. A small number of half turns, or a few fast among slow half turns, shift the amplitude towards
+/// their own values, so that their residuals are too small. Therefore each half turn contributes its residual
+/// without its own influence, and the weights determine Student's degrees of freedom (R. M. Bell and D. F.
 /// McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage samples", Survey
 /// Methodology 28, 2002, for one unknown).
 class HalfTurns {
@@ -133,7 +133,7 @@ void judge(const std::vector<VoltageVector>& vectors, const MotionPath& path, Vo
                      model.re_Vs[0] * b.im[0] + model.im_Vs[0] * b.re[0]},
                     residual);
   }
-  // Largest number of rows that count as one, however smooth the residuals are: each edge jitters
+  // Largest number of rows that count as one, for arbitrarily smooth residuals: each edge jitters
   // independently, and the path's error between two edges ends with the sector.
   constexpr double sectors = 3.0;  // in half a turn
   const double most = static_cast<double>(model.rows) /
@@ -195,7 +195,7 @@ std::optional<VoltageModel> fit_voltages(const std::vector<VoltageVector>& vecto
   out.residual_V2 = found->residual_square;
   const auto rows = static_cast<double>(out.rows);
   out.still_V2 = equations.square() - (sum_alpha * sum_alpha + sum_beta * sum_beta) / rows;
-  // A recording without any noise still has the rounding of its last digit.
+  // Without any noise a recording still has the rounding of its last digit.
   out.variance_V2 = std::max(found->residual_square / (2.0 * rows - unknowns), 1e-24 * out.still_V2 / rows);
   judge(vectors, path, out);
   return out;
@@ -215,7 +215,7 @@ double turned_into_place(VoltageModel& model) {
 
 namespace {
 
-/// Rows over a few degrees of the path, and the common correction of the path's angle that they give, by one
+/// Rows over a few degrees of the path. They give one common correction of the path's angle, by one
 /// Gauss-Newton step.
 class Window {
  public:

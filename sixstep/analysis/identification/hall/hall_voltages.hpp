@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the rotor's true angle by comparing the voltages that the rotor induces with the path from the Hall
-// lines.
+// Finds the rotor's true angle: compares the induced voltages with the path from the Hall lines.
 //
-// The vector of the three voltages turns with the rotor. Its length is proportional to the speed, and its
-// phase is the electrical angle (notation.md): e_a = lambda w cos(theta - 60 degrees) and its harmonics, with
-// w < 0 if the rotor turns backwards.
+// The vector of the three voltages turns with the rotor. Its length is proportional to the speed w, and its
+// phase is the electrical angle theta (notation.md): e_a = lambda w cos(theta - 60 degrees) and its
+// harmonics, with the flux linkage lambda and w < 0 if the rotor turns backwards.
 #pragma once
 #include <array>
 #include <optional>
@@ -21,8 +20,8 @@ struct VoltageVector {
 };
 std::vector<VoltageVector> vectors_of(const HallLog& log);
 
-/// Orders of the vector's harmonics: no multiples of 3. The vector of a positive order turns forward, that of
-/// a negative order backward.
+/// Orders of the vector's harmonics: no multiples of 3. The vector of a positive order turns forward, the
+/// vector of a negative order backward.
 inline constexpr std::array<int, 5> vector_orders = {1, -5, 7, -11, 13};
 
 /// The vector over the path: sum over orders h of K_h w exp(j h theta), and an offset. |K_1| is the flux
@@ -33,16 +32,16 @@ struct VoltageModel {
   double variance_V2 = 0.0;         ///< variance of each component's white noise
   double flux_half_width_Vs = 0.0;  ///< 95 % half width of |K_1|, from the differences of half turns
   double residual_V2 = 0.0;         ///< sum of squares over both components
-  double still_V2 = 0.0;            ///< residual_V2 of an offset alone, as with a rotor at rest
+  double still_V2 = 0.0;            ///< residual_V2 of a model with an offset only, as with a rotor at rest
   std::size_t rows = 0;
-  double memory_rows = 1.0;  ///< rows with as much information as one independent row
+  double memory_rows = 1.0;  ///< number of rows with as much information as one independent row
 };
 
 /// Fits the model. Empty if the rotor hardly moves while voltages are recorded.
 std::optional<VoltageModel> fit_voltages(const std::vector<VoltageVector>& vectors, const MotionPath& path);
 
-/// Turns the model so that the fundamental's angle is that of notation.md. Returns the error in degrees that
-/// the path's angle had.
+/// Rotates the model so that the fundamental has the angle of notation.md. Returns the error of the path's
+/// angle, in degrees.
 double turned_into_place(VoltageModel& model);
 
 /// The voltages' phase as sightings, one for every few degrees of the path.

@@ -18,8 +18,8 @@ std::uint8_t as_60_degrees(std::uint8_t code) {
   return 0;
 }
 
-/// Number of errors that explain the inverted lines: one stage or magnet inverts all three lines at once, but
-/// two inverted lines are two errors.
+/// Number of wiring errors that explain the inverted lines. One stage or magnet inverts all three lines at
+/// once: one error. Two inverted lines are two errors.
 int inversions(std::uint8_t inverted) { return inverted == 0b111 ? 1 : std::popcount(inverted); }
 
 constexpr rig::WireOrder wire_orders[] = {rig::WireOrder::abc, rig::WireOrder::bca, rig::WireOrder::cab,

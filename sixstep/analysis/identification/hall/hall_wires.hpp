@@ -26,9 +26,9 @@ PinCodes codes_behind(const HallWires& wires);
 
 /// All wirings that show these codes, the simplest first: fewest inverted lines (three inverted lines count
 /// as one, because one stage inverts them), then probes 120 degrees apart, then each line at its own pin. The
-/// codes alone do not distinguish these wirings, and the table for a drive is the same. If 000 and 111 never
-/// occur, the first wirings have probes 120 degrees apart and no line or all lines inverted. Each order of
-/// codes that three lines can show has exactly one wiring of this kind.
+/// codes do not distinguish these wirings, and the table for a drive is the same. If 000 and 111 never occur,
+/// the first wirings have probes 120 degrees apart and no inverted line or three. Each possible order of
+/// codes of three lines has exactly one such wiring.
 std::vector<HallWires> wires_behind(const PinCodes& codes);
 
 }  // namespace sixstep::analysis

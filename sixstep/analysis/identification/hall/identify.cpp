@@ -17,12 +17,12 @@ namespace {
 
 constexpr double sector_deg = 60.0;
 
-/// Weights of the effects in a result, which is a weighted sum of them.
+/// Weights of the effects in a result, which is a weighted sum of the effects.
 class Weights {
  public:
   explicit Weights(const EdgeEffects& effects) : effects_(effects), values_(effects.count()) {}
 
-  /// The mean of all edges' places.
+  /// The mean angle of all edges.
   Weights& mean(double factor) {
     for (std::size_t n = 0; n < effects_.own; ++n) place(n, factor / static_cast<double>(effects_.own));
     return *this;
@@ -54,7 +54,7 @@ base::Problem not_fixed() {
           .cure = "turn the shaft by more turns in one go"};
 }
 
-/// Number of whole sectors in an offset: beyond 30 degrees the next sector is nearer.
+/// Number of whole sectors in an offset, rounded to nearest.
 int whole_sectors(double offset_deg) {
   return static_cast<int>(std::floor((offset_deg + sector_deg / 2.0) / sector_deg));
 }
@@ -98,7 +98,7 @@ std::vector<EdgePassage> passages_of(const FoundMotion& motion, int shift) {
   return out;
 }
 
-/// A Problem if an edge of the shaft's turn is passed less than twice.
+/// A Problem if the rotor passes an edge of the shaft's turn less than twice.
 std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   for (const HallEdge& e : edges.edges) ++seen[repeating(e.boundary, own)];
@@ -112,8 +112,7 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
                        .cure = "turn the shaft by two turns and more in one go, or leave the pole pairs out"};
 }
 
-/// Counts sightings that contradict all others: edges, without those at reversals of the rotor, and voltage
-/// readings.
+/// Counts excluded sightings: edges, without the edges at reversals of the rotor, and voltage readings.
 void count_left_out(const FoundMotion& motion, std::size_t at_turns, HallIdentity& out) {
   std::size_t edges = 0;
   for (const Sighting& s : motion.sightings) {
@@ -173,7 +172,7 @@ void take_codes(const FoundMotion& motion, const MotionPosterior& posterior, Hal
   out.jitter_deg.low = 0.0;
 }
 
-/// The results that follow from the edges alone, without their uncertainty.
+/// The results that follow from the edges only, without uncertainties.
 HallIdentity counted(const HallLog& log, const HallEdges& edges) {
   return {.rows = log.t_s.size(),
           .seconds = log.t_s.back() - log.t_s.front(),
@@ -234,8 +233,8 @@ base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs, const Ke
   if (keep_going && !keep_going()) return base::Problem{"identify", "", "was interrupted", "start it again"};
   if (!found) return found;
   const double frequency_Hz = 1.0 / (6.0 * found->sector_s);
-  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // if pole_pairs is 1, the six edges are common to
-                                                            // all pairs
+  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // with pole_pairs 1, the six edges are the same
+                                                            // for all pairs
   base::Problems wrong = check_built_speed(frequency_Hz, known_pairs);
   if (wrong.empty() && found->place)
     wrong =

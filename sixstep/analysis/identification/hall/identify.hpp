@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Identifies a motor and its wires from a log of Hall lines and, if there are any, voltages: which line is
-// which, inverted or not, 60 or 120 degrees apart, the places of the edges and their jitter. Every result has
-// its uncertainty.
+// Identifies a motor and its wires from a log of Hall lines and, if recorded, voltages:
+// - which line is which, and which lines are inverted,
+// - whether the probes are 60 or 120 degrees apart,
+// - the angles of the edges and their jitter.
 //
-// Without voltages a log does not show the rotor's angle. Then three things stay unknown: which line is the
-// first, whether two lines are swapped or the rotor turned backwards, and the common offset of all edges. The
-// results are then places of the edges relative to each other, as if each line were at its own pin.
+// Every result has its uncertainty. Without voltages a log does not show the rotor's angle. Three things are
+// then unknown: which line is the first, whether two lines are swapped or the rotor turned backwards, and the
+// common offset of all edges. The results are then angles of the edges relative to each other, as if each
+// line were at its own pin.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -21,32 +23,32 @@
 
 namespace sixstep::analysis {
 
-/// Place of one of the repeating edges, relative to the mean of all of them: own[n] of model.md 10.
+/// Angle of one of the repeating edges, relative to the mean of all repeating edges: own[n] of model.md 10.
 struct IdentifiedEdge {
   std::uint8_t before = 0, after = 0;  ///< codes at the pins before and after the edge, turning forward
   Interval own_deg;                    ///< electrical degrees
-  std::size_t seen = 0;                ///< number of passages that count, without those left out or not used
+  std::size_t seen = 0;                ///< number of passages that are used
 };
 
 /// Results that need voltages.
 struct IdentifiedPlace {
   PinCodes codes{};                ///< codes at the pins, in sectors 0 to 5
   double probability = 0.0;        ///< probability that all six codes are right
-  double order_probability = 0.0;  ///< probability that the lines do not follow each other in the opposite
-                                   ///< direction
+  double order_probability = 0.0;  ///< probability that the lines' direction is not the opposite one
   std::vector<HallWires> wires;    ///< all wirings with these codes, the simplest first
   bool forward = true;             ///< direction of most of the log
-  /// Common offset of all edges, in the direction of positive angles. A log that turns in one direction only
-  /// cannot separate the offset from half the hysteresis and from the delay's path at the log's speed. The
-  /// value is then the sum of the three for that direction.
+  /// Common offset of all edges, in the direction of positive angles. If the log has one direction only, the
+  /// offset cannot be separated from half the hysteresis and from the delay's path at the log's speed. The
+  /// value is then the sum of the three for this direction.
   Interval offset_deg;
   double usual_speed_deg_s = 0.0;  ///< mean magnitude of the electrical speed at the edges
-  bool both_ways = false;  ///< the log turns both ways, so that the offset is separated from the hysteresis
-  /// Number of edges that do not count for the hysteresis, because the rotor reversed beyond them.
+  bool both_ways = false;          ///< true: the log has both directions, which separates the offset from the
+                                   ///< hysteresis
+  /// Number of edges that are not used for the hysteresis, because the rotor reversed beyond them.
   std::size_t at_turns = 0;
-  /// Given if the log turns both ways, and far enough between its reversals.
+  /// Present if the log has both directions, and enough edges between its reversals.
   std::optional<Interval> hysteresis_deg;
-  std::optional<Interval> delay_s;  ///< delay of the Hall lines behind the voltages; given if speeds differ
+  std::optional<Interval> delay_s;  ///< delay of the Hall lines behind the voltages; present if speeds differ
   Interval flux_linkage_Vs;         ///< peak of a phase's fundamental
   double explained = 0.0;           ///< fraction of the voltages' power that the rotor's motion explains
 };
@@ -55,8 +57,8 @@ struct IdentifiedPlace {
 struct EdgePassage {
   double t_s = 0.0, speed_deg_s = 0.0;  ///< electrical speed
   std::size_t edge = 0;                 ///< index in HallIdentity::edges
-  /// Distance from the edge's nominal place, including offset and own place; without voltages known except
-  /// for a constant.
+  /// Distance from the edge's nominal angle, including the offset and the edge's own deviation; without
+  /// voltages, except for an unknown constant.
   double place_deg = 0.0;
   bool left_out = false, begins = false;
 };
@@ -65,29 +67,28 @@ struct HallIdentity {
   std::size_t rows = 0;
   double seconds = 0.0, sector_s = 0.0;
   bool rows_are_changes = false;
-  std::size_t forward = 0, backward = 0;  ///< number of edges; without voltages counted as if each line were
-                                          ///< at its own pin
+  std::size_t forward = 0, backward = 0;  ///< number of edges; without voltages the direction is counted as
+                                          ///< if each line were at its own pin
   std::size_t glitches = 0, skipped = 0;  ///< as in hall_edges.hpp
   std::size_t left_out = 0;               ///< number of edges that contradict all others
   std::size_t voltages_left_out = 0;      ///< number of voltage readings that contradict all others
   std::size_t unused = 0;                 ///< number of edges after the first most_edges
-  std::uint8_t mask = 0;                  ///< the codes that never occur are this one and its complement
+  std::uint8_t mask = 0;                  ///< the code mask and its complement never occur
   double mask_probability = 0.0;
-  std::vector<IdentifiedEdge> edges;  ///< six edges, or six for each pole pair, counted from where the log
-                                      ///< began
-  /// Jitter of an edge from one passage to the next, rms. Without voltages it is only an upper bound, because
-  /// an unsteady rotor has the same effect.
+  std::vector<IdentifiedEdge> edges;  ///< six edges, or six for each pole pair, counted from the log's begin
+  /// Jitter of an edge from one passage to the next, rms. Without voltages it is an upper bound, because an
+  /// unsteady rotor has the same effect.
   Interval jitter_deg;
   std::optional<IdentifiedPlace> place;
   std::vector<EdgePassage> passages;
 };
 
 /// Identifies a motor. `pole_pairs` above 1: each edge of the shaft's turn, which needs voltages. 1: the six
-/// edges that all pole pairs share. If keep_going ends the work, the result is a Problem "was interrupted".
+/// edges that are common to all pole pairs. If keep_going ends the work, the result is a Problem "was
+/// interrupted".
 base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs = 1, const KeepGoing& keep_going = {});
 
-/// The pair that makes positive torque if the pins show a code: control::positive_pair() of the code's
-/// sector.
+/// The pair with positive torque while the pins show a code: control::positive_pair() of the code's sector.
 struct CodePair {
   std::uint8_t code = 0, sector = 0;
   control::Pair pair;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kalman's filter for an angle of which one derivative is white noise. One update applies to all columns that
-// are filtered together.
+// Kalman's filter for an angle whose second or third derivative is white noise. One update applies to all
+// columns that are filtered together.
 #pragma once
 #include <array>
 #include <cstddef>
 
 namespace sixstep::analysis {
 
-/// Angle, speed and further derivatives, up to the last one before the noise.
+/// Angle, speed and further derivatives below the derivative that is noise.
 template <std::size_t order>
 using MotionState = std::array<double, order>;
 
-/// Powers of a time over their factorials.
+/// Powers of a time divided by their factorials.
 template <std::size_t order>
 class Step {
  public:

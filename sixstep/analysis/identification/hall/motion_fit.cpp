@@ -9,7 +9,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Columns that are filtered together: the data, each effect, and each unknown of a stretch's beginning.
+/// Columns that are filtered together: the data, each effect, and each unknown of a stretch's begin.
 template <std::size_t order>
 class Columns {
  public:
@@ -21,8 +21,8 @@ class Columns {
     begin_stretch();
   }
 
-  /// Adds the stretch's sums of data and effects, with the unknowns of its beginning eliminated. A stretch
-  /// that is too short to eliminate them adds nothing.
+  /// Adds the stretch's sums of data and effects, with the unknowns of its begin eliminated. A stretch that
+  /// is too short for the elimination adds nothing.
   void end_stretch() {
     if (seen_ >= order) {
       Symmetric begin(order);

@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Logarithms of three unknowns: the angle's deviation from its course within a sector in degrees, the jitter
-/// in degrees, and the scale of the voltages' variance.
+/// Logarithms of three unknowns: the deviation of the angle from uniform motion within a sector, in degrees;
+/// the jitter in degrees; and the scale of the voltages' variance.
 using Place = std::array<double, 3>;
 
 struct Bounds {
@@ -28,7 +28,8 @@ class Likelihood {
   Likelihood(std::span<const Sighting> sightings, std::size_t effects, double sector_s, Smoothness smoothness,
              const KeepGoing& keep_going)
       : sightings_(sightings), effects_(effects), smoothness_(smoothness), keep_going_(keep_going) {
-    // Over a sector, noise of the n-th derivative makes an angle of this variance: T^(2n-1)/((2n-1) (n-1)!^2).
+    // Over a sector of the time T, noise of the n-th derivative causes this variance of the angle:
+    // T^(2n-1)/((2n-1) (n-1)!^2).
     const double T2 = sector_s * sector_s;
     stray2_ = smoothness == Smoothness::second ? T2 * sector_s / 3.0 : T2 * T2 * sector_s / 20.0;
   }
@@ -40,7 +41,7 @@ class Likelihood {
   Place place_of(const MotionNoise& n) const {
     return {0.5 * base::log(n.intensity * stray2_), base::log(n.jitter_deg), base::log(n.voltage_scale)};
   }
-  /// The fit at a place. It is also empty after keep_going has ended the work: then no place has a
+  /// The fit with the noise p. Also empty after keep_going has ended the work: no noise then has a
   /// likelihood, and every search ends.
   std::optional<MotionFit> fit_at(const Place& p) const {
     if (keep_going_ && !keep_going_()) return {};
@@ -69,7 +70,7 @@ struct Top {
   double height = none;
 };
 
-/// Climbs along each axis in turn, with steps that are halved if no step leads up.
+/// Climbs along each axis in turn. The step is halved if no step increases the likelihood.
 Top climbed(const Likelihood& likelihood, Top top, double first_step) {
   const std::size_t axes = likelihood.axes();
   for (double step = first_step; step > 0.04; step *= 0.5)
@@ -101,7 +102,8 @@ Top highest(const Likelihood& likelihood) {
   return top.height > none ? climbed(likelihood, top, 1.0) : top;
 }
 
-/// Distance along an axis at which the log likelihood has decreased by `enough`, or at which the bound lies.
+/// Distance along an axis at which the log likelihood has decreased by `enough`, at most the distance to the
+/// bound.
 double reach(const Likelihood& likelihood, const Top& top, std::size_t axis, double way, double enough) {
   const auto lost = [&](double step) {
     Place p = top.place;
@@ -145,7 +147,7 @@ std::optional<MotionPosterior> MotionPosterior::of(std::span<const Sighting> sig
                                                    double sector_s, const MotionNoise& likeliest,
                                                    const KeepGoing& keep_going) {
   constexpr int points = 9;
-  constexpr double enough = 5.0;  // exp(-5) of the maximum: what lies beyond has less than 0.2 %
+  constexpr double enough = 5.0;  // exp(-5) of the maximum: the region beyond contains less than 0.2 %
   const Likelihood likelihood(sightings, effects, sector_s, likeliest.smoothness, keep_going);
   const Place place = likelihood.place_of(likeliest);
   const Top top{place, likelihood.at(place)};
@@ -167,7 +169,8 @@ std::optional<MotionPosterior> MotionPosterior::of(std::span<const Sighting> sig
       std::optional<MotionFit> fit = likelihood.fit_at(p);
       if (!fit || !std::isfinite(fit->log_likelihood)) continue;
       const MotionNoise noise = likelihood.noise_at(p);
-      // Jeffreys's prior, over the logarithm of the deviation, of a variance that is added to a known one.
+      // Jeffreys's prior, over the logarithm of the deviation, of a variance that is added to the known
+      // variance.
       const double jitter2 = noise.jitter_deg * noise.jitter_deg;
       const double log_weight = fit->log_likelihood + base::log(jitter2 / (jitter2 + known));
       best = std::max(best, log_weight);
@@ -208,7 +211,7 @@ double MotionPosterior::probability(std::span<const double> weights, double low,
 }
 
 Interval MotionPosterior::jitter_deg() const {
-  // Each point represents its part of the axis. It is spread over that part, so that the steps do not show.
+  // Each point represents a part of the axis. A normal distribution over this part hides the steps.
   std::vector<Component> mixture;
   for (const Possible& p : all_)
     mixture.push_back({p.weight, base::log(p.noise.jitter_deg), 0.29 * jitter_step_});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes results as means over the unknown noise of a log. The freedom of the rotor's motion and the jitter
-// of its edges are unknown beforehand, and every result depends on both. Restricted likelihood estimates
-// both, and each result is the mean over all values that the log allows, with their weights. An interval for
-// the likeliest values alone would be too narrow for a short log.
+// Computes results as means over the unknown noise of a log. How freely the rotor moves and how much the
+// edges jitter is unknown beforehand, and every result depends on both. Restricted likelihood estimates both.
+// Each result is the mean over all values that the log allows, with their weights. An interval for only the
+// likeliest values would be too narrow for a short log.
 #pragma once
 #include <optional>
 #include <span>
@@ -17,7 +17,7 @@ namespace sixstep::analysis {
 /// sector, which only determines where the search begins. If no sighting is a voltage, the scale stays 1.
 std::optional<MotionNoise> likeliest_noise(std::span<const Sighting> sightings, std::size_t effects,
                                            double sector_s, const KeepGoing& keep_going = {});
-/// The likeliest noise, searched from a noise that was likely for nearly the same sightings.
+/// The likeliest noise. The search begins at `likely`, a noise that was likely for nearly the same sightings.
 MotionNoise likelier_noise(std::span<const Sighting> sightings, std::size_t effects, double sector_s,
                            const MotionNoise& likely, const KeepGoing& keep_going = {});
 
@@ -32,7 +32,7 @@ class MotionPosterior {
   Interval effects(std::span<const double> weights) const;
   /// Probability that this weighted sum lies in [low, high].
   double probability(std::span<const double> weights, double low, double high) const;
-  /// The interval begins at 0 if the log is explained as well without jitter.
+  /// The interval begins at 0 if a model without jitter explains the log equally well.
   Interval jitter_deg() const;
 
  private:

@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-// Costs: the logarithm of how much rarer an event is than the usual one. Their exact size has no influence on
-// results: a glitch that returns costs 3, a rotor that turned back twice 16.
+// Costs: the logarithm of an event's rarity relative to the usual event. Their exact size has no influence on
+// results: a glitch with return costs 3, a rotor that reversed twice costs 16.
 constexpr double step_cost = 0.1, turn_cost = 8.0, skip_cost = 6.0, lost_cost = 12.0, glitch_cost = 3.0,
                  glitch_cost_per_sector = 16.0;
 
@@ -33,8 +33,8 @@ double move_cost(std::size_t from, std::size_t to) {
 
 using Costs = std::array<double, states>;
 
-/// The cheapest path. For each state it finds the cheapest path that ends in this state, and the state before
-/// it.
+/// The cheapest path. For each state, the function finds the cheapest path that ends in this state, and the
+/// state before it.
 std::vector<Whereabouts> cheapest(const std::vector<Stay>& stays, std::uint8_t mask, double sector_s) {
   std::array<Costs, states> moves;
   for (std::size_t to = 0; to < states; ++to)
@@ -66,7 +66,7 @@ std::vector<Whereabouts> cheapest(const std::vector<Stay>& stays, std::uint8_t m
   return way;
 }
 
-/// Median time in a sector of that path, s; of an even count the longer one of the two.
+/// Median time in a sector of this path, s; of an even count the longer of the two middle times.
 double usual_sector_s(const std::vector<Stay>& stays, const std::vector<Whereabouts>& way) {
   std::vector<double> times;
   double from_s = stays.front().came_before_s;
@@ -86,7 +86,7 @@ double usual_sector_s(const std::vector<Stay>& stays, const std::vector<Whereabo
 RotorPath likeliest_way(const std::vector<Stay>& stays, std::uint8_t mask) {
   if (stays.empty()) return {};
   RotorPath way{cheapest(stays, mask, 0.0), 0.0};  // the first search ignores the lengths of glitches,
-                                                   // because it is to find the usual time in a sector
+                                                   // because it determines the usual time in a sector
   way.sector_s = usual_sector_s(stays, way.at_stays);
   if (way.sector_s > 0.0) way.at_stays = cheapest(stays, mask, way.sector_s);
   return way;

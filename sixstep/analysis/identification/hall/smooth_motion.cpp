@@ -19,8 +19,8 @@ struct Passed {
   MotionGain<order> gain;
 };
 
-/// Filters one stretch forward from its likeliest beginning, then smooths it backward (P. de Jong, "Smoothing
-/// and interpolation with the state-space model", J. Amer. Statist. Assoc. 84, 1989).
+/// Filters one stretch forward from its likeliest begin, then smooths it backward (P. de Jong, "Smoothing and
+/// interpolation with the state-space model", J. Amer. Statist. Assoc. 84, 1989).
 template <std::size_t order>
 class Stretch {
  public:
@@ -40,7 +40,7 @@ class Stretch {
     return x;
   }
 
-  /// Least squares with known effects: a second pass of the filter, with the unknowns of the beginning as
+  /// Least squares with known effects: a second pass of the filter, with the unknowns of the begin as
   /// columns.
   MotionState<order> find_begin() {
     NormalEquations equations(order);
@@ -97,7 +97,7 @@ class Stretch {
     }
   }
 
-  /// r is the information about the state from this sighting and all later ones; N is its precision.
+  /// r is the information about the state from this sighting and all later sightings; N is its precision.
   void back(std::vector<MotionPoint>& points) const {
     MotionState<order> r{};
     std::array<std::array<double, order>, order> N{};
@@ -123,7 +123,7 @@ class Stretch {
     points.insert(points.end(), out.begin(), out.end());
   }
 
-  /// r = H'u + r with u = v/F - K'r; N = H'H/F + (I - K H)' N (I - K H). Returns u over its deviation.
+  /// r = H'u + r with u = v/F - K'r; N = H'H/F + (I - K H)' N (I - K H). Returns u divided by its deviation.
   static double take(const Passed<order>& p, MotionState<order>& r,
                      std::array<std::array<double, order>, order>& N) {
     double u = p.innovation / p.gain.F, D = 1.0 / p.gain.F;

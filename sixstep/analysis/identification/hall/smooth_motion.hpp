@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates a rotor's angle over time from sightings of it, together with effects that are the same in all
-// sightings (places of the edges, hysteresis, delay). The rotor is turned by hand, by a drill or by its own
-// drive.
+// Estimates a rotor's angle over time from sightings of the rotor, together with effects that are the same in
+// all sightings (angles of the edges, hysteresis, delay). A hand, a drill or the motor's own drive turns the
+// rotor.
 //
-// Model: the angle's second or third derivative is white noise, the weakest assumption for a shaft that
-// someone turns. The best estimate between sightings is then a spline whose stiffness follows from the data
+// Model: the angle's second or third derivative is white noise, the weakest assumption for a shaft that a
+// person turns. The best estimate between sightings is then a spline whose stiffness follows from the data
 // (G. Wahba, "Improper priors, spline smoothing and the problem of guarding against model errors in
 // regression", J. R. Statist. Soc. B 40, 1978). Every sighting is
 //
 //   says = angle(t) + sum of its effects + noise
 //
-// Kalman's filter follows the angle. The effects and the unknown beginning of each stretch are further
-// columns of the filter (P. de Jong, "The diffuse Kalman filter", Ann. Statist. 19, 1991). They need no
-// prior, and their likelihood is the restricted one.
+// Kalman's filter follows the angle. The effects and the unknown begin of each stretch are further columns of
+// the filter (P. de Jong, "The diffuse Kalman filter", Ann. Statist. 19, 1991). These unknowns need no prior,
+// and their likelihood is the restricted likelihood.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -37,15 +37,16 @@ struct Effect {
 
 struct Sighting {
   double t_s = 0.0;         ///< rising within a stretch
-  double says_deg = 0.0;    ///< angle read, electrical degrees
-  double known_deg2 = 0.0;  ///< variance through sampling
+  double says_deg = 0.0;    ///< measured angle, electrical degrees
+  double known_deg2 = 0.0;  ///< variance by sampling
   bool is_edge = true;      ///< true: jitter adds to known_deg2; false: a voltage, whose known_deg2 is scaled
-  bool begins = false;      ///< the path since the sighting before is unknown, so that a stretch begins
-  bool left_out = false;    ///< the sighting contradicts all others
+  bool begins = false;      ///< true: a stretch begins, because the path since the sighting before is unknown
+  bool left_out = false;    ///< true: excluded, because the sighting contradicts all others
   std::array<Effect, 4> effects{};  ///< a factor of 0 means no effect
 };
 
-/// Which derivative of the angle is white noise: second for torques that jump, third for torques that bend.
+/// Derivative of the angle that is white noise: second for torques that jump, third for torques that change
+/// continuously.
 enum class Smoothness : std::uint8_t { second = 2, third = 3 };
 
 struct MotionNoise {
@@ -76,8 +77,8 @@ std::optional<MotionFit> fit_motion(std::span<const Sighting> sightings, std::si
 /// The rotor's motion at the time of a sighting, estimated from all sightings.
 struct MotionPoint {
   double t_s = 0.0, angle_deg = 0.0, speed_deg_s = 0.0;
-  /// Difference between the sighting and the estimate from all others, over its standard deviation; 0 if it
-  /// was left out.
+  /// Difference between the sighting and the estimate from all other sightings, divided by its standard
+  /// deviation; 0 if the sighting is excluded.
   double surprise = 0.0;
   bool begins = false;
 };
@@ -93,7 +94,7 @@ class MotionPath {
     double angle_deg = 0.0, speed_deg_s = 0.0;
   };
   /// Angle and speed at a time in s. Empty before, after and between the stretches. Fast for times close to
-  /// the last requested one.
+  /// the time of the last call.
   std::optional<At> at(double t_s) const;
   const std::vector<MotionPoint>& points() const { return points_; }
 

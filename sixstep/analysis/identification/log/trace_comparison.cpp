@@ -22,7 +22,7 @@ const Values* values_of(const study::Trace& trace, const std::string& column) {
 }
 
 /// The value of a column at a time; at a jump, the value after it. Empty beyond the column's ends, and if a
-/// row holds no number.
+/// row contains no number.
 std::optional<double> value_at(const Values& t_s, const Values& values, double t) {
   const auto next = static_cast<std::size_t>(std::upper_bound(t_s.begin(), t_s.end(), t) - t_s.begin());
   if (next == 0) return {};
@@ -123,14 +123,14 @@ std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study:
 
 /// Geometric mean of the columns' rms, relative to their scales. This is the likelihood if the accuracy of
 /// each column is unknown. A column that fits at no shift, such as a duty that acts a period later, then does
-/// not outweigh one that fits. Empty if a shift leaves too few rows to compare, because such a shift would
-/// win.
+/// not outweigh a column that fits. Empty if a shift has too few common rows, because such a shift would have
+/// the least rms.
 struct Apart {
   double rms = 0.0;
-  bool within_steps = true;  ///< no column differs by more than its log's step
+  bool within_steps = true;  ///< true: no column's rms exceeds the step of its log
 };
 std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, std::size_t every) {
-  // The rms that a log's step alone causes, 1/sqrt(12) of the step.
+  // Rms caused by a log's step: 1/sqrt(12) of the step.
   constexpr double rms_of_a_step = 0.28867513459481287, least_part = 1e-6;
   double logs = 0.0;
   Apart out;
@@ -148,7 +148,7 @@ std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, 
 }  // namespace
 
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s) {
-  // The difference has many minima if a current ripples. Therefore the search uses a grid, and then finer
+  // The difference has many minima if a current ripples. The search therefore uses a grid, and then finer
   // grids around the best value.
   constexpr int asked_values = 4000, times_finer = 10, grids = 4;
   constexpr double counts = 1e-3, much_less = 0.9;

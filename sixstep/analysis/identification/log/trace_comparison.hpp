@@ -21,38 +21,38 @@ struct TraceComparison {
 };
 
 /// Compares each column that both traces have, except the time. `shift_s` is added to the log's times. A
-/// column without a common row is left out.
+/// column without a common row is omitted.
 std::vector<TraceComparison> trace_comparison(const study::Trace& simulated, const study::Trace& log,
                                               double shift_s);
 
-/// Least number of rows of a comparison: with one row alone every difference may be 0.
+/// Least number of rows of a comparison: with a single row every difference may be 0.
 inline constexpr std::size_t fewest_compared = 5;
 
-/// The shift in s within +-`most_s` with the least difference of all columns together. A board's clock needs
-/// it, because it starts some time after power-on. The difference is the geometric mean of the columns' rms.
-/// Each rms is a fraction of the column's span or, if that is greater, of the least step of its log.
+/// The shift in s within +-`most_s` with the least difference over all columns. A board's clock needs a shift
+/// because it starts some time after power-on. The difference is the geometric mean of the columns' rms. Each
+/// rms is a fraction of the column's span or, if it is greater, of the least step of the column's log.
 ///
-/// The search uses a grid of `step_s`, then finer ones; of thousands of rows it uses only some. The result is
-/// 0 if a shift gains too little: less than a thousandth of the spans, a tenth of the difference, or the
-/// log's own steps.
+/// The search uses a grid of `step_s`, then finer grids; of thousands of rows it uses a part. The result is 0
+/// if the shift reduces the difference by too little: by less than a thousandth of the spans, a tenth of the
+/// difference, or the log's own steps.
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s);
 
 /// Shift in s for a clock that counts from midnight or from power-on: minus the first row's time if no row
 /// lies in the simulated time, else 0.
 double start_shift_s(const study::Trace& simulated, const study::Trace& log);
 
-/// The compared columns, and the left-out columns with the reason.
+/// The compared columns, and the omitted columns with the reason.
 struct Overlay {
   std::vector<TraceComparison> columns;
   struct LeftOut {
     std::string column, reason;
   };
   std::vector<LeftOut> left_out;
-  std::size_t rows = 0, inside = 0;  ///< rows of the log, and those of them in the simulated time
+  std::size_t rows = 0, inside = 0;  ///< rows of the log; rows within the simulated time
 };
 
-/// trace_comparison() of the columns with enough rows. A Problem if no column has enough; `name` is the log's
-/// name.
+/// trace_comparison() of the columns with enough rows. A Problem if no column has enough rows; `name` is the
+/// log's name.
 base::Result<Overlay> overlay(const std::string& name, const study::Trace& simulated, const study::Trace& log,
                               double shift_s);
 
