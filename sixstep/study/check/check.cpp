@@ -185,9 +185,9 @@ void check_linear(const Scenario& s, base::Problems& out) {
                    "give the load as the motor's slide feels it"});
 }
 
-base::Problems check(const Scenario& s) {
+base::Problems check(const Scenario& s, std::size_t known_events) {
   // The checks below compute with the numbers. A number out of range would make their results meaningless.
-  if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
+  if (base::Problems absurd = check_numbers(s, known_events); !absurd.empty()) return absurd;
   base::Problems out;
   std::optional<design::MotorModel> model;
   if (const auto motor = design::motor_model(s.sheet)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // check() finds contradictions in a scenario before the run.
 #pragma once
+#include <cstddef>
+
 #include "sixstep/base/problem.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
@@ -10,7 +12,9 @@ namespace sixstep::study {
 /// range. Otherwise they are contradictions: contradictory gains, a motor sheet that lacks a needed quantity,
 /// steps out of order, a bus capacitor without a source resistance. `where` is the key's path:
 /// "control.current.d1".
-base::Problems check(const Scenario& scenario);
+///
+/// `known_events`: the first events of `at` whose numbers were checked before; a session adds one to thousands.
+base::Problems check(const Scenario& scenario, std::size_t known_events = 0);
 
 /// Returns a problem for each named column that the mode does not have, because a file would contain no
 /// number in this column. A program may record such columns.

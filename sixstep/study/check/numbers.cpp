@@ -18,8 +18,8 @@ constexpr std::size_t most_told = 5;
 /// Checks each number against its allowed range.
 class Numbers final : public base::Visitor {
  public:
-  explicit Numbers(const Scenario& s)
-      : modes_(modes_from(s)), reference_unit_(reference_unit(s.control.mode)) {}
+  Numbers(const Scenario& s, std::size_t known_events)
+      : modes_(modes_from(s)), known_events_(known_events), reference_unit_(reference_unit(s.control.mode)) {}
 
   base::Problems found;
 
@@ -48,7 +48,7 @@ class Numbers final : public base::Visitor {
   }
   void visit_list(std::string_view key, base::ListMember& items, const base::About&) override {
     const std::string_view at_start = reference_unit_;
-    for (std::size_t n = 0; n < items.size(); ++n) {
+    for (std::size_t n = key == events_list ? known_events_ : 0; n < items.size(); ++n) {
       if (key == events_list) reference_unit_ = reference_unit(modes_[n]);
       within(std::string(key) + "[" + std::to_string(n) + "]", [&] { items.walk(n, *this); });
     }
@@ -78,14 +78,15 @@ class Numbers final : public base::Visitor {
 
   std::string path_;
   std::vector<control::Mode> modes_;  ///< the mode after each event
+  std::size_t known_events_;
   std::string_view reference_unit_;
 };
 
 }  // namespace
 
-base::Problems check_numbers(const Scenario& s) {
+base::Problems check_numbers(const Scenario& s, std::size_t known_events) {
   Scenario described = s;  // a copy, because descriptions also serve readers, which write the members
-  Numbers numbers(s);
+  Numbers numbers(s, known_events);
   describe(numbers, described);
   return std::move(numbers.found);
 }

@@ -240,7 +240,7 @@ base::Result<double> Session::change(At at) {
   at.time_s = when.seconds();
   Scenario candidate = *s.scenario;
   candidate.at.push_back(std::move(at));
-  if (base::Problems problems = check(candidate); !problems.empty()) return problems;
+  if (base::Problems problems = check(candidate, s.scenario->at.size()); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(candidate);
   if (!compiled) return compiled.problems();
   if (compiled->general && !s.compiled->general)
