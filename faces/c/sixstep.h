@@ -202,7 +202,8 @@ SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t 
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
 /* SIXSTEP_CHIP_GATES: advances to the next edge of a comparator for the back-EMF, or to to_s if none comes before.
  * The comparator's input is the voltage of the terminal of leg 0, 1 or 2, minus the mean of the three terminal voltages.
- * At an edge, the input rises above level_V, or falls to level_V or below. Two changes within 1/16 of a control period can remain undetected. */
+ * At an edge, the input rises above level_V, or falls to level_V or below. Two changes within 1/16 of a control period
+ * can remain undetected. */
 SIXSTEP_API sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s);
 
 /* Converter counts of the board at the present instant, with offsets, gain errors and noise

@@ -26,8 +26,8 @@ Exit told_interrupted(const std::string& what, const std::string& kept = "");
 /// The exit code of work that continues until it is interrupted: returns `exit` unchanged.
 Exit ended_as_asked(Exit exit);
 
-/// The exit code of a verb that has returned. An interrupted verb never returns success, because its result
-/// may be incomplete. This function reports the interrupt if the verb has not reported it.
+/// The exit code of a verb that has returned. After an interrupt it is never success, because the result may
+/// be incomplete. Also reports the interrupt if the verb has not.
 Exit exit_after_stop(Exit exit);
 
 }  // namespace cli
