@@ -129,7 +129,7 @@ class Environment {
 
  private:
   static constexpr std::uint64_t between_looks =
-      1000;  ///< number of periods between two checks for Ctrl-C, which simulate a millisecond
+      1000;  ///< number of periods between two checks for Ctrl-C; they take about a millisecond of computing
 
   static study::Session opened(const study::Scenario& scenario, Exchange& exchange) {
     const Opening commanded(exchange);

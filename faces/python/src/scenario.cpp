@@ -43,7 +43,7 @@ HeldScenario read(const std::string& name, std::string source, const Settings& s
   return {std::move(scenario), std::move(controller)};
 }
 
-/// A tuple for each key: the key, its value as TOML, and whether the value is the key's default.
+/// A tuple for each key: the key, its value as TOML, and whether omitting the key gives the same value.
 std::vector<std::tuple<std::string, std::string, bool>> values(const HeldScenario& held) {
   std::vector<std::tuple<std::string, std::string, bool>> out;
   for (text::WrittenValue& value : text::scenario_values(held.scenario))
