@@ -92,7 +92,8 @@ TEST(SheetOfCurve, TheMarginBelowTheLineIsThatOfTheCommutations) {
   EXPECT_EQ(verdict(s, "nominal speed"), RelationVerdict::doubted);
 }
 
-/// The top speed of a speed loop's test leaves torque for the test's load, also where the torque constant is 8 % larger.
+/// At the top speed of a speed loop's test, enough torque remains for the test's load, even if the torque
+/// constant is 8 % larger.
 TEST(SheetOfCurve, TheTestSpeedIsReachedAgainstItsLoad) {
   for (const double L_mH : {0.5, 2.1, 8.4}) {
     Sheet s = motor(design::BackEmfShape::trapezoid, L_mH, 4, 300);

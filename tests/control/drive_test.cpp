@@ -127,7 +127,7 @@ TEST(Drive, CascadeRunsOuterToInnerFromOneSample) {
   b.measured.speed_rad_s = 5.0;
   b.tick(20.0);
   EXPECT_EQ(b.telemetry.speed_reference_rad_s, 20.0);                      // 2 * (20 - 10)
-  EXPECT_EQ(b.telemetry.current_reference_A, 0.01 * (20.0 - 5.0) * 20.0);  // in the same tick
+  EXPECT_EQ(b.telemetry.current_reference_A, 0.01 * (20.0 - 5.0) * 20.0);  // computed in the same tick
   EXPECT_EQ(b.telemetry.duty, b.telemetry.current_reference_A / 24.0);
 }
 
