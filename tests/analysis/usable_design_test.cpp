@@ -147,7 +147,8 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   const double soonest = 1.0135e-3 * 35.5 / 0.195;
   EXPECT_GT(*usual->design.spec.settle_s, soonest);
   for (const design::Warning& w : usual->warnings) EXPECT_NE(w.of, design::Concern::settling) << w.what;
-  // With a settling time that is too short, the run is still long enough to show the real one, and the advice is a slower loop.
+  // If the settling time is too short, the run is still long enough to show the actual settling time, and the
+  // advice is a slower loop.
   order.spec.settle_s = 0.037;
   order.advises = true;
   const auto hasty = study_design(order);

@@ -57,7 +57,7 @@ TEST(Contest, CopperLossIsThatOfTheTorque) {
   EXPECT_GE(gauge(field, Gauge::copper), sine_W);
   const double thd = gauge(field, Gauge::distortion);
   EXPECT_LE(gauge(field, Gauge::copper),
-            1.01 * sine_W * (1 + thd * thd));  // harmonics only heat
+            1.01 * sine_W * (1 + thd * thd));  // harmonics cause heat but no mean torque
   const double pair_A = gauge(six, Gauge::mean_torque) / m.K_t_Nm_A;
   EXPECT_GE(gauge(six, Gauge::copper), 2 * m.machine.R_ohm * pair_A * pair_A);
 }

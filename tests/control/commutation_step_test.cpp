@@ -31,7 +31,8 @@ double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double 
   // If the source stays, the sink leaves: its current flows out of the motor into the upper diode.
   const bool was_sink = staying == pair.source;
   v[at(leaving)] =
-      was_sink ? (1 + overlap) * U : overlap * U;  // its lower or its upper switch opposes the rail
+      was_sink ? (1 + overlap) * U : overlap * U;  // its lower or upper switch is connected to the opposite
+                                                   // rail
   e[at(leaving)] = was_sink ? -E_V : E_V;
   double star = 0.0;
   for (std::size_t k = 0; k < 3; ++k) star += (v[k] - e[k]) / 3;

@@ -6,7 +6,6 @@
 // - the reference: i_q and, with field weakening, at most weakening_A;
 // - the least current within the voltage circle, (|E| - V)/|Z|;
 // - a margin, the change by the whole voltage until the next answer acts, (n + 1) T V/L.
-// field weakening, at most weakening_A.
 #include <gtest/gtest.h>
 
 #include <algorithm>
