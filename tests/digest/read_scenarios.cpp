@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_scenarios FILE..: reads scenarios from their texts, as a page in a browser does, runs them, and prints name, digest of the
-// trajectory and number of segments. It needs sixstep/ and the readers of text/, without a file system: this program passes the texts.
+// read_scenarios FILE..: reads scenarios from texts, as a page in a browser does, and runs them. Prints name,
+// digest of the trajectory and number of segments. The readers need sixstep/ and text/, but no file system:
+// this program passes the texts.
 #include <cstdio>
 #include <memory>
 #include <optional>
