@@ -34,7 +34,7 @@ void draw_levels(Draw& draw, Reference& r, const Scenario& s, const Scales& of, 
   }
 }
 
-/// An instant on a tick, in the middle of a period, a picosecond next to a tick, or anywhere.
+/// An instant at a tick, in the middle of a period, a picosecond after a tick, or anywhere.
 double instant(Draw& draw, const Scenario& s) {
   const double period = s.pwm.period_s, any = draw.between(0.0, 0.95) * s.duration_s;
   const double tick = static_cast<double>(static_cast<int>(any / period)) * period;

@@ -30,7 +30,7 @@ Examined examine_drawn(std::uint64_t seed);
 /// One damaged text: read, checked, and run for a while if it is accepted.
 Examined examine_hostile(std::uint64_t seed);
 
-/// The text of either, for inspection.
+/// The text of either case, for inspection.
 std::string drawn_text(std::uint64_t seed);
 std::string hostile_text(std::uint64_t seed);
 

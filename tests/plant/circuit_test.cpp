@@ -49,9 +49,8 @@ TEST(Circuit, FloatingTerminalShowsTheStarPointAndItsEmf) {
 }
 
 TEST(Circuit, FreeStarPointLiesSymmetrically) {
-  // Conduction without a connected leg starts when max e - min e exceeds U_s + 2 V_f: both rails are reached
-  // Without a connected leg, conduction starts when max e - min e exceeds U_s + 2 V_f. Both rails are then
-  // reached at the same time.
+  // Without a connected leg, conduction starts when max e - min e exceeds U_s + 2 V_f. The upper and the
+  // lower rail are then reached at the same time.
   const PerLeg<double> e{20.0, -12.0, 3.0};
   const PerLeg<double> u =
       pole_voltages({floating, floating, floating}, pole_table<double>(real), 24.0, {}, e);

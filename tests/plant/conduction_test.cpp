@@ -168,7 +168,8 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
   Held<> back(setup, all_off());
   ASSERT_EQ(ahead.run_to(20e-3), Stop::end);
   ASSERT_EQ(back.run_to(20e-3), Stop::end);
-  // Two trajectories start eps apart in angle; the solver's accuracy bounds their distance later.
+  // The two trajectories start with angles that differ by eps. The solver's accuracy bounds their difference
+  // later.
   EXPECT_NEAR(back.state().w, -ahead.state().w, 1e-12 * 900.0);
   EXPECT_NEAR(back.state().i[0], ahead.state().i[0], 1e-10 * 10.0);
   EXPECT_NEAR(back.state().i[1], ahead.state().i[2], 1e-10 * 10.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive that detects its rotor by pulses, in a scenario: a wheel hub motor whose rotor is
-// salient and saturates, from many angles; the round 251601, which pulses cannot detect; and the refusals.
+// The sensorless drive that detects its rotor by pulses, in a scenario. A wheel hub motor with a salient
+// rotor and iron that saturates starts from many angles; pulses cannot detect the round rotor of 251601. The
+// refusals are tested too.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ using ::testing::HasSubstr;
 
 constexpr int pairs = 15;
 
-/// The library's hub with the two inductances of its sheet, and iron that saturates at 40 A.
+/// The motor library's hub motor with two inductances in its sheet, and iron that saturates at 40 A.
 Scenario hub(double electrical_deg, double speed_rad_s) {
   Scenario s;
   s.sheet.name = "hub";
@@ -68,7 +69,7 @@ double step_of(const Compiled& compiled, const std::string& symbol) {
 
 using Firmware = rig::SensorlessDrive<double>;
 
-/// Runs until the pulses are over.
+/// Runs until the pulses have ended.
 void run_pulses(GeneralRig<Firmware>& rig) {
   sim::NoObserver none;
   bool began = false;
@@ -80,8 +81,8 @@ void run_pulses(GeneralRig<Firmware>& rig) {
   FAIL() << "no pulses";
 }
 
-/// The bounds are the design's: the angle by five times the noise, the rotation by the sum of impulses, the
-/// signals by the block's measurement.
+/// The bounds come from the design: the angle by five times the noise, the rotation by the sum of impulses,
+/// the signals by the block's measurement.
 TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
   double worst_off = 0, worst_turn = 0, most_off = 0, most_turn = 0;
   for (double deg = 2.5; deg < 360; deg += 7.5) {
@@ -105,7 +106,7 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
     EXPECT_LT(std::fabs(off), most_off + most_turn)
         << deg << ": it is asked over all the rounds, while it turns";
     EXPECT_LT(std::fabs(turned), most_turn) << deg;
-    // The chip measures its noise: 48 readings give that variance to a fifth.
+    // The chip measures its noise: 48 readings determine the variance within a fifth.
     EXPECT_NEAR(found.north_16 / 16.0, step_of(*compiled, "north"), 0.25 * step_of(*compiled, "north"))
         << deg;
     EXPECT_GE(found.north_16 / 16.0, 6.0);
