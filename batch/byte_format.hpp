@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes values as bytes, equal on every processor. Whole numbers and doubles take eight bytes, the least
-// significant first. Texts and lists follow their length. A double keeps its bits, also NaN.
+// Writes values as bytes that are equal on every processor. A whole number or a double takes eight bytes, the
+// least significant byte first. A text or list begins with its length. All bits of a double are kept, also of
+// a NaN.
 #pragma once
 #include <bit>
 #include <cstddef>
@@ -33,7 +34,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads the bytes of a ByteWriter. Reading fails beyond the end or at an impossible length; after that
+/// Reads the bytes of a ByteWriter. Reading fails beyond the end or at an impossible length. After a failure,
 /// nothing more is read.
 class ByteReader {
  public:
@@ -54,7 +55,7 @@ class ByteReader {
   template <class T, class Read>
   std::vector<T> list(Read read) {
     std::vector<T> list;
-    // Every entry has at least eight bytes. A longer list than fits is refused, so that an impossible length
+    // Every entry has at least eight bytes. A length that exceeds the remaining bytes is refused, so that it
     // reserves no memory.
     const std::uint64_t length = whole();
     if (length > rest_.size() / 8) failed_ = true;

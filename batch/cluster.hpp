@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a plan's runs with several processes on one or more machines. The first process leads: it reads,
-// distributes run numbers, keeps the rows, prints and writes. The others make runs and send rows; they open
-// no file. The transport of messages is exchangeable: MPI in batch/ranks.hpp, threads in the tests.
+// Makes a plan's runs with several processes on one or more machines. The first process, the leader, reads,
+// distributes run numbers, stores the rows, prints and writes. The other processes make runs and send rows;
+// they open no file. The transport of messages is exchangeable: MPI in batch/ranks.hpp, threads in the tests.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -21,14 +21,14 @@ struct Mail {
 struct Cluster {
   unsigned rank = 0;  ///< 0 is the leader
   unsigned size = 1;
-  /// Sends a message (a letter) without blocking. Letters arrive in the order in which they were sent.
+  /// Sends a message without blocking. Messages arrive in the order in which they were sent.
   std::function<void(unsigned to, std::string bytes)> send;
-  /// Returns the next letter, if one has arrived.
+  /// Returns the next message, if one has arrived.
   std::function<std::optional<Mail>()> receive;
 };
 
-/// The leader's data on the plan for the other processes: bytes that only the command line programs
-/// interpret.
+/// The leader's data about the plan for the other processes: bytes that only the command-line program
+/// interprets.
 struct Briefing {
   std::string made_of;
   /// Answers the other processes' questions during the work, on the leading thread.
@@ -36,8 +36,8 @@ struct Briefing {
 };
 
 /// run_plan() with the help of the other processes. Rows arrive in any order; `take` is called as in
-/// run_plan(). If `jobs` is 0, each process has one thread for runs. Returns false if a process ended without
-/// notice; no function may then wait for that process.
+/// run_plan(). If `jobs` is 0, each process has one thread for runs. Returns false if a process ended
+/// unexpectedly; then no function may wait for this process.
 bool lead_plan(Cluster& cluster, const PlanRuns& runs, const Briefing& briefing);
 
 /// Ends the other processes with this exit code.
@@ -46,8 +46,8 @@ void dismiss(Cluster& cluster, int exit);
 /// Sends a question to the leader, from any thread, and waits for the answer.
 using Ask = std::function<std::string(std::string question)>;
 
-/// The work of a process that does not lead: plan after plan, until the leader dismisses it. Returns the
-/// leader's exit code. `prepare` makes from a briefing the function that turns a number into a run. If
+/// The work of a process that is not the leader: plan after plan, until the leader dismisses it. Returns the
+/// leader's exit code. `prepare` returns, for a briefing, the function that returns the run of a number. If
 /// `told_to_end` returns true, the process starts no more runs and waits for the dismissal.
 using Prepare = std::function<decltype(PlanRuns::scenario)(const std::string& made_of,
                                                            const analysis::Plan& plan, Ask ask)>;

@@ -24,11 +24,11 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Pause between two checks for letters, so that waiting does not occupy a core.
+/// Pause between two checks for messages, so that waiting does not occupy a core.
 constexpr milliseconds follower_pause{2};
-/// Time between two letters with rows. If a process is killed, the rows made since its last letter are lost.
+/// Time between two messages with rows. If the process is killed, the rows since its last message are lost.
 constexpr milliseconds rows_every{50};
-/// Runs kept in reserve, in seconds of work at the pace since the last request. Longer runs are requested one
+/// Runs kept in reserve, as seconds of work at the rate since the last request. Longer runs are requested one
 /// by one.
 constexpr double ahead_s = 0.25;
 constexpr double most_ahead = 4096;
@@ -75,7 +75,7 @@ class Hand {
       try {
         make_runs(runs, runs.jobs, [this] { return next(); });
       } catch (const PlanEnded&) {
-        // The rows of runs in progress are not sent; `open_` lists these runs.
+        // Rows of runs in progress are not sent; `open_` lists these runs.
       } catch (...) {
         error = std::current_exception();
       }
@@ -115,7 +115,7 @@ class Hand {
     ++made_;
   }
 
-  // Functions for the thread that exchanges letters:
+  // Functions for the thread that exchanges messages:
 
   void take(const letters::Letter& letter) {
     const std::lock_guard lock(guard_);
@@ -146,7 +146,7 @@ class Hand {
     moved_.notify_all();
   }
 
-  /// Sends the pending letters, or pauses.
+  /// Sends the pending messages, then pauses.
   void speak() {
     std::unique_lock lock(guard_);
     for (const letters::Question& question : std::exchange(questions_, {})) send(question);
@@ -206,8 +206,8 @@ int follow(Cluster& cluster, const Prepare& prepare, const std::function<bool()>
     if (const auto* begin = std::get_if<letters::Begin>(&letter)) {
       if (const std::optional<int> exit = Hand(cluster, *begin).work(prepare, told_to_end)) return *exit;
     } else if (const auto* runs = std::get_if<letters::Runs>(&letter))
-      // The leader sent these numbers before it knew that this process has left the plan, so that they are
-      // returned.
+      // The leader sent these numbers before it received the notice that this process has left the plan. They
+      // are returned.
       cluster.send(0, letters::bytes_of(letters::Gone{runs->numbers}));
   }
 }

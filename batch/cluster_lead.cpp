@@ -20,19 +20,19 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Pause between two checks for letters, so that waiting does not occupy a core.
+/// Pause between two checks for messages, so that waiting does not occupy a core.
 constexpr milliseconds pause{1};
-/// Longest wait for the other processes' end, because mpirun kills the processes a second after its request
-/// to end.
+/// Longest wait for the end of the other processes. mpirun kills processes a second after its request to end.
 constexpr milliseconds patience{500};
 
-/// The remaining runs, and the number of runs that other processes have. Any thread may call it.
+/// The runs that remain, and the number of runs that other processes have received. Any thread may call its
+/// functions.
 class Handout {
  public:
   explicit Handout(const PlanRuns& runs) : runs_(runs), count_(analysis::runs_of(runs.plan)) {}
 
-  /// Gives out at most `most` of the remaining runs, but no more than a fair share, so that all processes end
-  /// at about the same time.
+  /// Returns numbers of remaining runs for one process: `idle` runs, and up to `ahead` more within a fair
+  /// share, so that all processes end at about the same time.
   std::vector<std::uint64_t> hand_out(std::uint64_t idle, std::uint64_t ahead, std::uint64_t processes) {
     const std::lock_guard lock(guard_);
     const std::uint64_t part = (count_ - cursor_ + returned_.size()) / (2 * processes);
@@ -52,8 +52,8 @@ class Handout {
     returned_.insert(returned_.end(), unmade.begin(), unmade.end());
     moved_.notify_all();
   }
-  /// Gives a run to the leader's own threads. Waits while other processes have runs, because one of these may
-  /// be returned.
+  /// Returns a run for the leader's threads. Waits while other processes have runs, because a run may be
+  /// returned.
   std::optional<std::size_t> next() {
     std::unique_lock lock(guard_);
     while (!over_ && !runs_.stop.stop_requested()) {
@@ -91,7 +91,7 @@ class Handout {
   bool over_ = false;
 };
 
-/// The leader's own threads. They are ended and joined if the leader's other work fails.
+/// The leader's threads. They are ended and joined if another part of the leader's work fails.
 class Crew {
  public:
   Crew(const PlanRuns& runs, Handout& handout) : handout_(handout), thread_([this, runs] { work(runs); }) {}
@@ -125,7 +125,7 @@ class Crew {
   Handout& handout_;
   std::exception_ptr error_;
   std::atomic<bool> done_{false};
-  std::jthread thread_;  // last member, because it uses the others
+  std::jthread thread_;  // last member, because the thread uses the other members
 };
 
 class Leader {
@@ -185,10 +185,10 @@ class Leader {
     handout_.came_back(0, gone.unmade);
   }
   template <class Other>
-  void take(unsigned, Other&) {}  // a process never sends the leader a letter of the leader's own kinds
+  void take(unsigned, Other&) {}  // a process never sends the leader a message of the leader's kinds
 
-  /// Gives runs to the processes that have requested some. A process that gets none stays registered, because
-  /// a run may be returned.
+  /// Sends runs to the processes that have requested runs. A process for which no run remains stays in
+  /// hungry_, because a run may be returned.
   void feed() {
     for (auto one = hungry_.begin(); one != hungry_.end();) {
       const auto& [rank, hunger] = *one;

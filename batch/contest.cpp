@@ -13,10 +13,10 @@
 namespace batch {
 namespace {
 
-/// Number of rows of a trace: it suffices for a curve over the width of a page.
+/// Number of rows of a trace: enough for a curve over the width of a page.
 constexpr double rows_of_a_trace = 1500;
 
-/// Runs the nominal drive, and keeps the rows for the drawing.
+/// Runs the nominal drive, and stores the rows for the drawing in `trace`.
 base::Result<study::Outcome> traced(study::Scenario scenario, const std::stop_token& stop,
                                     analysis::ContestTrace& trace) {
   const double periods =
@@ -36,7 +36,7 @@ base::Result<study::Outcome> traced(study::Scenario scenario, const std::stop_to
   return study::run(scenario, listeners);
 }
 
-/// Runs an entry through the low speeds, from the highest down.
+/// Runs a drive through the low speeds, from the highest of them down.
 std::optional<double> lowest_of(const study::Scenario& scenario, const analysis::ContestBench& bench,
                                 const std::stop_token& stop) {
   const study::Listeners listeners{.keep_going = [&stop](double) { return !stop.stop_requested(); },

@@ -16,23 +16,22 @@ struct ContestOrder {
   unsigned jobs = 0;  ///< number of threads; 0: one per core
   analysis::UnitOfKey unit_of{};
   std::function<void(std::size_t done)>
-      progress{};          ///< gets the number of finished runs, of nominal_runs() or of the drives; called
-                           ///< from any thread
-  std::stop_token stop{};  ///< ends the work early; the result is then meaningless
+      progress{};          ///< receives the number of finished runs, of nominal_runs() or of the drives;
+                           ///< called from any thread
+  std::stop_token stop{};  ///< ends the work early; the result is then not valid
 };
 
-/// Number of nominal runs. Each entry has two: on the course, and through the low speeds
+/// Number of nominal runs. Each controller has two runs: on the course, and through the low speeds
 /// (analysis::slow_scenario).
 std::size_t nominal_runs(std::size_t controllers);
 
-/// Runs each entry nominally, with a trace of the course. The drives within the tolerances are run by
-/// run_drives().
+/// Runs each entry nominally, with a trace of the course. run_drives() runs the drives within the tolerances.
 analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<analysis::ContestEntry> entries,
                                     const ContestOrder& order);
 
-/// Makes the runs of all drives of the entries that can run, numbered as in the contest's plan, and passes
-/// each row to `take`, from any thread. Drives for which `has` returns true are skipped, because their rows
-/// exist. Drive n has the same deviations for all entries.
+/// Runs all drives of the entries that can run, numbered as in the contest's plan, and passes each row to
+/// `take`, from any thread. Drives for which `has` returns true are skipped, because their rows exist. Drive
+/// n has the same deviations for all entries.
 void run_drives(const analysis::Contest& contest, const ContestOrder& order,
                 const std::function<bool(std::size_t number)>& has,
                 const std::function<void(analysis::RunRecord&&)>& take);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the messages (letters) between the processes of a cluster, and each letter as bytes
-// (batch/byte_format.hpp).
+// Defines the messages (struct names and Letter) between the processes of a cluster, and converts each
+// message to bytes and back (batch/byte_format.hpp).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace batch::letters {
 
-// Letters from the leader:
+// Messages from the leader:
 
 /// Begins a plan.
 struct Begin {
@@ -24,7 +24,7 @@ struct Begin {
   std::uint64_t jobs = 1;  ///< number of threads of each process
   std::string made_of;     ///< Briefing::made_of
 };
-/// Numbers of the runs that the receiver has to make.
+/// Numbers of the runs that the receiver must make.
 struct Runs {
   std::vector<std::uint64_t> numbers;
 };
@@ -38,14 +38,14 @@ struct Dismissed {
   std::uint64_t exit = 0;
 };
 
-// Letters to the leader:
+// Messages to the leader:
 
-/// Finished rows without their points, which follow from the plan. The leader joins them with its columns.
+/// Finished rows without their points, which the leader computes from the plan. The leader adds its columns.
 struct Rows {
   std::vector<analysis::RunValues> rows;
 };
-/// The sender requests more work: `idle` threads have no run, and `ahead` more runs would keep all threads
-/// busy for the next moment.
+/// Requests more runs: `idle` threads have no run, and `ahead` further runs would keep all threads busy for a
+/// moment.
 struct Hungry {
   std::uint64_t idle = 0, ahead = 0;
 };
@@ -53,7 +53,7 @@ struct Question {
   std::uint64_t number = 0;
   std::string bytes;
 };
-/// The sender will send no more rows of this plan. It has not made the runs `unmade`.
+/// The sender sends no more rows of this plan. It has not made the runs `unmade`.
 struct Gone {
   std::vector<std::uint64_t> unmade;
 };
@@ -61,7 +61,7 @@ struct Gone {
 using Letter = std::variant<Begin, Runs, Answer, End, Dismissed, Rows, Hungry, Question, Gone>;
 
 std::string bytes_of(const Letter& letter);
-/// Reads a letter. Empty if the bytes are not exactly one letter.
+/// Reads a message. Empty if the bytes are not exactly one message.
 std::optional<Letter> read(std::string_view bytes);
 
 }  // namespace batch::letters

@@ -20,11 +20,13 @@ namespace {
 using analysis::FigureColumn;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Value of a point that could not run, or of a figure without a value. It is worse than any measurable miss.
+/// Distance for a point that could not run, or for a figure without a value. It exceeds every measurable
+/// distance.
 constexpr double hopeless = 1e3;
-constexpr double close = 1e-3;  ///< precision of the search, relative to a limit's size and to a range
+constexpr double close = 1e-3;  ///< precision of the search, relative to a limit's magnitude and to a range
 
-/// Distance by which a figure exceeds its limits, relative to their size; negative within the limits.
+/// Distance by which a figure exceeds its limits, relative to the limit's magnitude; negative within the
+/// limits.
 double beyond(const FigureColumn& f, double x) {
   if (!(x - x == 0.0)) return hopeless;
   double miss = -hopeless;
@@ -37,8 +39,9 @@ double beyond(const FigureColumn& f, double x) {
 struct Evaluated {
   std::vector<std::string> point;
   std::vector<double> at, figures;  ///< coordinates of the point, 0 to 1; figures of its worst drive
-  double cost = none;  ///< the figure to minimise, relative to its size at the first point that has it
-  std::vector<double> misses;  ///< one value of beyond() per requirement
+  double cost = none;  ///< the figure to be minimised, relative to its magnitude at the first point with a
+                       ///< value
+  std::vector<double> misses;  ///< one value of beyond() for each requirement
   double worst() const {
     return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end());
   }
@@ -100,9 +103,9 @@ class Search {
     return made;
   }
 
-  /// Evaluates the drives of a point. Each figure is that of its worst drive. For a required figure, this is
-  /// the drive nearest to the limit or farthest beyond it; for the minimised figure, the drive with the
-  /// largest value.
+  /// Evaluates the drives of a point. The value of each figure is the value of the worst drive. For a
+  /// required figure, the worst drive is closest to the limit or farthest beyond it. For the minimised
+  /// figure, the worst drive has the largest value.
   const Evaluated& evaluate(const std::vector<double>& u) {
     auto e = std::make_unique<Evaluated>();
     e->at = u;
@@ -184,9 +187,8 @@ class Search {
     nlopt_calls()->set_xtol_abs(o, tolerance.data());
     nlopt_calls()->set_maxeval(o, static_cast<int>(4 * w_.evaluations));
     double least = 0.0;
-    const nlopt_result how = nlopt_calls()->optimize(
-        o, u.data(), &least);  // the result is not used, because the best of all tried points
-                               // is taken, however the search ended
+    // `how` does not select the result: the best of all tried points is the result.
+    const nlopt_result how = nlopt_calls()->optimize(o, u.data(), &least);
     converged_ = !ended() && (how == NLOPT_XTOL_REACHED || how == NLOPT_FTOL_REACHED || how == NLOPT_SUCCESS);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the best point of a plan's ranges: the least value of one figure while every drive meets every
-// requirement. It uses NLopt's COBYLA, which needs no gradients of the limits (M. J. D. Powell 1994, S. G.
-// Johnson). Figures of a switching simulation have no useful gradients.
+// Finds the best point in a plan's ranges: the least value of one figure at which every drive meets every
+// requirement. Uses NLopt's COBYLA (M. J. D. Powell 1994, S. G. Johnson), which needs no gradients: figures
+// of a switching simulation have no useful gradients.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -24,11 +24,11 @@ struct Optimisation {
   /// The drive of a point. Several threads may call it at the same time.
   std::function<base::Result<analysis::PlannedRun>(const std::vector<std::string>& point, std::size_t drive)>
       scenario;
-  /// A stored row, if there is one. Its number is the evaluation times the number of drives, plus the drive.
-  /// It is used only if its point is the wanted one.
+  /// A stored row, if there is one. `number` is the number of the evaluation times the number of drives, plus
+  /// the number of the drive. The row is used only if its point is the evaluated point.
   std::function<std::optional<analysis::RunRecord>(std::size_t number)> known;
-  std::function<void(analysis::RunRecord&&)> take;        ///< gets each new row, from any thread
-  std::function<void(std::size_t evaluations)> progress;  ///< gets the number of points tried so far
+  std::function<void(analysis::RunRecord&&)> take;        ///< receives each new row, from any thread
+  std::function<void(std::size_t evaluations)> progress;  ///< receives the number of points tried so far
   std::stop_token stop;
   unsigned jobs = 0;
 };
@@ -36,9 +36,10 @@ struct Optimisation {
 /// The Problem of a machine on which NLopt cannot be loaded.
 base::Problems missing_optimiser();
 
-/// Runs the search. Requires missing_optimiser() to be empty. Half of the points, but at most ten per key, are spread evenly over the ranges; then
-/// COBYLA continues from the best of them. The same input gives the same path with any number of threads.
-/// Empty if the search was stopped before its first point was complete, or if no point could run.
+/// Runs the search. Requires missing_optimiser() to be empty. Half of the points, but at most ten per key, are
+/// spread evenly over the ranges. Then COBYLA continues from the best of these points. The same input gives the
+/// same sequence of points with any number of threads. Empty if the search was stopped before its first point
+/// was complete, or if no point could run.
 std::optional<analysis::Optimum> optimise(const Optimisation& work);
 
 }  // namespace batch

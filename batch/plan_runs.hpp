@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a plan's runs on all cores. Each run equals the same run made alone, to the bit, because runs share
-// nothing.
+// Makes a plan's runs on all cores. Each run is equal, to the bit, to the same run made alone, because runs
+// share no data.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -20,11 +20,11 @@ struct PlanRuns {
   analysis::TableColumns columns;
   /// The scenario of run n; Problems become the run's row. Several threads call it at the same time.
   std::function<base::Result<analysis::PlannedRun>(std::size_t n)> scenario;
-  /// Whether run n is required; empty: all runs are. Several threads call it at the same time.
+  /// Whether run n is to be made; empty: all runs are. Several threads call it at the same time.
   std::function<bool(std::size_t n)> wanted;
   /// Receives each row when its run ends, in any order; several threads call it at the same time.
   std::function<void(analysis::RunRecord&&)> take;
-  std::stop_token stop;  ///< also ends the runs in progress, which then leave no row
+  std::stop_token stop;  ///< also ends the runs in progress, which then return no row
   unsigned jobs = 0;     ///< number of threads; 0: one per core
 };
 
@@ -34,14 +34,14 @@ std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& colu
                                               const base::Result<analysis::PlannedRun>& planned,
                                               const std::stop_token& stop);
 
-/// Like row_of_run(), for one run of the plan.
+/// Calls row_of_run() for one run of the plan.
 std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n);
 
 /// Makes all wanted runs. An exception that one of the functions throws is rethrown here.
 void run_plan(const PlanRuns& runs);
 
-/// Makes the runs that `next` returns, on `threads` threads, until it returns none or the work is stopped.
-/// Each thread calls `next`, which may block. Exceptions as in run_plan().
+/// Makes the runs that `next` returns, on `threads` threads, until `next` returns none or the work is
+/// stopped. Each thread calls `next`, which may block. Exceptions are handled as in run_plan().
 void make_runs(const PlanRuns& runs, unsigned threads,
                const std::function<std::optional<std::size_t>()>& next);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joins the cluster that mpirun or srun starts. Uses MPI if the build has it (SIXSTEP_MPI); without it, a
-// process that is one of several reports a Problem. MPI belongs to a process, not to an object, so that each
-// function is called only once.
+// Joins the cluster that mpirun or srun starts. Uses MPI if the build contains it (SIXSTEP_MPI). Without MPI,
+// a process of several reports a Problem. A process can initialise MPI only once, so each function is called
+// only once.
 #pragma once
 #include <string>
 
@@ -21,7 +21,7 @@ Started started();
 base::Result<Cluster> join_ranks();
 
 /// The last call of a process: waits until all processes have called it. Without this call, mpirun considers
-/// the process lost and ends the others.
+/// the process lost and ends the other processes.
 void part();
 
 }  // namespace batch

@@ -20,7 +20,7 @@ unsigned named(const char* name, unsigned otherwise) {
 Started started() {
   if (const unsigned size = named("OMPI_COMM_WORLD_SIZE", 0)) return {named("OMPI_COMM_WORLD_RANK", 0), size};
   if (const unsigned size = named("PMI_SIZE", 0)) return {named("PMI_RANK", 0), size};
-  // Slurm's count alone does not show a cluster, because the script of a job has it too.
+  // Slurm's count of tasks alone does not indicate a cluster, because it is also set for the script of a job.
   if (std::getenv("PMIX_RANK") != nullptr) return {named("PMIX_RANK", 0), named("SLURM_STEP_NUM_TASKS", 1)};
   return {};
 }

@@ -12,7 +12,7 @@
 namespace batch {
 namespace {
 
-/// Keeps outgoing letters, because MPI reads a letter's bytes until the letter has been sent.
+/// Stores outgoing messages: MPI reads the bytes of a message until the message has been sent.
 class Outbox {
  public:
   void send(unsigned to, std::string bytes) {
@@ -21,7 +21,7 @@ class Outbox {
     MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, static_cast<int>(to), 0,
               MPI_COMM_WORLD, &letter.request);
   }
-  /// Removes the letters that have been sent. Returns whether none is left.
+  /// Removes the messages that have been sent. Returns whether none is left.
   bool sweep() {
     for (auto letter = letters_.begin(); letter != letters_.end();) {
       int gone = 0;
@@ -36,7 +36,7 @@ class Outbox {
     std::string bytes;
     MPI_Request request;
   };
-  std::list<Letter> letters_;  // a list, because the letters must not move in memory
+  std::list<Letter> letters_;  // a list, because the messages must not move in memory
 };
 
 Outbox& outbox() {
@@ -62,7 +62,7 @@ std::optional<Mail> receive() {
 
 base::Result<Cluster> join_ranks() {
   if (started().size <= 1) return Cluster{};
-  // The provided level of thread support does not matter, because only one thread calls MPI.
+  // The provided level of thread support is ignored, because only one thread calls MPI.
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   int rank = 0, size = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a solver is from the float128 trajectories of tests/reference.
+// Compares a solver with the float128 trajectories of tests/reference.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace benchmarks {
 
-/// Largest differences of phase currents and speed, as shares of their largest values.
+/// Largest errors of phase currents and speed, relative to the largest current and speed.
 struct Errors {
   double current = 0.0, speed = 0.0;
 };
 
-/// `at(t_s)` takes the solver to each row's time, in order, and returns i_a, i_b, i_c and speed; rows behind
-/// `until_s` are not judged. NaN where the file cannot be read.
+/// `at(t_s)` advances the solver to each row's time, in order, and returns i_a, i_b, i_c and speed. Rows
+/// after `until_s` are not compared. NaN if the file cannot be read.
 template <class At>
 Errors errors_against(const std::string& file_name, At&& at,
                       double until_s = std::numeric_limits<double>::infinity()) {
@@ -44,7 +44,8 @@ Errors errors_against(const std::string& file_name, At&& at,
   return {error.current / largest.current, error.speed / largest.speed};
 }
 
-/// A fixed-step solver's; its reference turns its sign at every `reverse_s`, where that is above zero.
+/// The errors of a fixed-step solver. If `reverse_s` is above zero, the sign of its reference is reversed
+/// every `reverse_s`.
 template <class Solver>
 Errors fixed_step_errors(Solver& motor, double step_s, double reference, double reverse_s,
                          const std::string& file_name, double until_s) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A series of 1000 drives (R6, parameters as in data/scenarios/current-square-series.toml) on 1, 2, ..
-// threads, in wall time: how nearly linear the batch is over the cores. Real machines are shared and clock
-// down when busy, so each thread count is also held against as many single batches side by side, one per
-// thread, and the processor time of a drive is shown: where that does not grow, the threads cost each other
-// nothing. Medians.
+// Measures the wall time of a series of 1000 drives (R6, parameters as in
+// data/scenarios/current-square-series.toml) on 1, 2, .. threads, to show how the speed of a batch scales
+// with the cores. Machines are shared, and their clock frequency decreases under load. Therefore each number
+// of threads is compared with the same number of single-threaded batches that run at the same time. The
+// processor time per drive is shown too: if it does not increase, the threads do not slow each other down.
+// Values are medians.
 //
 //   build/dev/benchmarks/batch_benchmark --benchmark_repetitions=9
 #include <benchmark/benchmark.h>
@@ -31,7 +32,7 @@ sixstep::study::Scenario series() {
   return *scenario;
 }
 
-/// The digests of all, in whatever order: their sum.
+/// The sum of the digests of all drives. It does not depend on their order.
 std::uint64_t digests(const sixstep::study::Scenario& scenario, std::size_t count, unsigned jobs) {
   const sixstep::analysis::Plan plan{.axes = {}, .drives = count};
   const sixstep::analysis::TableColumns columns = sixstep::analysis::columns_of(plan, scenario);
@@ -57,7 +58,7 @@ void run_batch(benchmark::State& state, unsigned jobs) {
       benchmark::Counter(drives * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-/// What the machine itself gives: the same work without anything in common, `threads` times.
+/// The reference for the machine: the same work `threads` times, without shared data.
 void run_apart(benchmark::State& state, unsigned threads) {
   const sixstep::study::Scenario scenario = series();
   for (auto _ : state) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cases whose cost is measured, ready to run without a file system in the loop.
+// The measured cases, read before the timed loop.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,14 +18,15 @@ inline constexpr double period_s = 30e-6;
 struct Case {
   const char* name;
   const char* scenario;
-  const char* trajectory;  ///< of tests/reference; empty: none
+  const char* trajectory;  ///< file in tests/reference; empty: none
   YardstickMode mode;
-  double reference, reverse_s;  ///< of the yardsticks: sign turned at every reverse_s where > 0
-  double judged_s;              ///< accuracy up to here
+  double reference, reverse_s;  ///< of the yardsticks; the sign of the reference is reversed every reverse_s,
+                                ///< if above 0
+  double judged_s;              ///< the errors are computed up to this time
 };
 
-/// R6 has a Hall edge 0.25 us behind the tick at 13.26 ms, which a fixed step puts before or behind it by
-/// chance.
+/// In R6, a Hall edge is 0.25 us after the tick at 13.26 ms. With a fixed step, the edge is before or after
+/// the tick by chance.
 inline constexpr Case cases[] = {
     {"R2 voltage run-up", "reference/R2.toml", "R2.csv", YardstickMode::duty, 1.0, 0.0, 1.0},
     {"R3 soft chopping", "reference/R3.toml", "R3.csv", YardstickMode::duty, 0.5, 0.0, 1.0},
@@ -33,7 +34,7 @@ inline constexpr Case cases[] = {
     {"7.4 speed cascade", "thesis/7.4-speed-thesis-gains.toml", "", YardstickMode::speed, 100.0, 0.0, 0.0},
 };
 
-/// What the general kernel alone runs: no yardstick has it.
+/// Cases that only the general kernel can run, and no yardstick.
 inline constexpr Case wider_cases[] = {
     {"G1 delta", "reference/G1.toml", "G1.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
     {"G6 salient rotor", "reference/G6.toml", "G6.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
@@ -44,7 +45,7 @@ inline std::string trajectory_file(const Case& c) {
   return std::string(SIXSTEP_SOURCE_DIR "/tests/reference/") + c.trajectory;
 }
 
-/// Empty where the files cannot be read; a duration above zero replaces the scenario's.
+/// Reads a case. Empty if the files cannot be read. A duration above zero replaces the scenario's duration.
 inline std::optional<sixstep::study::Scenario> read(const Case& c, double duration_s) {
   auto scenario = files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/data/scenarios/") + c.scenario, {});
   if (!scenario) return std::nullopt;
@@ -52,18 +53,19 @@ inline std::optional<sixstep::study::Scenario> read(const Case& c, double durati
   return std::move(*scenario);
 }
 
-/// A case for the engine. Copies of `rig()` start from rest; they look at this, which must live on.
+/// A case, compiled for the engine. The rigs that rig() returns start at rest. They refer to this object,
+/// which must outlive them.
 class Prepared {
  public:
   using Rig = sixstep::rig::LeanRig<double>;
 
   using GeneralRig = sixstep::study::GeneralRig<sixstep::rig::LeanDrive<double>>;
 
-  /// Empty where the files cannot be read.
+  /// Empty if the files cannot be read.
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
     return of(c, duration_s, false);
   }
-  /// The same for general_rig().
+  /// The same for general_rig(), on the general kernel.
   static std::optional<Prepared> on_general(const Case& c) { return of(c, 0.0, true); }
   Rig rig() const {
     const auto& c = compiled_;
@@ -80,7 +82,7 @@ class Prepared {
   static std::optional<Prepared> of(const Case& c, double duration_s, bool on_general) {
     auto scenario = read(c, duration_s);
     if (!scenario) return std::nullopt;
-    if (on_general) {  // straight wires, asked for in an event: only the general kernel can cross them
+    if (on_general) {  // an event sets straight wires: only the general kernel supports this event
       sixstep::study::At straight;
       straight.bridge.phases = sixstep::study::AtOrder::abc;
       scenario->at.push_back(straight);

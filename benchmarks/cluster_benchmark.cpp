@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the leader of a cluster does for each row that another process made, beside simulating: reads it from a letter, and puts it
-// into the store. One over the rate is the time of a core that a row takes there, and so what bounds the rows of all nodes together
-// (docs/howto/use-a-cluster.md). Rows are those of data/scenarios/current-square-series.toml: four strayed values, two figures.
+// Measures the leader's work for each row from another process of a cluster: it reads the row from a message
+// and writes it into the store. The inverse of the rate is the processor time per row, which limits the rate
+// of rows of all nodes together (docs/howto/use-a-cluster.md). The rows are those of
+// data/scenarios/current-square-series.toml: four values of the spread, two figures.
 //
 //   build/dev/benchmarks/cluster_benchmark
 #include <benchmark/benchmark.h>
@@ -63,7 +64,7 @@ void read_rows(benchmark::State& state) {
   state.SetLabel(std::to_string(bytes.size() / rows_at_once) + " bytes a row");
 }
 
-/// With the writer's thread; the clock is the processor's, of all threads.
+/// Includes the writer's thread: the time is the processor time of all threads.
 void store_rows(benchmark::State& state) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("sixstep_rows_" + std::to_string(::getpid()) + ".sqlite"))

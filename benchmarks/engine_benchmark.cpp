@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine, on either kernel, beside two textbook programs on the same cases, in one binary, in CPU time, without
-// observers; and the engine over ten times the time. Counters: seconds per PWM period, simulated seconds per second, and
-// the largest error of a phase current as a share of its peak. tools/performance.py makes the README's table
-// of it.
+// Measures the engine with either kernel and two textbook programs on the same cases, in one binary, in CPU
+// time, without observers. Also measures the engine over ten times the duration. Counters: seconds per PWM
+// period, simulated seconds per second, and the largest error of a phase current relative to the current's
+// peak. tools/performance.py writes the README's table from the results.
 //
 //   build/dev/benchmarks/engine_benchmark
 #include <benchmark/benchmark.h>
@@ -29,7 +29,7 @@ void report(benchmark::State& state, double simulated_s) {
   state.counters["simulated"] = benchmark::Counter(done, benchmark::Counter::kIsRate);
 }
 
-/// Computed once: a benchmark is called several times until its time is long enough.
+/// The error is computed once, because a benchmark is called several times until its time is long enough.
 template <class Compute>
 void report_error(benchmark::State& state, const Case& c, const std::string& name, Compute&& compute) {
   static std::map<std::string, double> known;
@@ -51,7 +51,7 @@ Errors engine_errors(Rig rig, const Case& c) {
       c.judged_s);
 }
 
-/// `rig_of` takes one of Prepared, at rest.
+/// `rig_of` returns a rig of a Prepared, at rest.
 template <class RigOf>
 void run_engine(benchmark::State& state, const std::optional<Prepared>& prepared, RigOf&& rig_of) {
   if (!prepared) return state.SkipWithError("the scenario cannot be read");
@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
     register_yardstick<Rk4Tuned>(c, "tuned 0.1 us", 100);
   }
   for (const Case& c : wider_cases) benchmark::RegisterBenchmark(label(c, "general").c_str(), run_general, c);
-  // Longer by ten: the cost per period must not know.
+  // Ten times the duration: the cost per period must not depend on it.
   for (const Case& c : {cases[0], cases[1]}) {
     benchmark::RegisterBenchmark(label(c, "1 s").c_str(), run_lean, c, 1.0);
     benchmark::RegisterBenchmark(label(c, "10 s").c_str(), run_lean, c, 10.0);

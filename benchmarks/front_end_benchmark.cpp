@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the board's analogue front end costs, in one binary and in CPU time: a board that has none (one branch per segment), beside
-// the same rig compiled without any, and boards that have its parts. Soft chopping at half duty from rest, 0.1 s.
+// Measures the cost of the board's analogue front end, in one binary and in CPU time: a board without a front
+// end (one branch per segment), the same rig compiled without it, and boards with its parts. Soft chopping at
+// half duty from rest, 0.1 s.
 //
 //   build/dev/benchmarks/front_end_benchmark --benchmark_enable_random_interleaving=true --benchmark_repetitions=20
 #include <benchmark/benchmark.h>
@@ -14,7 +15,7 @@ namespace {
 using namespace sixstep;
 
 using Sensed = rig::SensedDrive<double>;
-/// A rig looks for converters: it finds none.
+/// A rig calls registers() if it exists. Deleted, the rig has no converters.
 struct WithoutConverters : Sensed {
   using Sensed::Sensed;
   void registers() = delete;
@@ -28,7 +29,7 @@ struct Capturing : Looking {
   void captured_crossing(std::uint8_t, const sim::Instant&) {}
 };
 
-/// maxon EC 45 flat 251601 on 24 V.
+/// A rig with the maxon EC 45 flat 251601 at 24 V.
 template <class Firmware>
 rig::Rig<double, Firmware> rig_with(const rig::FrontEndConfig& front_end) {
   rig::BoardConfig board;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several motors' numbers in one register, as a scalar for the plant's templates: GCC's and clang's vector
-// extension with the conversions that a scalar has. Of the benchmarks only; the library has pairs (series/nodes.hpp).
+// The values of several motors in one register, as a scalar type for the plant's templates: the vector
+// extension of GCC and clang, with a scalar's conversions. Used only in the benchmarks; the library has pairs
+// (series/nodes.hpp).
 #pragma once
 #include <cstddef>
 #include <type_traits>

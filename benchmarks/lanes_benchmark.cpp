@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What SIMD lanes would still gain for batches: the Taylor recurrence of one motor beside that of 2, 4 and 8
-// independent motors in the lanes of a vector, segment after segment, each from the end of the one before.
-// The lanes go in lockstep, as real runs do not: each has its own events, its own legs connected and its own
-// degree. So this is an upper bound, and of the recurrence alone.
+// Measures the possible gain of SIMD lanes for batches: the Taylor recurrence of one motor, and of 2, 4 and 8
+// independent motors in the lanes of a vector, segment after segment, each from the end of the previous
+// segment. All lanes have the same segments and the same degree, which real runs do not have: each run has
+// its own events, connected legs and degree. The result is therefore an upper bound, and only for the
+// recurrence.
 //
-// Built once with the project's flags and, on x86-64, once more for AVX2 and AVX-512:
+// It is built with the project's flags and, on x86-64, also for AVX2 and AVX-512:
 //   build/dev/benchmarks/lanes_benchmark{,_avx2,_avx512}
 #include <benchmark/benchmark.h>
 
@@ -24,11 +25,11 @@ using plant::Connection;
 using plant::detail::FlatPair;
 using plant::detail::TwoCurrents;
 
-/// In R6 a segment lasts 13 us and takes 7.5 orders on average.
+/// In R6, a segment lasts 13 us and needs a degree of 7.5 on average.
 constexpr int degree = 8;
 constexpr double length_s = 13e-6;
 
-/// The reference motor (maxon 251601) at 24 V; motor n has n per cent more resistance.
+/// The reference motor (maxon 251601) at 24 V. Motor n has n per cent more resistance.
 template <class Real>
 plant::Constants<Real> motors(std::size_t width) {
   plant::Constants<Real> c{};
@@ -41,8 +42,8 @@ plant::Constants<Real> motors(std::size_t width) {
   return c;
 }
 
-/// Sector 0, phase a on the upper switch, b on the lower; with c on a diode two currents flow. On the ramp of
-/// c the back-EMF falls from 1 to -1 over 60 degrees.
+/// Sector 0, with phase a on the upper switch and b on the lower switch. If c conducts through a diode, two
+/// currents are independent. In this sector, the back-EMF of c falls from 1 to -1 over 60 degrees.
 struct Segment {
   plant::Mode mode;
   explicit Segment(bool all_legs)
@@ -77,7 +78,7 @@ struct Motor {
   template <class Currents>
   [[gnu::noinline]] void take_segment(const Segment& segment) {
     using namespace plant::detail;
-    y.x[0] = Real(0.3);  // every segment begins at the same place of the sector
+    y.x[0] = Real(0.3);  // every segment begins at the same angle in the sector
     const plant::LegsLaw<Real> law = plant::legs_law(segment.mode.legs, {}, constants.R, constants.inv_L);
     const Rotor<Real> rotor(constants, segment.mode.motion);
     Currents currents(rotor, constants, law, ShapeLine<false, Real>(segment.emf<Real>(), y.x[0]));
@@ -98,7 +99,7 @@ struct Motor {
       (take_order(std::integral_constant<int, n>{}), ...);
     }
     (std::make_integer_sequence<int, degree>{});
-    // To the segment's end; the currents shrink so that they stay where they are in the many segments.
+    // Advances to the segment's end. The factor 0.9 keeps the currents in their range over many segments.
     for (auto& i : y.i) i[0] = Real(0.9) * end_of(i);
     y.w[0] = Real(0.9) * end_of(y.w) + Real(10.0);
   }
@@ -122,7 +123,7 @@ void run_lanes(benchmark::State& state, int width, bool all_legs) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-/// Lanes are worth nothing unless each is its motor alone, to the bit.
+/// Whether each lane gives the same bits as its motor alone. Otherwise lanes cannot be used.
 template <int width, template <class> class Currents>
 bool same_bits(bool all_legs) {
   const Segment segment(all_legs);

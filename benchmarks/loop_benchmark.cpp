@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a core beside the host costs: calls a second of whole runs in lock-step, emulators and compilers of ./test --target at hand.
+// Measures the cost of a core in parallel with the host: calls per second of whole runs in lock-step. Needs
+// the emulators and compilers of ./test --target.
 //
 //   build/dev/benchmarks/loop_benchmark
 #include <benchmark/benchmark.h>
@@ -16,7 +17,8 @@ namespace {
 
 using namespace sixstep;
 
-/// The emulator is started beforehand, once per run: a core starts as its drive does.
+/// Runs the scenario on the core. The emulator is started before each run and is not timed, because the core
+/// is in the state of its start.
 void lock_step(benchmark::State& state, const loop::Core& core, const char* file) {
   const base::Result<study::Scenario> scenario =
       files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/tests/target/scenarios/") + file,
@@ -44,9 +46,9 @@ void lock_step(benchmark::State& state, const loop::Core& core, const char* file
 }  // namespace
 
 int main(int argc, char** argv) {
-  ::setenv("SIXSTEP_SOURCES", SIXSTEP_SOURCE_DIR, 0);  // no program beside it
+  ::setenv("SIXSTEP_SOURCES", SIXSTEP_SOURCE_DIR, 0);  // no installed sources are beside this program
   for (const loop::Core& core : loop::cores()) {
-    if (core.by_registers) continue;  // it is called for no entry
+    if (core.by_registers) continue;  // a whole chip is not called by the host
     for (const char* file : {"current.toml", "speed.toml", "product.toml"})
       benchmark::RegisterBenchmark((std::string(core.name) + "/" + file).c_str(),
                                    [&core, file](benchmark::State& state) { lock_step(state, core, file); })

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run without an observer and with those that every run has. In a file of their own: what else a file holds moves what the compiler
-// inlines of the engine, and with it the one figure that the others are compared with.
+// Measures a run without an observer, and a run with the observers of every run. They are in a separate file:
+// other code in the same file would change which functions of the engine the compiler inlines, and thereby
+// the figure with which all others are compared.
 #include "benchmarks/observers.hpp"
 #include "sixstep/plant/audit.hpp"
 #include "sixstep/study/measure/digest.hpp"

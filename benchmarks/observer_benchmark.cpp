@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each observer of a run costs, alone and all together as the program has them; and every case of
-// engine_benchmark as a user runs it, over ten seconds. tools/performance.py makes the table of docs/explanation/performance.md of it,
-// and the second lines of README's.
+// Measures the cost of each observer of a run, alone and all together as in the program. Also measures every
+// case of engine_benchmark as a user runs it, over ten seconds. tools/performance.py writes the table of
+// docs/explanation/performance.md and the second lines of the README's table from the results.
 //
 //   build/dev/benchmarks/observer_benchmark
 #include <benchmark/benchmark.h>
@@ -25,7 +25,7 @@ using namespace benchmarks;
 namespace study = sixstep::study;
 using sixstep::control::Mode;
 
-/// One figure over the whole run.
+/// An observer that measures one figure over the whole run.
 study::Figures figure(const Prepared& p, const study::Measure& measure) {
   study::Scenario s = p.scenario();
   s.require.clear();
@@ -34,8 +34,9 @@ study::Figures figure(const Prepared& p, const study::Measure& measure) {
   return study::Figures(s, study::reference_levels(s));
 }
 
-/// One of each kind: an integral, an extreme, crossings of a band, harmonics, powers, edges. The fundamental
-/// is a given one: with the rotor's own, a case that turns it back would end the figure early.
+/// One figure of each kind: an integral, an extreme, crossings of a band, harmonics, powers, edges. The
+/// fundamental frequency is given: with the rotor's own frequency, a case that reverses the rotor would end
+/// the figure early.
 struct FigureRow {
   const char* name;
   study::Measure measure;
@@ -66,7 +67,7 @@ constexpr std::int64_t grid_ticks = 30'000'000;  // a row per PWM period
 constexpr double gap_s = 1e-3;
 void nowhere(std::span<const double> row) { benchmark::DoNotOptimize(row.data()); }
 
-/// A recorder whose rows go to a CSV file as the program writes it; the file is never put in place.
+/// A recorder whose rows are written to a CSV file, as in the program. The file does not get its final name.
 void csv(benchmark::State& state, const Case& c) {
   const std::string name =
       (std::filesystem::temp_directory_path() / "sixstep-observer-benchmark.csv").string();
@@ -82,7 +83,7 @@ void csv(benchmark::State& state, const Case& c) {
   });
 }
 
-/// The study as the program runs it, without files: digest, audit and the scenario's own figures.
+/// A run as in the program, without files: digest, energy audit and the scenario's figures.
 void whole_study(benchmark::State& state, const Case& c) {
   const auto prepared = Prepared::of(c);
   if (!prepared) return state.SkipWithError("the scenario cannot be read");
@@ -90,7 +91,7 @@ void whole_study(benchmark::State& state, const Case& c) {
   note(state, prepared->end().seconds());
 }
 
-/// From the scenario to its verdicts, over ten seconds, on the kernel that it asks for.
+/// From the scenario to its verdicts, over ten seconds, on the kernel that the scenario needs.
 void as_user(benchmark::State& state, const Case& c) {
   constexpr double duration_s = 10.0;
   const auto scenario = read(c, duration_s);
@@ -104,7 +105,7 @@ void as_user(benchmark::State& state, const Case& c) {
   note(state, duration_s);
 }
 
-/// The study with its report: a row at every event, kept, and the page made of them.
+/// A run with its report: a row at every event is kept, and the page is written from the rows.
 void report_of(benchmark::State& state, const Case& c) {
   const auto prepared = Prepared::of(c);
   if (!prepared) return state.SkipWithError("the scenario cannot be read");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run with one observer, as observer_benchmark times it.
+// Measures a run with one observer, for observer_benchmark.
 #pragma once
 #include <benchmark/benchmark.h>
 
@@ -15,7 +15,7 @@ inline void note(benchmark::State& state, double simulated_s) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-/// Runs with a fresh observer each time, as `make(prepared)` gives it.
+/// Measures runs with a new observer each time, returned by `make(prepared)`.
 template <class Make>
 void measure(benchmark::State& state, const Case& c, Make make) {
   const auto prepared = Prepared::of(c);
@@ -35,7 +35,7 @@ void add(const Case& c, const char* observer, Make make) {
                                [c, make](benchmark::State& state) { measure(state, c, make); });
 }
 
-/// The rows "none", "digest" and "energy audit and laws" (observer_audit.cpp).
+/// Adds the rows "none", "digest" and "energy audit and laws" (observer_audit.cpp).
 void add_bare_and_audited(const Case& c);
 
 }  // namespace benchmarks

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain yardstick, as a competent user writes it down: the equations in phase quantities, one function
-// for the derivatives with ifs for switches and diodes, the back-EMF from a table over the electrical turn,
-// classic fourth-order Runge-Kutta with a fixed step, currents of diodes that ended clipped to zero. It
-// includes the free phase that starts to conduct. No cleverness, and nothing to slow it down; what it may
-// cost: docs/explanation/performance.md.
+// The plain yardstick, as a competent user writes it: the equations in phase quantities, one function for the
+// derivatives with if statements for switches and diodes, the back-EMF from a table over the electrical turn,
+// and the classic fourth-order Runge-Kutta method with a fixed step. Currents of diodes that have stopped are
+// set to zero. It includes the free phase that starts to conduct. It is neither optimised nor slowed down.
+// Its possible cost: docs/explanation/performance.md.
 #pragma once
 #include <array>
 #include <cmath>
@@ -17,7 +17,8 @@ class Rk4Textbook {
  public:
   explicit Rk4Textbook(const YardstickParameters& parameters) : p_(parameters) {}
 
-  /// Duty in [-1, 1], A or rad/s, by the mode; seen at the next control tick.
+  /// Duty in [-1, 1], current in A or speed in rad/s, depending on the mode. It takes effect at the next
+  /// control tick.
   void set_reference(double value) { reference_ = value; }
 
   /// Advances by one fixed step.
@@ -41,12 +42,13 @@ class Rk4Textbook {
   using State = std::array<double, 5>;  // i_a, i_b, i_c, w, electrical angle within the turn
   static constexpr double turn = 6.283185307179586;
 
-  /// f of the three phases at every 60 electrical degrees, the first two twice; straight lines between.
+  /// Shape of the back-EMF of the three phases at every 60 electrical degrees, with straight lines between.
+  /// The first two entries are repeated at the end.
   static constexpr std::array<std::array<double, 3>, 8> shape{
       {{1, -1, 1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}}};
 
-  /// An angle in sixths of a turn, in [0, 6); a stage may reach a little beyond the turn that its step began
-  /// in.
+  /// An angle in sixths of a turn, in [0, 6). A stage may reach slightly beyond the turn in which its step
+  /// began.
   static double sixths(double angle) {
     const double x = angle * (6.0 / turn);
     return x < 0.0 ? x + 6.0 : x >= 6.0 ? x - 6.0 : x;
@@ -103,7 +105,8 @@ class Rk4Textbook {
     return rate;
   }
 
-  /// u_n = mean of u_k - e_k over the connected legs.
+  /// Star-point voltage u_n: the mean of u_k - e_k over the connected legs (u_k: terminal voltage, e_k:
+  /// back-EMF of phase k).
   static double star_point(const std::array<double, 3>& e, const std::array<double, 3>& u,
                            const std::array<bool, 3>& connected) {
     double sum = 0;
@@ -116,7 +119,7 @@ class Rk4Textbook {
     return count > 0 ? sum / count : 0;
   }
 
-  /// A floating terminal beyond a rail is caught by its diode.
+  /// If a floating terminal's voltage is beyond a rail, its diode conducts.
   void start_diodes(const std::array<double, 3>& e, std::array<double, 3>& u,
                     std::array<bool, 3>& connected) const {
     if (connected[0] && connected[1] && connected[2]) return;
@@ -149,8 +152,8 @@ class Rk4Textbook {
     for (std::size_t n = 0; n < y_.size(); ++n) y_[n] += h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
   }
 
-  /// The current of a leg without gate cannot pass zero: its diode has stopped, the other two carry one
-  /// current.
+  /// The current of a leg with both gates off cannot change its sign: its diode has stopped, and the other
+  /// two legs carry the same current.
   void clip_diodes() {
     for (std::size_t k = 0; k < 3; ++k) {
       if (high_[k] || low_[k] || before_[k] * y_[k] >= 0) continue;

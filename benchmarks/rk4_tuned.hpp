@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faster yardstick: the same star machine, bridge and cascade as in a textbook program. Fixed-step
-// fourth-order Runge-Kutta, ifs for the diodes, gates and diodes held over a step. Written to be fast: no
-// branch inside a stage, back-EMF from a table of straight lines, angle local to its sector. It includes the
-// physics most often left out, the free phase that starts to conduct. Its error is of first order in the
-// step all the same, because switching instants fall between the steps.
+// The faster yardstick: the same star machine, bridge and cascade as a textbook program. Fixed-step
+// fourth-order Runge-Kutta, if statements for the diodes, gates and diodes constant over a step. It is
+// optimised: no branch within a stage, back-EMF from a table of straight lines, angle relative to the
+// sector's start. It includes an effect that is often left out: the free phase that starts to conduct. Its
+// error is still of first order in the step, because switching instants are between the steps.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -18,13 +18,14 @@ class Rk4Tuned {
   explicit Rk4Tuned(const YardstickParameters& parameters)
       : p_(parameters), inv_L_(1.0 / parameters.L), inv_J_(1.0 / parameters.J) {}
 
-  /// Duty in [-1, 1], A or rad/s, by the mode; seen at the next control tick.
+  /// Duty in [-1, 1], current in A or speed in rad/s, depending on the mode. It takes effect at the next
+  /// control tick.
   void set_reference(double value) { reference_ = value; }
 
   /// Advances by one fixed step.
   void step() {
     if (step_in_period_ == 0) control();
-    set_legs(step_in_period_ + 0.5 < on_steps_);  // the on-time to the nearest step
+    set_legs(step_in_period_ + 0.5 < on_steps_);  // the on-time, rounded to a step
     integrate();
     stop_diodes();
     pass_sector_edges();
@@ -39,7 +40,8 @@ class Rk4Tuned {
   using State = std::array<double, 5>;  // i_a, i_b, i_c, w, electrical angle since the sector's start
   static constexpr double sixty = 1.0471975511965976;
 
-  /// f_k = start + slope x over each sector of the 120 degree trapezoid.
+  /// Back-EMF shape f_k = start + slope x over each sector of the 120 degree trapezoid; x: electrical angle
+  /// since the sector's start.
   struct Line {
     std::array<double, 3> start, slope;
   };
@@ -63,8 +65,8 @@ class Rk4Tuned {
     resistance_[k] = resistance;
   }
 
-  /// Which rail each leg hangs on during this step: switches by the gates, diodes by the current's sign, and
-  /// a floating leg whose terminal would leave the rails by the diode it runs into.
+  /// Sets the rail to which each leg is connected during this step. Switches follow the gates, and diodes
+  /// follow the current's sign. If the terminal of a floating leg would be beyond a rail, its diode conducts.
   void set_legs(bool on) {
     const std::size_t source = yardstick_pairs[sector_][reversed_ ? 1 : 0],
                       sink = yardstick_pairs[sector_][reversed_ ? 0 : 1];
@@ -112,8 +114,8 @@ class Rk4Tuned {
     count_connected();
   }
 
-  /// L di_k/dt = u_k - u_n - R i_k - e_k, u_n the mean of u_k - e_k over the connected legs; J dw/dt = T_e -
-  /// B w - T_load.
+  /// Derivatives of the state (phase k): L di_k/dt = u_k - u_n - R i_k - e_k, where u_n is the mean of u_k -
+  /// e_k over the connected legs; J dw/dt = T_e - B w - T_load.
   State rate(const State& y) const {
     const Line& line = shape[sector_];
     const double emf = p_.K_e * y[3];
@@ -141,8 +143,8 @@ class Rk4Tuned {
     for (std::size_t n = 0; n < 5; ++n) y_[n] += h / 6 * (k1[n] + 2.0 * (k2[n] + k3[n]) + k4[n]);
   }
 
-  /// A diode whose current went through zero during the step has stopped conducting; the other two share the
-  /// rest.
+  /// A diode whose current has changed its sign during the step has stopped. The other two legs carry the
+  /// same current.
   void stop_diodes() {
     for (std::size_t k = 0; k < 3; ++k) {
       if (diode_[k] * y_[k] >= 0.0) continue;

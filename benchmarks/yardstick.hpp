@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both yardsticks are told and have in common: motor, bridge, and the thesis's cascade as controller.
-// Their solvers share nothing: rk4_textbook.hpp is written plainly, rk4_tuned.hpp to be fast.
+// The common part of both yardsticks: parameters of motor and bridge, and the thesis's cascade as the
+// controller. The solvers share no code: rk4_textbook.hpp is written plainly, rk4_tuned.hpp is optimised.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -19,7 +19,8 @@ struct YardstickParameters {
   double step_s = 1e-6;
   int steps_per_period = 30;
   YardstickMode mode = YardstickMode::duty;
-  bool floating_phase_conducts = true;              // false: leave it out, as most textbook programs do
+  bool floating_phase_conducts = true;              // false: the effect is left out, as in most textbook
+                                                    // programs
   double current_d1 = 4.5, current_d0 = -4.04;      // A -> V
   double speed_d1 = 0.017225, speed_d0 = -0.01707;  // rad/s -> fraction of full torque
   double current_at_full_torque = 0.78 / 0.0335;

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Repeats a call that a signal has interrupted, until it is completed. Returns 0 or errno.
+/// Repeats a call until no signal interrupts it. Returns 0 or errno.
 template <class Call>
 int persistently(Call call) {
   for (;;) {
@@ -50,8 +50,8 @@ int write_all(int descriptor, std::string_view text, bool waits) {
   return 0;
 }
 
-/// The file at the end of a chain of links, whether it exists or not; if the links form a circle, the last
-/// link visited.
+/// The file at the end of a chain of links, whether the file exists or not; if the links form a circle, the
+/// last visited link.
 fs::path end_of_links(fs::path path) {
   constexpr int most_links = 40;  // the kernel's limit
   std::error_code none;
@@ -60,7 +60,7 @@ fs::path end_of_links(fs::path path) {
   return path;
 }
 
-/// A name that no other program uses, and that no killed program can have left in the folder.
+/// A name that no other program uses, and that no killed program has left in the folder.
 std::string random_name() {
   std::random_device random;
   return fmt::format(".sixstep-{:08x}{:08x}.tmp", random(), random());
@@ -84,7 +84,7 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   return {};
 }
 
-/// Synchronises a folder, because only then is a file's new name safe on the disk.
+/// Synchronises a folder: only then is a file's new name on the disk.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -124,8 +124,8 @@ void AtomicFile::Remove::operator()(std::string* name) const {
   delete name;
 }
 
-/// Opens a device or pipe directly, which may wait for the pipe's other end. Writes do not block in the
-/// kernel, because a signal between two parts of a blocking write would be lost.
+/// Opens a device or pipe directly. The call may wait for the pipe's other end. Writes do not block in the
+/// kernel, because a signal just before a blocking write would be lost.
 int AtomicFile::open_device() {
   waits_ = true;
   const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -134,7 +134,7 @@ int AtomicFile::open_device() {
 }
 
 /// Opens a unique name in the folder of the final file. `old` is the file to be replaced. The new file never
-/// has more permissions than the old one, not even for a moment.
+/// has more permissions than the old file, not even for a moment.
 int AtomicFile::open_beside(const struct stat* old) {
   constexpr mode_t usual = 0666, permission_bits = 0777;
   const mode_t permissions = old ? old->st_mode & permission_bits : usual;
@@ -154,7 +154,7 @@ int AtomicFile::open_beside(const struct stat* old) {
 }
 
 base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
-  if (to.path == "-")  // the caller decides what can go to standard output
+  if (to.path == "-")  // only the caller knows which text may go to standard output
     return base::Problem{.where = "-",
                          .limit = "means standard output elsewhere, and this output must be a file",
                          .cure = "name a file; ./- is a file that is called -"};
@@ -234,7 +234,7 @@ base::Problems AtomicFile::save_what_is_whole() {
 int AtomicFile::put_in_place(const std::string& path) {
   if (!temporary_) return 0;
   const int descriptor = *descriptor_;
-  // Removes bytes of a failed write, and reserved space, behind the completely written text.
+  // Removes the bytes of a failed write, and reserved space, after the completely written text.
   if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
     return failed;
   if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;

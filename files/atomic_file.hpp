@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a file that appears complete or not at all.
+// Writes a file that appears either complete or not at all.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -30,8 +30,9 @@ struct Destination {
 /// - A path that is not a regular file (a pipe, /dev/null) is written directly.
 /// - Files that a ReadLog has noted are refused, because a report must not overwrite its own scenario. Files
 ///   with is_foreign() are refused too.
-/// - A new file gets the permissions of the file that it replaces.
-/// - A link stays, and the file that it names is made or replaced. Other names of that file (hard links) keep
+/// - A new file has the permissions of the file that it replaces.
+/// - A symbolic link is kept, and its target is created or replaced. Other names of the target (hard links)
+///   keep
 ///   the old content.
 class AtomicFile {
  public:
@@ -49,15 +50,15 @@ class AtomicFile {
   bool failed() const { return error_ != 0; }
   /// errno of the failed write; 0: no write failed.
   int error() const { return error_; }
-  /// Whether the reader of a pipe has closed it, or an interrupt ended the wait for the reader. Neither is an
-  /// error of the user.
+  /// Whether the reader of a pipe has closed it, or an interrupt ended the wait for the reader. Neither is
+  /// the user's error.
   bool reader_is_gone() const;
   /// Discards the written text and its error. Has no effect on a pipe or a device, where written text cannot
   /// be discarded.
   void begin_again();
 
-  /// Renames the file to its final name, safely on the disk. Problems: a write failed. The completely written
-  /// part is then in NAME.partial.EXT, as the Problem says.
+  /// Renames the file to its final name and synchronises the disk. Problems: a write failed. The completely
+  /// written part is then in NAME.partial.EXT, as the Problem says.
   base::Problems commit() { return commit_as(path_); }
 
   /// Saves the result of interrupted work as NAME.partial.EXT.

@@ -12,8 +12,8 @@
 namespace files {
 namespace {
 
-/// Calls pwrite or pread until all bytes are moved. Returns 0 or errno. A premature end means that the file
-/// was shortened by another program.
+/// Calls pwrite or pread until all bytes are transferred. Returns 0 or errno. A premature end of the file
+/// means that another program has shortened it.
 template <class Move>
 int move_all(Move move, std::size_t bytes, std::uint64_t at) {
   std::size_t done = 0;
@@ -44,7 +44,7 @@ ColumnSpool::ColumnSpool(const std::string& path, std::size_t columns)
   if (*descriptor_ < 0)
     error_ = errno;
   else
-    ::unlink(name.c_str());  // the file disappears with the program, however the program ends
+    ::unlink(name.c_str());  // the file is deleted when the program ends, in whatever way it ends
 }
 
 void ColumnSpool::row(std::span<const double> numbers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes rows and returns columns, with memory for only one block of rows. The other rows are in an unnamed
+// Stores rows and returns columns, with only one block of rows in memory. The other rows are in an unnamed
 // file in the folder of the final file.
 #pragma once
 #include <cstdint>
@@ -21,8 +21,8 @@ class ColumnSpool {
   /// If `path` is empty, it is in the folder of temporary files.
   ColumnSpool(const std::string& path, std::size_t columns);
 
-  /// Adds a row. If a row does not fit on the disk, this row and all following rows are lost; earlier rows
-  /// are not.
+  /// Adds a row. If a row does not fit on the disk, this row and all later rows are lost. Earlier rows are
+  /// kept.
   void row(std::span<const double> numbers);
   bool failed() const { return error_ != 0; }
   /// errno of the first failure; 0: no error.

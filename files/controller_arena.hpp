@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds a user controller's config, state and answer while the controller's code runs. Each of the three ends
-// at the beginning of a protected page, so that a write beyond its end is caught at that instruction. A
-// pattern fills the padding before that page and is checked after the call.
+// Contains the config, the state and the answer of a user's controller while the controller's code runs. Each
+// of the three ends at the beginning of a protected page, so that a write beyond its end is caught at the
+// writing instruction. A pattern fills the padding before the page and is checked after the call.
 #pragma once
 #include <sys/mman.h>
 
@@ -14,7 +14,7 @@
 
 namespace files {
 
-/// Room for bytes that end at a protected page. They are aligned to 16 bytes, the largest alignment that a
+/// Space for bytes that end at a protected page. The bytes are aligned to 16, the largest alignment that a
 /// compiler needs.
 class GuardedRoom {
  public:
@@ -52,14 +52,14 @@ class ControllerArena {
   ControllerArena(const ControllerArena&) = delete;
   ControllerArena& operator=(const ControllerArena&) = delete;
 
-  /// Makes the config writable or not: only the controller's design function may write it.
+  /// Makes the config writable or read-only. Only the controller's design function may write it.
   void let_config_change(bool may) {
     if (may != may_change_)
       ::mprotect(begin_ + forbidden, room_bytes, may ? PROT_READ | PROT_WRITE : PROT_READ);
     may_change_ = may;
   }
-  /// Returns the config for the controller's steps. Usually it is unchanged since the last step, and nothing
-  /// is copied.
+  /// Returns the config for the controller's steps. If it is equal to the last config, as usual, nothing is
+  /// copied.
   std::byte* set_config(const void* bytes, std::size_t count) {
     if (may_change_ || !config.holds(bytes, count)) {
       let_config_change(true);

@@ -67,7 +67,8 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
                          .limit = "is not a compiled library: it may be the source",
                          .cure = "compile it and name the result: " + compile_command(path) +
                                  ", where FOLDER has sixstep/control/own/own_controller.h"};
-  // The path gets a slash, because the loader searches a name without a slash among the system's libraries.
+  // An absolute path contains a slash. The loader would search a name without a slash among the system's
+  // libraries.
   std::error_code ignored;
   const std::string whole = std::filesystem::absolute(path, ignored).string();
   base::Result<text::NamedText> loaded = base::Problem{};

@@ -8,9 +8,9 @@
 
 namespace files {
 
-/// Loads the file until the program ends; a file that is loaded already is not loaded again. Its bytes count
-/// as read (ReadLog). Problem: a part of the interface is missing or wrong. Mistakes during calls are caught
-/// by controller_guard.hpp.
+/// Loads the file until the program ends. A loaded file is not loaded again. A ReadLog also notes the file.
+/// Problem: a part of the interface is missing or wrong. Errors during calls are caught by
+/// controller_guard.hpp.
 base::Result<text::NamedText> load_controller(const std::string& path);
 
 }  // namespace files

@@ -24,7 +24,7 @@ ControllerArena& arena() {
   return mine;
 }
 
-/// The program's rounding mode: to nearest, with subnormal numbers, without traps.
+/// The program's floating-point mode: rounding to nearest, with subnormal numbers, without traps.
 const femode_t& usual_mode() {
   static const femode_t usual = [] {
     femode_t mode;
@@ -35,7 +35,7 @@ const femode_t& usual_mode() {
   return usual;
 }
 
-/// A controller in two forms: as loaded, and as the program calls it.
+/// A controller in two forms: as loaded (`real`), and as the program calls it (`shown`).
 struct Guarded {
   std::string path, name, sentence;
   std::deque<std::string> words;  ///< texts of the controller's parameters; a deque, so that pointers to them
@@ -49,7 +49,7 @@ std::array<Guarded, most_controllers> controllers;
 std::size_t loaded_controllers = 0;
 std::mutex adding;
 
-/// Runs the controller's code on this thread. If the code does not return normally, this is reported.
+/// Runs the controller's code on this thread. Reports code that does not return normally.
 template <class Work>
 void inside(const char* path, ControllerPlace place, const Work& work) {
   const femode_t& usual = usual_mode();
@@ -74,8 +74,8 @@ void must_be_whole(const ControllerThread& thread, const GuardedRoom& room, cons
 constexpr char beside_state[] = "wrote beside its state", beside_config[] = "wrote beside its config",
                beside_answer[] = "wrote beside its answer";
 
-/// The interface has no argument that identifies the controller. Therefore each controller has functions of
-/// its own, selected by its number.
+/// The interface has no argument that identifies the controller. Therefore each controller has its own
+/// functions, selected by its number N.
 template <std::size_t N>
 struct Calls {
   static const Guarded& is() { return controllers[N]; }
@@ -155,7 +155,7 @@ void show(std::size_t which, sixstep_controller& as, std::index_sequence<N...>) 
   all[which](as);
 }
 
-/// Copies the controller's texts once, because its pointers may become wrong later.
+/// Copies the controller's texts once, because its pointers may become invalid later.
 void take(Guarded& into, const std::string& path, const sixstep_controller& real) {
   into.path = path;
   into.real = into.shown = real;
@@ -174,20 +174,20 @@ void take(Guarded& into, const std::string& path, const sixstep_controller& real
 }  // namespace
 
 void in_controller(const std::string& path, const std::function<void()>& work) {
-  static std::deque<std::string> paths;  // kept without end, because later messages use the names
+  static std::deque<std::string> paths;  // never removed, because later messages use the names
   const char* stays = nullptr;
   {
     const std::lock_guard lock(adding);
     stays = paths.emplace_back(path).c_str();
   }
-  usual_mode();  // saves the mode before foreign code can change it
+  usual_mode();  // saves the floating-point mode before foreign code can change it
   watch_controllers(stays);
   inside(stays, ControllerPlace::loading, [&](const ControllerThread&) { work(); });
 }
 
 namespace {
 
-/// Compares member by member, because padding between them is undefined.
+/// Compares member by member, because the padding between members is undefined.
 bool is_same(const sixstep_controller& a, const sixstep_controller& b) {
   const auto all = [](const sixstep_controller& c) {
     return std::tie(c.interface, c.answers, c.name, c.sentence, c.config_bytes, c.state_bytes, c.parameters,

@@ -31,7 +31,7 @@ char noted_in[4096];  // a path that a signal handler opens
 
 long this_thread() { return ::syscall(SYS_gettid); }
 
-/// Finds the thread's record by the thread's number, because thread-local memory may have been overwritten.
+/// Finds the record by the thread's number, because the controller may have overwritten thread-local memory.
 ControllerThread* found_thread() {
   const long me = this_thread();
   for (ControllerThread& t : threads)
@@ -39,7 +39,8 @@ ControllerThread* found_thread() {
   return nullptr;
 }
 
-/// "in step 20, at t = 0.000570 s", the instant of its sample, in the words of a run's fault.
+/// Writes "in step 20, at t = 0.000570 s", as in the message of a run's fault. The instant is the step's
+/// sample.
 void tell_place(SignalLine& to, const ControllerThread& at) {
   const ControllerPlace place = at.place;
   if (place == ControllerPlace::loading) to << " while it was loaded";
@@ -98,8 +99,8 @@ struct sigaction before_us[64];
 extern "C" void on_crash(int signal, siginfo_t*, void*) {
   const ControllerThread* const at = found_thread();
   if (at && at->place != ControllerPlace::outside) end_by_controller(*at, crash_of(signal));
-  // The crash is not in a controller's code, but a controller may have overwritten memory. After this message
-  // the previous handler continues.
+  // The crash is not in a controller's code, but a controller may have overwritten memory. After this
+  // message, the previous handler is called.
   SignalLine words;
   words << "sixstep crashed; " << (last_loaded.load() ? last_loaded.load() : "a controller")
         << " runs in this program and may have written over its memory";
@@ -118,15 +119,14 @@ extern "C" void on_exit_of_the_program() {
   end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
 }
 
-/// A thread as the watchdog for calls that do not return has seen it: its call, and the number of checks that
-/// found the same call.
+/// A thread's call as last seen by the watchdog, and the number of checks that found the same call.
 struct SeenCall {
   std::uint64_t calls = 0;
   int looks = 0;
 };
 
-/// Checks ten times a second. It counts checks and reads no clock, because calls make no progress either
-/// while a debugger or Ctrl-Z stops the program.
+/// Checks ten times a second. It counts checks instead of reading a clock: while a debugger or Ctrl-Z stops
+/// the program, neither calls nor checks proceed.
 void* watch_calls(void*) {
   constexpr int looks_a_second = 10;
   static SeenCall seen[most_threads];
@@ -144,7 +144,7 @@ void* watch_calls(void*) {
   }
 }
 
-/// Blocks all signals in the watchdog's thread, because a signal must interrupt the thread that waits for it.
+/// Blocks all signals in the watchdog's thread: a signal must interrupt the thread that waits for it.
 void start_watch_of_calls() {
   sigset_t all, before;
   ::sigfillset(&all);
@@ -165,7 +165,7 @@ void watch_the_end() {
   start_watch_of_calls();
 }
 
-/// A separate stack for the signal handler, because an overflowed stack has no room for it.
+/// A separate stack for the signal handler, because an overflowed stack has no space for it.
 struct HandlerStack {
   static constexpr std::size_t bytes = 65536;
   std::unique_ptr<char[]> room = std::make_unique<char[]>(bytes);
@@ -182,7 +182,7 @@ struct HandlerStack {
   }
 };
 
-/// Called at the end of a thread, however the thread ends.
+/// Called at the end of a thread, in whatever way the thread ends.
 extern "C" void on_end_of_thread(void* thread) {
   const auto* const at = static_cast<const ControllerThread*>(thread);
   if (at->place != ControllerPlace::outside) end_by_controller(*at, "ended its thread, as by pthread_exit()");
@@ -196,7 +196,7 @@ pthread_key_t end_of_thread() {
   return key;
 }
 
-/// Registers the thread with the watchdog for as long as the thread lives.
+/// Registers the thread with the watchdog while the thread exists.
 struct Membership {
   HandlerStack stack;
   ControllerThread* at = nullptr;
@@ -214,7 +214,7 @@ struct Membership {
     ::pthread_setspecific(end_of_thread(), at);
   }
   ~Membership() {
-    // If a controller calls exit(), this runs too; the handler of exit() reports it.
+    // This destructor also runs if a controller calls exit(); the handler of exit() then reports the call.
     if (at->place != ControllerPlace::outside) return;
     at->runs = 0;
     at->thread = 0;
@@ -267,7 +267,7 @@ void tell_controllers_that_do_not_come_back() {
   constexpr char what[] = "does not come back";
   for (const ControllerThread& t : threads) {
     if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
-    note_run(t, what);  // noted before the message, because the user may interrupt again after the message
+    note_run(t, what);  // noted before the message: the user may interrupt again after the message
     tell(t, what, "; press Ctrl-C again to end (or send a second SIGTERM)");
   }
 }
@@ -275,7 +275,7 @@ void tell_controllers_that_do_not_come_back() {
 }  // namespace files
 
 // Replaces functions of the C library that would end the program without a message. A shared object that
-// calls these names gets the program's versions.
+// calls a function of this name calls the program's version.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 __attribute__((noreturn, visibility("default"))) void _exit(int code) {

@@ -15,8 +15,8 @@
 namespace files {
 namespace {
 
-/// The beginning of a format, and the text that precedes the version. The text may follow the beginning after
-/// a few bytes.
+/// The first characters of a file format, and the text before the version. A few other bytes may be between
+/// them.
 struct Mark {
   std::string_view begin, name;
 };
@@ -45,7 +45,7 @@ std::string digest_words(std::string_view text) {
   return fmt::format(", digest {}: ", base::written_hex(text_digest(std::string(text))));
 }
 
-/// Whether the digest in the first line matches the text below it.
+/// Whether the digest in the first line is the digest of the text after it.
 bool is_unchanged(std::string_view text) {
   const std::size_t end = std::min(text.find('\n'), text.size() - 1);
   return text.substr(0, end).find(digest_words(text.substr(end + 1))) != text.npos;

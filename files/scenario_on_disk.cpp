@@ -21,7 +21,7 @@ base::Result<text::NamedText> named(const std::string& path, base::Result<std::s
   return problem;
 }
 
-/// Paths at which a motor may be, the preferred one first.
+/// Possible paths of a motor, the preferred path first.
 std::vector<std::string> places_of(const text::Naming& motor, const std::string& data_dir) {
   const fs::path folder = fs::path(motor.from).parent_path();
   const std::string file = motor.name.ends_with(".toml") ? motor.name : motor.name + ".toml";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads scenarios and motors by path, with the files that they name.
+// Reads scenarios and motors by path, with the files that they refer to.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace files {
 
-/// A Resolve that finds named files in the folder of the file that names them, and motors also in the data
-/// folder as motors/NAME.toml.
+/// A Resolve that searches a named file in the folder of the file that names it. Motors are also searched in
+/// the data folder, as motors/NAME.toml.
 text::Resolve on_disk(const std::string& data_dir = {});
 
 struct ReadOptions {
@@ -21,8 +21,8 @@ struct ReadOptions {
 /// Reads the file, then calls text::read_scenario_text().
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
 
-/// Like read_scenario(), for a given text. `path` is the text's name in messages, and named files are
-/// searched relative to it.
+/// Like read_scenario(), for a given text. `path` is the text's name in messages; named files are searched
+/// relative to it.
 base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
                                                  const ReadOptions& options = {});
 

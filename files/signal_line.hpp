@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats and writes text without the C library's memory and locks, because a signal handler must not use
-// these.
+// Formats and writes text without the C library's allocator and locks, which a signal handler must not use.
 #pragma once
 #include <unistd.h>
 
@@ -9,7 +8,7 @@
 
 namespace files {
 
-/// One line; longer text is cut.
+/// One line; longer text is truncated.
 class SignalLine {
  public:
   SignalLine& operator<<(std::string_view text) {

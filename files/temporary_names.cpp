@@ -8,7 +8,7 @@
 namespace files {
 namespace {
 
-// A fixed array, because a signal handler may neither lock nor allocate.
+// A fixed array, because a signal handler must not lock or allocate.
 constexpr int most_temporaries = 512;
 std::atomic<const char*> being_written[most_temporaries];
 static_assert(std::atomic<const char*>::is_always_lock_free);

@@ -15,7 +15,7 @@
 namespace files {
 namespace {
 
-/// The existing file in the same folder that was probably meant: the name is misspelt or lacks .toml.
+/// The existing file in the same folder that the user probably meant, if the name is misspelt or lacks .toml.
 std::string meant(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(path).parent_path();
@@ -41,8 +41,8 @@ base::Problem unreadable(const std::string& path, int reason) {
                                    : "did you mean " + near + "?"};
 }
 
-constexpr std::size_t most_bytes = std::size_t{128} << 20;  // limit of a file's size, because /dev/zero never
-                                                            // ends
+constexpr std::size_t most_bytes = std::size_t{128} << 20;  // largest size of a file; a file such as
+                                                            // /dev/zero never ends
 
 thread_local ReadLog* log_in_use = nullptr;
 
@@ -73,8 +73,8 @@ void ReadLog::note(const std::string& path, const std::string& text) {
 std::uint64_t text_digest(const std::string& text, std::uint64_t before) {
   base::Hash hash;
   hash.word(before);
-  hash.word(text.size());  // the length is included, so that two texts have another digest than one text with
-                           // the same characters
+  hash.word(text.size());  // with the length, two texts never have the digest of one text with the same
+                           // characters
   for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
     for (std::size_t n = at; n < text.size() && n < at + sizeof word; ++n)

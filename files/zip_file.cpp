@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uses minizip, which is part of zlib's own sources and can write to any place through its callbacks.
+// Uses minizip, which belongs to zlib's sources. Its callbacks allow writing into memory.
 #include "files/zip_file.hpp"
 
 #include <minizip/zip.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A zip archive in memory, so that it can be written as one whole file.
+// A zip archive in memory, to be written as one file.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,7 +15,8 @@ struct ZipEntry {
   bool executable = false;
 };
 
-/// The archive. The same entries give the same bytes, without dates. Empty if there is not enough memory.
+/// The archive. The same entries give the same bytes; the archive contains no dates. Empty if memory is
+/// short.
 std::string zipped(const std::vector<ZipEntry>& entries);
 
 }  // namespace files

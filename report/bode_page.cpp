@@ -21,7 +21,8 @@ namespace {
 using sixstep::analysis::BodeStudy;
 using sixstep::analysis::LoopPoint;
 
-/// Frequencies of the designed curve: those of the lines, and enough between them for a smooth curve.
+/// Frequencies of the designed curve: the measured frequencies, and frequencies between them for a smooth
+/// curve.
 std::vector<double> frequencies(const BodeStudy& s) {
   constexpr int between = 8;
   std::vector<double> w;
@@ -33,8 +34,8 @@ std::vector<double> frequencies(const BodeStudy& s) {
   return w;
 }
 
-/// Adds the designed curves. Their phase begins in the turn of the first line's phase and continues without
-/// jumps.
+/// Adds the designed curves. The designed phase starts within half a turn of the first measured phase and
+/// continues without jumps.
 void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
   if (!s.designed || s.points.empty()) return;
   SvgCurve g{"designed", "reference", {}, {}}, p{"designed", "reference", {}, {}};
@@ -72,7 +73,7 @@ std::string charts(const BodeStudy& s) {
   return svg_chart(gain) + svg_chart(phase) + svg_chart(closed) + svg_chart(coherence);
 }
 
-/// Replaces the ASCII spellings of the terminal's text by printed signs, such as +- by ±.
+/// Replaces ASCII spellings in the terminal's text by typographic signs, such as +- by ±.
 std::string in_print(std::string text) {
   const auto put = [&text](std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))

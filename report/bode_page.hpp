@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a loop's measured frequency response as one HTML file, drawn over the designed one.
+// Writes a loop's measured frequency response as one HTML file, drawn over the designed response.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace report {
 struct BodePage {
   std::string name;  ///< name of the scenario
   const sixstep::analysis::BodeStudy& study;
-  std::string command;  ///< the command that makes this page again
+  std::string command;  ///< the command that writes this page again
   std::string version;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the parts of the JSON from which the pages' scripts draw.
+// Writes the parts of the JSON that the pages' scripts draw.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -19,7 +19,7 @@ namespace report {
 
 using json = nlohmann::ordered_json;
 
-/// The chosen rows of a column as base64 of their bytes.
+/// The selected rows of a column as base64 of their bytes.
 template <class To>
 std::string packed(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   std::vector<To> chosen;
@@ -40,23 +40,24 @@ class Axes {
   std::map<std::pair<const std::vector<double>*, std::vector<std::size_t>>, std::size_t> places_;
 };
 
-/// A chart without its curves. `complete`: no envelope replaces any of the `recorded` rows.
+/// A chart without its curves. `complete`: all `recorded` rows are in the page, none is replaced by an
+/// envelope.
 json chart_json(const Group& group, bool complete, std::size_t recorded);
 json curve_json(const Curve& curve, std::size_t axis, const std::vector<std::size_t>& rows);
 
-/// The chart and curve to which a packed column belongs.
+/// Indices of the chart and the curve of a packed column.
 struct CurvePlace {
   std::size_t chart = 0, curve = 0;
 };
-/// Columns beyond `places` are not curves: they hold the conduction codes.
+/// Packed columns after the last of `places` are conduction codes, not curves.
 json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places);
 
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario);
-/// The windows, as many as the page can hold with all their rows.
+/// The windows whose rows all fit into the page, most_rows in total.
 std::vector<Interval> kept(const Windows& windows, const std::vector<double>& time, std::size_t most_rows);
 
-/// Returns the JSON text that the library would print; invalid UTF-8 is replaced. The library itself needs
-/// more time for a megabyte of base64.
+/// Returns the JSON text that nlohmann's dump() would return, with invalid UTF-8 replaced. dump() itself
+/// needs more time for a megabyte of base64.
 std::string dumped(const json& page);
 
 }  // namespace report

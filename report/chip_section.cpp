@@ -33,7 +33,8 @@ Bins bins_of(const InterruptTimes& t) {
   return {std::max(b.first - 1, 0), std::min(b.last + 1, InterruptTimes::bins - 1), b.most};
 }
 
-/// Bars with the number of interrupts per duration. Below the first and the last bar stands its duration.
+/// Bars with the number of interrupts per duration. The durations of the first and the last bar are printed
+/// below them.
 std::string histogram(const InterruptTimes& t, double clock_Hz) {
   const Bins b = bins_of(t);
   const int bins = b.last - b.first + 1, bar_wide = std::max(least_bar_wide, least_wide / bins);

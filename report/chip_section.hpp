@@ -6,8 +6,8 @@
 
 namespace report {
 
-/// The durations of a chip's interrupts if it ran the drive (rig/chip_drive.hpp), each interrupt with a
-/// histogram; empty if no chip ran.
+/// The durations of the interrupts if a chip ran the drive (rig/chip_drive.hpp), with a histogram for each
+/// interrupt. Empty if no chip ran.
 std::string chip_section(const sixstep::study::Outcome& outcome);
 
 }  // namespace report

@@ -36,7 +36,7 @@ std::string facts(const CommissionStudy& s) {
   return out + bench_fact("Verdict", s.holds() ? "all within bounds" : "not all within bounds");
 }
 
-/// The time from the beginning of the first of these phases to the end of the last.
+/// The interval from the start of phase `first` to the end of phase `last`.
 CommissionPhase span_of(const CommissionStudy& s, Phase first, Phase last) {
   CommissionPhase out{.phase = first, .from_s = 0.0, .to_s = 0.0};
   bool any = false;
@@ -49,7 +49,7 @@ CommissionPhase span_of(const CommissionStudy& s, Phase first, Phase last) {
   return out;
 }
 
-/// The stride that leaves enough points for a picture.
+/// The stride that reduces the rows of the span to about 1500 points.
 std::size_t stride_of(const CommissionStudy& s, const CommissionPhase& span) {
   constexpr double points = 1500.0;
   const double rows = s.rows.empty() ? 0.0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a commissioning as one HTML file: the currents of its test, the rotor's motion, and all results.
+// Writes the results of a commissioning as one HTML file: the currents of the test, the rotor's motion, and
+// all values.
 #pragma once
 #include <string>
 
@@ -9,7 +10,7 @@ namespace report {
 
 struct CommissionPage {
   const sixstep::analysis::CommissionStudy& study;
-  std::string command;  ///< the command that makes this page again
+  std::string command;  ///< the command that writes this page again
   std::string version;
 };
 

@@ -4,8 +4,8 @@
 
 namespace report {
 
-/// Draws over one electrical turn: the Hall lines, the phases' back-EMF, and which legs the drive's table has
-/// high, low and floating.
+/// Draws, over one electrical turn: the Hall lines, the phases' back-EMFs, and the legs that the drive's
+/// table sets high, low or off.
 Panel commutation_picture(const sixstep::analysis::WiringStudy& study);
 
 }  // namespace report

@@ -84,7 +84,7 @@ const char* mark(const std::string& css) {
   return css == "bad" ? " <b>✗ not met</b>" : "";
 }
 
-/// A figure's row with the values of all runs and their differences from the first run's value.
+/// A row of the table with a figure's value in each run, and the deviation from the first run's value.
 std::string figure_row(const std::string& name, const std::string& unit, const std::vector<ComparedRun>& runs,
                        const Ask& ask) {
   std::vector<std::optional<Measured>> found;
@@ -110,7 +110,7 @@ std::string figure_row(const std::string& name, const std::string& unit, const s
   return html + "</tr>\n";
 }
 
-/// Requirements and comparisons of all runs by name, in the order of their first appearance.
+/// The rows of all requirements and comparisons, by name, in the order of their first occurrence.
 std::string named_figures(const std::vector<ComparedRun>& runs) {
   std::vector<std::pair<std::string, std::string>> names;
   const auto meet = [&](const std::string& figure, const std::string& unit) {
@@ -155,7 +155,7 @@ std::string energy_rows(const std::vector<ComparedRun>& runs) {
   return rows;
 }
 
-/// Figures that are shown for every run, independent of its requirements.
+/// Rows of figures that are shown for every run, whatever its requirements are.
 std::string usual_figures(const std::vector<ComparedRun>& runs) {
   const auto of_step = [](const ComparedRun& run) {
     const auto step = largest_step(run.events, run.scenario);

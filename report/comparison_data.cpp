@@ -18,12 +18,12 @@ namespace {
 
 using Values = std::vector<double>;
 
-constexpr std::size_t difference_rows = 15000;  // so few rows that they are drawn without an envelope
+constexpr std::size_t difference_rows = 15000;  // few enough rows to be drawn without an envelope
                                                 // (PlotSize::full)
 
 struct Compared {
   const char *id, *title, *unit, *quantity, *column;
-  double factor = 1.0;  ///< factor for the column's number
+  double factor = 1.0;  ///< factor from the column's unit to the chart's unit
 };
 constexpr Compared of_turning_motors[] = {
     {"position", "Position", "°", "angle", "angle_rad", 180.0 / 3.14159265358979323846},
@@ -53,7 +53,7 @@ std::span<const Compared> compared_of(const std::vector<ComparedRun>& runs) {
   return of_turning_motors;
 }
 
-/// A column in the unit of its chart; empty if the trace lacks it.
+/// A column in the unit of its chart; empty if the trace does not contain it.
 Values column_of(const sixstep::study::Trace& trace, const Compared& what) {
   const auto* found = find_column(trace, what.column);
   Values out = found ? *found : Values();
@@ -67,7 +67,7 @@ bool moves(const Values& values) {
                              [&](double v) { return std::abs(v - values.front()) > 1e-9 * std::abs(v); });
 }
 
-/// Whether all runs have the column, and it changes in at least one of them.
+/// Whether all runs contain the column, and its values change in at least one run.
 bool worth_a_chart(const Compared& what, const std::vector<Values>& columns,
                    const std::vector<ComparedRun>& runs) {
   const bool has = std::ranges::none_of(columns, [](const Values& v) { return v.size() < 2; });
@@ -97,8 +97,8 @@ json overlay(const Compared& what, const std::vector<ComparedRun>& runs, const s
   return chart;
 }
 
-/// The difference of two runs on the common grid. Both values are exact there, and their difference is exact
-/// to a rounding.
+/// The difference of two runs on the common grid. Both runs are exact at the grid's instants, so the
+/// difference has only a rounding error.
 json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes& axes) {
   Group group{.id = fmt::format("{}-difference", what.id),
               .title = fmt::format("{}, difference to 1", what.title),
@@ -121,8 +121,8 @@ json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes
   return chart;
 }
 
-/// Packs every row of the runs that are so long that their curves are drawn as an envelope. Every second
-/// chart overlays the runs; the others are differences.
+/// Packs every row of each run that is too long to be drawn without an envelope. The charts alternate: runs,
+/// then their differences.
 json every_row(const std::vector<ComparedRun>& runs, const std::deque<std::vector<Values>>& drawn) {
   const PlotSize size;
   json out = json::array();
@@ -174,7 +174,7 @@ std::string comparison_data(const std::vector<ComparedRun>& runs) {
   out["windows"] = windows_json(choose_windows(runs[0].events, runs[0].scenario), runs[0].scenario);
   out["pole_pairs"] = runs[0].outcome->motor.machine.pole_pairs;
   Axes axes(out);
-  std::deque<std::vector<Values>> drawn;  // by chart of overlaid runs, then by run
+  std::deque<std::vector<Values>> drawn;  // values of the charts that overlay runs; indices: chart, run
   for (const Compared& what : compared_of(runs)) {
     std::vector<Values> columns;
     columns.reserve(runs.size());

@@ -6,11 +6,11 @@
 
 namespace report {
 
-/// The colour of a run's curves, by its place.
+/// The colour of a run's curves, by the run's index.
 const char* run_style(std::size_t place);
 
-/// The JSON that report.js draws: each quantity of all runs in one chart, and below it the differences from
-/// the first run.
+/// The JSON that report.js draws: for each quantity, a chart with all runs, and below it a chart with the
+/// differences from the first run.
 std::string comparison_data(const std::vector<ComparedRun>& runs);
 
 }  // namespace report

@@ -21,8 +21,8 @@ struct Columns {
   bool complete() const { return current && upper && lower; }
 };
 
-/// The leg's connection from row n to the next row. A diode's current may be zero at the ends of this
-/// interval, but has its sign within it.
+/// The leg's connection from row n to the next row. The current may be zero at an end of this interval, so
+/// the sum of both ends gives its sign.
 plant::Connection leg_after(const Columns& c, std::size_t n, bool igbt) {
   const bool upper = (*c.upper)[n] > 0.5, lower = (*c.lower)[n] > 0.5;
   const double current = (*c.current)[n] + (*c.current)[n + 1];

@@ -27,7 +27,8 @@ std::size_t place_of(const Contest& c, const ContestRow& row) {
   return static_cast<std::size_t>(&row - c.rows.data());
 }
 
-/// The controller with the least value of a figure, among those that may win; null if none has the figure.
+/// The controller with the least value of a figure, among the controllers that may win; null if none of them
+/// has the figure.
 const ContestRow* least_of(const Contest& c, std::size_t figure) {
   const ContestRow* least = nullptr;
   for (const ContestRow& row : c.rows)
@@ -40,7 +41,7 @@ const ContestRow* least_of(const Contest& c, std::size_t figure) {
 std::string name_of(const Contest& c, const ContestRow& row) {
   return std::string(c.entries[place_of(c, row)].who->name);
 }
-/// The controller's number, which stands at its point and in front of the name at its curve.
+/// The controller's number, printed at its point and in front of its name.
 std::string number_of(const Contest& c, const ContestRow& row) {
   return fmt::format("{}", place_of(c, row) + 1);
 }
@@ -57,7 +58,8 @@ std::string facts(const Contest& c) {
   return out;
 }
 
-/// Whether no other controller has both less ripple and less losses: the Pareto front.
+/// Whether the controller is on the Pareto front: no other controller has less ripple at no more losses, or
+/// less losses at no more ripple.
 bool on_front(const Contest& c, const ContestRow& row) {
   const auto ripple = analysis::ripple_figure, loss = analysis::loss_figure;
   return std::none_of(c.rows.begin(), c.rows.end(), [&](const ContestRow& other) {
@@ -91,8 +93,8 @@ SvgChart trade(const Contest& c) {
   return chart;
 }
 
-/// The speed from shortly before the load step until all controllers have settled, or until the next part of
-/// the course.
+/// The speed around the load step: from a tenth of the time until the next part of the course before the
+/// step, to half of this time after it.
 SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* label, const char* style) {
   const analysis::Course& course = c.bench.course;
   const double before_s = 0.1 * (course.slow_at_s - course.load_at_s), to_s = course.load_at_s + 5 * before_s;
@@ -105,7 +107,7 @@ SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* l
   return curve;
 }
 
-/// Each controller's response to the load, drawn over the response of the usual controller.
+/// Each controller's response to the load step, drawn over the response of the six-step controller.
 std::string load_steps(const Contest& c) {
   const ContestTrace* usual = nullptr;
   for (const ContestRow& row : c.rows)
@@ -131,7 +133,7 @@ std::string html_list(const std::vector<std::string>& lines, std::string_view cl
   return lines.empty() ? std::string() : out + "</ul>\n";
 }
 
-/// Each table below its title; the least value of a column is also bold.
+/// The tables with their titles. In each column, the least value is bold.
 std::string tables(const Contest& c) {
   std::string out;
   for (const text::ContestTable& table : text::contest_tables(c)) {

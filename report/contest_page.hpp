@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a comparison of controllers as one HTML file: the least value of each figure, torque ripple against
-// losses, and each controller's response to the load together with that of the usual controller.
+// losses, and each controller's response to the load step beside the response of the six-step controller.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace report {
 
 struct ContestPage {
   const sixstep::analysis::Contest& contest;
-  std::string command;  ///< the command that makes this page again
+  std::string command;  ///< the command that writes this page again
   std::string version;
 };
 

@@ -23,10 +23,10 @@ std::string entry(const std::string& name, double joule, const std::string& besi
                      name, computed(joule, "J"), beside);
 }
 
-/// The rows that show where the supplied energy went. A part may be negative if the motor returned energy.
+/// The rows with the parts of the supplied energy. A part may be negative if the motor returned energy.
 std::string energy_rows_of(const EnergyBook& b) {
   const auto row = [&](const char* name, double joule) {
-    // Energy that flowed in and out again leaves only a rounding error, which is not shown.
+    // If energy flowed in and out again, the part is only a rounding error and is not shown.
     if (std::abs(joule) <= 1e-12 * b.moved) return std::string();
     return entry(name, joule, b.supplied > 0.0 ? in_percent(joule / b.supplied) : "");
   };

@@ -19,7 +19,7 @@ namespace analysis = sixstep::analysis;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A point of the curve, and its place on the axis.
+/// A point of the curve, and the sheet's nominal point if it is at this point.
 struct OnCurve {
   const analysis::OperatingPoint* point;
   const analysis::NominalPoint* nominal = nullptr;
@@ -30,7 +30,7 @@ using Of = std::function<double(const OnCurve&)>;
 struct CurveLine {
   const char *label, *style, *meaning;
   Of of;
-  /// region: the area from the curve down to zero is filled.
+  /// region: the area between the curve and zero is filled.
   enum class Drawn { line, points, region } drawn = Drawn::line;
 };
 
@@ -136,7 +136,7 @@ class Charts {
     };
   }
 
-  /// Operating regions that bus and winding together allow: continuously, and for ten seconds.
+  /// Operating regions within the limits of bus and winding: continuous, and for ten seconds.
   std::vector<CurveLine> regions() const {
     if (!curve_.thermal) return {};
     const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const OnCurve& p) {
@@ -150,8 +150,8 @@ class Charts {
              [=](const OnCurve& p) { return below(limit(p).continuous_Nm, p); }, CurveLine::Drawn::region}};
   }
 
-  /// The highest torque of the axis: the end of the motor's usual range. The stall torque may be ten times as
-  /// large and would compress the rest. 0 if the range is unknown.
+  /// The highest torque of the axis: the end of the motor's usual range. The stall torque may be ten times
+  /// larger, and the usual range would then be too small to read. 0 if the range is unknown.
   double corner_Nm() const {
     constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
     double corner = 0.0;

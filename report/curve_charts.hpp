@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a torque-speed curve as the JSON from which curve.js draws.
+// Writes a torque-speed curve as the JSON that curve.js draws.
 #pragma once
 #include <string>
 
@@ -7,8 +7,9 @@
 
 namespace report {
 
-/// {"axis": base64 float64 of rpm, of a linear motor with "speed": its unit, "charts":[{.., "curves":[{..,
-/// "data": base64 float32}]}]}: the points of the curve, with the sheet's nominal speed inserted in order.
+/// {"axis": base64 float64, "charts":[{.., "curves":[{.., "data": base64 float32}]}]}. The axis is the speed
+/// in rpm; for a linear motor, "speed" names its unit. The sheet's nominal speed is inserted into the points
+/// in order.
 std::string curve_charts(const sixstep::analysis::CurveRequest& request,
                          const sixstep::analysis::Curve& curve);
 

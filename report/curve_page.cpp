@@ -67,7 +67,7 @@ std::string nominal_fact(const analysis::CurveRequest& r, const analysis::Nomina
   return text + ", " + amperes(n.at_torque->winding_current_A);
 }
 
-/// Explains why a sheet's gradient differs from the curve's.
+/// Explains why the sheet's speed-torque gradient differs from the curve's.
 std::string drop_fact(const analysis::SpeedDrop& d, const CurveUnits& u) {
   const auto per_torque = [&](double x) { return plain(x * u.per_rad_s / u.per_Nm, 3); };
   std::string text = "curve " + per_torque(*d.curve);
@@ -135,7 +135,7 @@ std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
 }
 
 std::string cell(double x, int digits = 4) {
-  const bool nothing = std::fabs(x) < 1e-9;  // only rounding at a no-load point
+  const bool nothing = std::fabs(x) < 1e-9;  // a rounding error at a no-load point
   return fmt::format("<td class=\"num\">{}</td>", nothing ? "0" : plain(x, digits));
 }
 

@@ -10,7 +10,7 @@ namespace report {
 struct CurvePageInput {
   const sixstep::analysis::CurveRequest& request;
   const sixstep::analysis::Curve& curve;
-  std::string command;  ///< the command that makes this page again
+  std::string command;  ///< the command that writes this page again
   std::string version;
 };
 

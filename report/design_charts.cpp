@@ -20,17 +20,17 @@ const std::vector<double>* column(const DesignStudy& s, std::string_view name) {
   return nullptr;
 }
 
-/// The end of the drawn time: three settling times after a step; a move is drawn completely.
+/// The end of the drawn time: three settling times after the step. A position move is drawn completely.
 double end_of_view(const DesignStudy& s, double begin_s) {
   const double settle = s.design.loops.back().step.settling_s;
   const bool whole = s.design.spec.mode == Mode::position || !std::isfinite(settle);
   return whole ? s.scenario.duration_s : std::fmin(s.scenario.duration_s, begin_s + 3 * settle);
 }
 
-/// The step of a speed comes after the start of the drive, so that time counts from the step.
+/// A speed step occurs after the start of the drive, so the time axis begins at the step.
 constexpr const char* behind_the_start = "ms from the step on";
 
-/// The response of the linear loop, added to the value from which the step begins.
+/// The step response of the linear loop, added to the value at the start of the step.
 SvgCurve designed(const DesignStudy& s, double begin_s, double from, double height) {
   SvgCurve curve{"designed", "reference", {}, {}};
   const auto& samples = s.design.loops.back().step.samples;
@@ -99,7 +99,7 @@ std::string loop_charts(const DesignStudy& s) {
     SvgCurve& p = phase.curves.emplace_back(SvgCurve{loop.name, curve_styles[n % 3], {}, {}});
     for (const auto& point : sixstep::design::bode(loop.loop, s.design.spec.period_s, from, 240)) {
       const double deg = point.phase_rad / sixstep::base::rad_per_deg;
-      // Below this gain or phase, the curves say nothing useful.
+      // Below this gain or phase, the curves have no meaning for the stability margins.
       const bool shown = point.gain > 1e-3 && deg > -400;
       g.x.push_back(point.w_rad_s / sixstep::base::turn_rad);
       g.y.push_back(shown ? 20 * std::log10(point.gain) : NAN);

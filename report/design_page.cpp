@@ -52,7 +52,7 @@ std::string simulated(const DesignStudy& s) {
   return out + "</tbody></table>\n";
 }
 
-/// The gains that result from the derivation steps; a position loop has one gain.
+/// The table of the gains from the derivation; a position loop has one gain.
 std::string gain_table(const DesignStudy& s) {
   const sixstep::base::Motion motion = motion_of(s.design.motor);
   const sixstep::base::LinearUnit gain = motion.unit("rad/s per deg");
@@ -147,7 +147,7 @@ std::string margins(const DesignStudy& s) {
   return out + "</tbody></table>\n";
 }
 
-/// The delay of the measured speed, and the fastest loop with each way of sensing.
+/// The table of the speed measurement's delay and the fastest possible loop, for each kind of sensor.
 std::string sensing(const DesignStudy& s) {
   const sixstep::design::DriveDesign& d = s.design;
   if (d.limits.empty()) return "";
@@ -173,8 +173,7 @@ std::string sensing(const DesignStudy& s) {
       escaped(computed(d.lag.delay_s(), "s")), table, rows);
 }
 
-/// The derivation of the delay of the measured speed, and the design of a drive without a rotor position
-/// sensor.
+/// The derivations of the speed measurement's delay, and of a drive without a rotor position sensor.
 std::string sensing_steps(const DesignStudy& s) {
   const bool linear = s.design.motor.kind == sixstep::design::MotorKind::linear;
   const auto loop = [&](const std::string& title, const char* origin, const auto& steps) {

@@ -11,7 +11,7 @@ struct DesignPage {
   const sixstep::analysis::DesignStudy& study;
   std::string verdict;   ///< verdict in one line
   std::string scenario;  ///< text of the simulated file
-  std::string command;   ///< the command that makes this page again
+  std::string command;   ///< the command that writes this page again
   std::string version;
 };
 

@@ -36,7 +36,7 @@ std::string facts(const text::MeasuredEmf& m) {
   return out;
 }
 
-/// Up to three periods from the middle of the recording: its rows and the fit.
+/// The recorded rows and the fit in the middle of the recording, at most three periods.
 SvgChart recording(const EmfPage& page) {
   const EmfResult& r = page.measured.result;
   const auto& t = page.record.t_s;

@@ -10,7 +10,7 @@ namespace report {
 struct EmfPage {
   const text::MeasuredEmf& measured;
   const sixstep::analysis::EmfRecord& record;
-  std::string command;  ///< the command that makes this page again
+  std::string command;  ///< the command that writes this page again
   std::string version;
 };
 

@@ -22,7 +22,7 @@ struct Entry {
   double joule;
 };
 
-/// A value that is rounded to zero is printed without a sign.
+/// A value that rounds to zero is printed without a sign.
 std::string fixed(double value, int decimals) {
   const std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
   const bool zero = text.find_first_not_of("0.") == text.npos;
@@ -35,14 +35,14 @@ std::string bar(double joule, double largest) {
                      100.0 * std::abs(joule) / largest);
 }
 
-/// Scales that both accounts use.
+/// Scales that the electrical and the mechanical account share.
 struct Yardsticks {
   double largest;     ///< largest entry of both accounts
   double scale;       ///< the residuals are relative to this energy
   const char* parts;  ///< name of the energy `scale`
 };
 
-/// The value; zero if it is far below any rounding of the entries.
+/// The value; zero if it is below 1e-20 of the largest entry, far less than any rounding error.
 double unless_nothing(double joule, double largest) {
   return std::abs(joule) < 1e-20 * largest ? 0.0 : joule;
 }
@@ -58,7 +58,7 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
                     const Yardsticks& y) {
   const double largest = y.largest;
   const Scale scale = scale_for(largest, "J");
-  constexpr int decimals = 4;  // as many in both accounts, so that the printed numbers add up
+  constexpr int decimals = 4;  // the same in both accounts, so that the printed numbers add up
   const auto row = [&](const Entry& e, const char* css) {
     const double joule = e.joule * scale.factor;
     return fmt::format(
@@ -71,7 +71,7 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
       scale.unit);
   html += row(total, "total");
   for (const Entry& e : entries) html += row(e, "part");
-  const double missing = residual * y.scale;  // equals the book's own difference to the last bit
+  const double missing = residual * y.scale;  // equal to the difference in the energy book to the last bit
   html += fmt::format(
       "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
       "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",
@@ -79,7 +79,7 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
   return html + closing(residual, y);
 }
 
-/// Symbols of the accounts that a linear motor replaces.
+/// Symbols of the accounts, and their replacements for a linear motor.
 constexpr sixstep::base::LinearWord linear_symbols[] = {{"T<sub>e</sub> ω", "F<sub>e</sub> v"},
                                                         {"T<sub>load</sub> ω", "F<sub>load</sub> v"},
                                                         {"½ J ω²", "½ m v²"}};
@@ -166,7 +166,7 @@ std::string event_section(const sixstep::study::Outcome& outcome) {
       "<tr><th scope=\"row\">digest of the trajectory<small>the same on every platform</small></th>"
       "<td class=\"num\"><code>{}</code></td></tr>\n",
       sixstep::base::written_hex(outcome.digest));
-  // The note explains why half of the edges of edge-aligned pulses are not in the table.
+  // Edge-aligned pulses begin at a tick, so half of their edges count as ticks; the note explains this.
   return html +
          "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. An "
          "edge switches two gates of a leg where chopping is complementary, so that turn-ons of all six switches "

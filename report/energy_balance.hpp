@@ -8,8 +8,9 @@
 
 namespace report {
 
-/// The drive as far as the book's formulas depend on it. Twist of an elastic shaft and cogging count as kinetic; a
-/// delta's losses and its field are those of its branches, whose currents may flow where no terminal has any.
+/// Properties of the drive that change the terms of the book. The energies of an elastic shaft's twist and of
+/// cogging count as kinetic. For a delta, losses and field energy are those of the branches, whose currents
+/// may flow while all terminal currents are zero.
 struct BookOf {
   bool twist = false, cogging = false, delta = false;
 };

@@ -17,8 +17,7 @@ struct Prefix {
 constexpr std::array<Prefix, 8> prefixes{
     {{1e12, "p"}, {1e9, "n"}, {1e6, "µ"}, {1e3, "m"}, {1, ""}, {1e-3, "k"}, {1e-6, "M"}, {1e-9, "G"}}};
 
-/// A unit as column names and descriptions have it, the same unit as printed, and whether it usually has a
-/// prefix.
+/// A unit as written in column names, the same unit as printed, and whether it usually has a prefix.
 struct UnitForm {
   std::string_view written, printed;
   bool prefixed;
@@ -94,7 +93,7 @@ std::string plain(double value, int digits, bool trim) {
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
   int power = decade(value);
   if (std::abs(value) >= std::pow(10.0, power + 1) - 0.5 * std::pow(10.0, power + 1 - digits))
-    ++power;  // as for 9.9999
+    ++power;  // rounding changes the decade, as for 9.9999
   if (value != 0.0 && (power < -4 || power > 7)) {
     return fixed(value / std::pow(10.0, power), digits - 1, true) + "·10" + superscript(power);
   }
@@ -117,7 +116,7 @@ std::string computed(double value, std::string_view unit) {
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
   if (!std::isfinite(difference)) return "not comparable";
-  // A ratio of opposite signs has no meaning, so that the difference itself is printed.
+  // A ratio of opposite signs has no meaning, so the difference is printed.
   if (reference == 0.0 || (measured < 0.0) != (reference < 0.0))
     return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
   const double percent = 100.0 * difference / reference;
@@ -131,8 +130,7 @@ std::string in_percent(double part) { return plain(100.0 * part, 2, true) + "\u0
 Judged judged(double measured, std::optional<double> min, std::optional<double> max, std::string_view unit) {
   const double limit = max && *max != 0.0 ? *max : min && *min != 0.0 ? *min : measured;
   const Scale scale = scale_for(limit, unit);
-  // Limits that are close together, or a measurement close to its limit, need more digits to be
-  // distinguished.
+  // More digits are needed if two limits are close together, or if a measured value is close to its limit.
   double resolution = std::abs(limit) * 1e-3;
   const auto finer = [&](double gap) {
     if (gap > 0.0 && std::isfinite(gap)) resolution = std::min(resolution, gap * 0.1);

@@ -14,25 +14,26 @@ struct Scale {
   std::string unit;  ///< "ms", "°", "rad/s"; empty for pure numbers
 };
 
-/// The prefix that gives a number between 1 and 1000. Only units that usually have a prefix get one: no
-/// mrad/s, no krpm.
+/// The prefix with which the number is between 1 and 1000. Only units that usually have a prefix get a
+/// prefix: no mrad/s, no krpm.
 Scale scale_for(double magnitude, std::string_view unit);
 
-/// A number such as "0.927", with `digits` significant digits, a true minus sign, and a power of ten if plain
-/// digits would be unreadable.
+/// A number such as "0.927", with `digits` significant digits and a true minus sign; with a power of ten if
+/// plain digits would be unreadable.
 std::string plain(double value, int digits, bool trim = false);
 
-/// A given value with its unit, without trailing zeros: "0.927 ms", "33.5 mNm/A", "7.3·10⁻⁶ Nm s".
+/// A given value with its unit and without trailing zeros: "0.927 ms", "33.5 mNm/A", "7.3·10⁻⁶ Nm s".
 std::string given(double value, std::string_view unit);
 
-/// Whether the value is the time of an event that did not occur; a word then replaces the number.
+/// Whether the value is the time of an event that did not occur. Then a word is printed instead of the
+/// number.
 bool never(double value, std::string_view unit);
 
 /// A computed value with its unit and four digits.
 std::string computed(double value, std::string_view unit);
 
-/// The deviation measured/reference - 1 as "+1.3 %", or as "+0.02 A" if the reference is zero; words if one
-/// of the numbers is not finite.
+/// The deviation measured/reference - 1 as "+1.3 %". The difference "+0.02 A" if the reference is zero or has
+/// the opposite sign. Words if a number is not finite.
 std::string deviation(double measured, double reference, std::string_view unit);
 
 /// A fraction in per cent with two digits: "97 %" for 0.97.
@@ -45,7 +46,7 @@ struct Judged {
 };
 Judged judged(double measured, std::optional<double> min, std::optional<double> max, std::string_view unit);
 
-/// The value in rpm as an addition, if the unit is rad/s; else empty.
+/// The value in rpm, to be printed beside a value in rad/s; empty for any other unit.
 std::string aside(double value, std::string_view unit);
 
 /// A count with narrow spaces between groups: "1 234 567".

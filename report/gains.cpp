@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the gains in use with the exact design, every step of the design, and a user's controller's numbers.
+// Prints the gains in use, the exactly designed gains, every step of the design, and the parameters of a
+// user's controller.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -58,7 +59,7 @@ std::string derivation_table(const std::vector<sixstep::design::DerivationStep>&
       "<table class=\"steps\"><thead><tr><th>Step</th><th>Formula</th><th "
       "class=\"num\">Value</th></tr></thead><tbody>\n";
   for (const auto& step : steps) {
-    // With a linear motor, a frequency in rad/s could be mistaken for a speed, so that its unit is 1/s.
+    // For a linear motor, the unit of a frequency is 1/s: rad/s could be mistaken for a speed.
     const Scale scale = scale_for(step.value, linear && step.unit == "rad/s" ? "1/s" : step.unit);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",

@@ -16,7 +16,7 @@ using sixstep::study::Trace;
 
 constexpr const char* hall_labels[] = {"H1", "H2", "H3"};
 
-/// The text shown when the pointer is over a label: the column's meaning.
+/// The meaning of a column, shown when the pointer is over its label.
 std::string meaning_of(const Trace& trace, std::string_view name) {
   for (const auto& column : trace.columns)
     if (column.name == name)
@@ -38,12 +38,12 @@ std::vector<double> in_degrees(std::vector<double> angles) {
   return times(std::move(angles), 180.0 / 3.14159265358979323846);
 }
 
-/// The chart of currents. A field-oriented drive has no driven pair, and its currents in the rotor's frame
-/// have another chart.
+/// The chart of currents. A field-oriented drive has no driven pair; the currents in its rotor's frame are in
+/// another chart.
 Group currents(const Trace& trace, bool of_field) {
   Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
-  // i_m equals the current of one phase at every instant, so that it is drawn first, below the phase
-  // currents.
+  // i_m is equal to one phase current at every instant. It is drawn first, so that the phase currents are
+  // above it.
   if (!of_field) add(g, trace, "i_m_A", "i_m", "beneath");
   add(g, trace, "i_a_A", "i_a", "a");
   add(g, trace, "i_b_A", "i_b", "b");
@@ -52,7 +52,8 @@ Group currents(const Trace& trace, bool of_field) {
   return g;
 }
 
-/// The sum of a delta's branch currents, which no terminal shows; a third of it circulates.
+/// The sum of a delta's branch currents, which cannot be measured at a terminal. The circulating current is a
+/// third of the sum.
 Group loop_current(const Trace& trace) {
   Group g{.id = "loop-current",
           .title = "Sum of the delta's branch currents: three times the circulating one",
@@ -104,7 +105,7 @@ Group logic(const Trace& trace, std::deque<std::vector<double>>& derived) {
   add(g, trace, "gate_T6", "T6 c↓", "c-soft");
   const auto* hall = find_column(trace, "hall");
   if (!hall) return g;
-  for (int bit = 2; bit >= 0; --bit) {  // H1, H2, H3 are bits 2, 1, 0
+  for (int bit = 2; bit >= 0; --bit) {  // bits 2, 1, 0 are H1, H2, H3
     std::vector<double> level;
     level.reserve(hall->size());
     for (const double code : *hall)
@@ -161,7 +162,7 @@ Group duty(const Trace& trace) {
   return g;
 }
 
-/// The shaft's angle, if it is controlled; otherwise it only grows, and is not shown.
+/// The shaft's angle if it is controlled. In other modes, it only increases and is not shown.
 Group position(const Trace& trace, std::deque<std::vector<double>>& derived, bool linear) {
   Group g{.id = "position",
           .title = "Position",
@@ -181,7 +182,7 @@ Group position(const Trace& trace, std::deque<std::vector<double>>& derived, boo
   return g;
 }
 
-/// The bus voltage; a stiff bus needs no chart.
+/// The bus voltage. A constant bus voltage needs no chart.
 Group bus(const Trace& trace) {
   Group g{.id = "bus", .title = "Bus voltage", .unit = "V", .height_px = 130};
   const auto* volts = find_column(trace, "bus_V");
@@ -191,8 +192,8 @@ Group bus(const Trace& trace) {
   return g;
 }
 
-/// Whether a group has no curve, or only zeros, such as the speed of a held rotor. Currents are shown in any
-/// case, because zero current is information.
+/// Whether a group has no curve, or only zeros, such as the speed of a locked rotor. Currents are always
+/// shown: a current of zero is information.
 bool nothing_to_see(const Group& g) {
   if (g.logic || g.id == "currents") return g.curves.empty();
   return std::ranges::all_of(g.curves, [](const Curve& curve) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which columns share a chart, their order and their names.
+// Decides which columns share a chart, in which order and under which names.
 #pragma once
 #include <deque>
 #include <string>
@@ -11,7 +11,7 @@
 namespace report {
 
 struct Curve {
-  std::string label;    ///< "i_a"; an underscore starts a subscript
+  std::string label;    ///< "i_a"; the text after an underscore is a subscript
   std::string style;    ///< name of a colour in the style sheet
   std::string meaning;  ///< shown when the pointer is over the label
   const std::vector<double>* values = nullptr;
@@ -21,8 +21,8 @@ struct Group {
   std::string id, title, unit;
   int height_px = 180;
   bool logic = false;      ///< each signal is a strip of zeros and ones, one below the other
-  bool lanes = false;      ///< the curves are drawn one above the other, each with its own zero, because they
-                           ///< would hide each other
+  bool lanes = false;      ///< the curves are drawn one above the other, each with its own zero line, because
+                           ///< they would hide each other
   std::string quantity{};  ///< "speed", "angle", "torque" or "current" if the reader may choose the unit;
                            ///< else empty
   std::vector<Curve> curves{};
@@ -34,7 +34,7 @@ struct Groups {
   std::deque<std::vector<double>> derived;  ///< computed columns (Hall bits); a deque keeps their addresses
 };
 
-/// The groups, the controlled quantity first. Charts without any curve that has a number are omitted.
+/// The groups, with the controlled quantity first. A chart without numbers is omitted.
 Groups chart_groups(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);
 
 }  // namespace report

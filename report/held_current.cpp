@@ -12,7 +12,7 @@ namespace {
 using sixstep::study::Scenario;
 using sixstep::study::Trace;
 
-/// Whether the drive drives the pair of the rotor's sector, to which the column i_m belongs.
+/// Whether the driven pair is the pair of the rotor's sector, as column i_m assumes.
 bool drives_pair_of_rotor(const Scenario& s) {
   using sixstep::rig::WireOrder;
   using sixstep::study::FirmwareKind;

@@ -15,8 +15,8 @@ using sixstep::control::Mode;
 using sixstep::study::Scenario;
 using sixstep::study::Trace;
 
-constexpr double near = 0.1;  ///< "near" the goal means within this fraction of the step, more than most
-                              ///< ripple
+constexpr double near = 0.1;  ///< a signal is near its goal if it differs by at most this fraction of the
+                              ///< step; most ripple is smaller
 constexpr double degrees_per_rad = 180.0 / 3.14159265358979323846;
 
 /// The reference and the measured signal in one unit: signal = column * factor.
@@ -56,27 +56,28 @@ std::vector<Change> changes_of(const Values& reference, double start) {
   return out;
 }
 
-/// Whether a six-step drive starts its rotor open-loop by a current alone. The speed reference is then 0
-/// until the speed loop takes over, and again after the drive has lost the rotor.
+/// Whether a six-step drive starts its rotor open-loop with a given current. The speed reference is then 0
+/// until the speed loop starts, and again after the drive has lost the rotor.
 bool starts_blindly(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::sensorless &&
          s.control.sensorless.commutates != sixstep::study::Commutates::hall;
 }
 
-/// Like starts_blindly(), for a field-oriented drive with an observer. Its speed loop has a real step when it
-/// starts: from the speed that the rotor has then.
+/// Whether a field-oriented drive starts its rotor open-loop and then follows an observer. When its speed
+/// loop starts, the reference steps from the rotor's present speed.
 bool takes_over_turning(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::field &&
          s.control.field.angle == sixstep::study::FieldAngle::observer;
 }
 
-/// The size of a change if it counts as a step; 0 for changes from and to 0 in a blind start.
+/// The size of a step of the reference. In a blind start, a change from or to 0 does not count as a step: its
+/// size is 0.
 double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
-/// The row of the first Hall edge after the current has come near its goal, else the last row. After this
-/// edge the current no longer shows the step, but commutations of a steady current.
+/// The row of the first Hall edge after the current has come near its goal; without such an edge, the last
+/// row. After this edge, changes of the current are commutations, not the step.
 std::size_t end_of_current_step(const Values* hall, const Values& signal, const Change& step,
                                 std::size_t last) {
   if (!hall) return last;
@@ -86,15 +87,15 @@ std::size_t end_of_current_step(const Values* hall, const Values& signal, const 
   return n;
 }
 
-/// Angle in degrees that the shaft is ahead of its count at the run's end: an encoder without a reference counts from
-/// its index, which the shaft may have passed after any number of turns.
+/// Angle in degrees by which the shaft is ahead of the drive's count at the run's end. An encoder without a
+/// reference counts from its index, and the shaft may have made any number of turns before.
 double ahead_of_count(const Scenario& s, double shaft_deg, double asked_deg) {
   const bool from_index = s.control.mode == Mode::position && !s.sensors.encoder.referenced &&
                           s.sensors.rotor == sixstep::study::RotorSensing::encoder;
   return from_index ? 360.0 * std::round((shaft_deg - asked_deg) / 360.0) : 0.0;
 }
 
-/// The whole run, if there is no setpoint.
+/// The whole run as a step, if there is no setpoint.
 Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
           .unit = "",
@@ -144,7 +145,7 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   for (std::size_t n = largest->row; n <= until; ++n)
     if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
   const double at = (*time)[largest->row], end = (*time)[next];
-  // Least number of PWM periods without a change. A reference that changes continuously has no visible step.
+  // Least time to the next change, in PWM periods. A reference that changes continuously has no visible step.
   constexpr double least_periods = 3.0;
   if (end - at < least_periods * scenario.pwm.period_s && largest + 1 != changes.end())
     return from_start(*time, scenario);
@@ -164,8 +165,7 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
 
 namespace {
 
-/// Integrals over a window of the straight lines through the rows, of y and of y^2, and the lowest and
-/// highest value.
+/// Integrals of y and y^2 over a window, and the lowest and highest y. y is the polyline through the rows.
 struct Line {
   double integral = 0.0, square = 0.0, low = INFINITY, high = -INFINITY;
 };
@@ -186,15 +186,15 @@ Line line_over(const Values& time, const Values& y, const Interval& window) {
   return out;
 }
 
-/// Whether a column of current references holds any. A controller without a current loop writes zeros.
+/// Whether the current reference is ever nonzero. A controller without a current loop writes zeros.
 bool names_a_current(const Values& reference) {
   return std::ranges::any_of(reference, [](double ampere) { return ampere != 0.0; });
 }
 
-/// Smaller currents are only rounding.
+/// Smaller currents are rounding errors.
 constexpr double least_A = 1e-9;
 
-/// The row in the window in which `measure` is largest; the first one of equals.
+/// The row in the window with the largest `measure`; the first such row if several are equal.
 template <class Measure>
 std::size_t largest_row(const Values& time, const Interval& window, const Measure& measure) {
   std::size_t row = 0;
@@ -204,9 +204,10 @@ std::size_t largest_row(const Values& time, const Interval& window, const Measur
   return row;
 }
 
-/// The row of the peak. A step of the current begins at its old level, which may be the larger one: its peak is
-/// the farthest value in the step's direction. Magnitudes of phases come down before they rise to a level of
-/// the other sign. In the step of another quantity the peak is the largest magnitude.
+/// The row of the peak. For a step of the current, the peak is the farthest value in the step's direction,
+/// because the old level may be larger. If the reference changes its sign, the phases' magnitudes first fall
+/// and then rise; the peak is then searched after the lowest value. For a step of another quantity, the peak
+/// is the largest magnitude.
 std::size_t peak_row(const Values& time, const Values& y, const Step& step) {
   if (step.of != "current")
     return largest_row(time, step.window, [&](std::size_t n) { return std::abs(y[n]); });
@@ -248,7 +249,8 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
 
 namespace {
 
-/// Time in s during which a value that is constant between rows was at the bound or beyond it.
+/// Time in s during which the magnitude of a value was at the bound or above it. The value is constant
+/// between rows.
 double seconds_at(const Values& time, const Values& held, double bound, double from_s) {
   double sum = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n)
@@ -257,14 +259,14 @@ double seconds_at(const Values& time, const Values& held, double bound, double f
   return sum;
 }
 
-/// The used fraction of the bus voltage: the duty of a pair; for three legs the voltage vector relative to
-/// the circle that they reach at every angle, bus over sqrt 3.
+/// The used fraction of the bus voltage. For a driven pair, it is the duty. For three legs, it is the length
+/// of the voltage vector, relative to the circle that the legs reach at every angle: bus/sqrt(3).
 std::optional<Values> part_of_bus(const Trace& trace, const Scenario& scenario) {
   const Values *d = find_column(trace, "v_d_V"), *q = find_column(trace, "v_q_V"),
                *bus = find_column(trace, "bus_V"), *duty = find_column(trace, "duty");
   if (scenario.control.drive != sixstep::study::FirmwareKind::field)
     return duty ? std::optional(*duty) : std::nullopt;
-  // The states of a finite set use the whole bus or none of it, so that a fraction says nothing.
+  // A state of a finite set uses the whole bus or none of it, so a fraction has no meaning.
   if (!d || !q || !bus || scenario.control.field.law == sixstep::study::FieldLaw::finite_set)
     return std::nullopt;
   Values part(d->size());
@@ -283,7 +285,7 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
                         scenario.control.mode >= Mode::current;
   if (!time || !duty || compares || scenario.control.mode == Mode::off) return std::nullopt;
   const double from_s = whole_from_s(trace);
-  // The length of a vector has a rounding error; a duty has none.
+  // The length of a vector has a rounding error; a duty does not.
   const double whole = scenario.control.drive == sixstep::study::FirmwareKind::field ? 1.0 - 1e-6 : 1.0;
   Held out{.seen_s = time->back() - from_s,
            .bus_s = seconds_at(*time, *duty, whole, from_s),
@@ -292,9 +294,9 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   const auto* reference = find_column(trace, "i_ref_A");
   if (scenario.control.drive == sixstep::study::FirmwareKind::own &&
       !(reference && names_a_current(*reference)))
-    out.limit_A.reset();  // the controller is a user's and may have no current reference
-  // The controller's number may be float or fixed-point. The comparison allows the coarsest step, 2^-14 of
-  // full scale.
+    out.limit_A.reset();  // a user's controller may have no current reference
+  // The reference may be in float or fixed point. The comparison allows a deviation of 2^-13, twice the
+  // coarsest step.
   if (reference && out.limit_A)
     out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);
   return out;

@@ -50,8 +50,8 @@ std::string escaped(std::string_view text) { return text::markup_text(text, text
 
 namespace {
 
-/// Sets a subscript after one underscore if the name is short: K_t, I_stall, tau_m. resistance_ohm is a key
-/// and stays as typed.
+/// Writes a subscript after the underscore of a short name: K_t, I_stall, tau_m. A key such as resistance_ohm
+/// is unchanged.
 std::string word_with_subscript(std::string_view word) {
   constexpr std::size_t longest_name = 3;
   const std::size_t cut = word.find('_');

@@ -13,8 +13,8 @@ namespace report {
 /// Escapes text for element content and quoted attributes.
 std::string escaped(std::string_view text);
 
-/// escaped(), with subscripts: "T_reg" is a T with subscript reg. A subscript is a letter, an underscore and
-/// the letters up to the next other character.
+/// escaped(), with subscripts: "T_reg" is printed as T with the subscript reg. A symbol has at most three
+/// letters before its only underscore.
 std::string with_subscripts(std::string_view text);
 
 /// A formula as printed: "w0 sqrt(1 - xi^2)" becomes ω₀ √(1 − ξ²). Words are unchanged.
@@ -29,9 +29,9 @@ std::string base64(std::span<const std::uint8_t> bytes);
 std::string base64(std::span<const float> values);
 std::string base64(std::span<const double> values);
 
-/// A table's cell that holds a number.
+/// A table cell with a number.
 std::string number_cell(const std::string& html);
-/// A table's first row. A name that begins with # is the heading of a column of numbers.
+/// The first row of a table. A name that begins with # is the heading of a column of numbers.
 std::string table_head(std::initializer_list<std::string_view> names);
 
 using Gap = std::pair<std::string_view, std::string_view>;

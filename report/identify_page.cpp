@@ -54,13 +54,13 @@ std::string facts(const HallIdentity& f) {
   return out;
 }
 
-/// Places of the rising or of the falling edges over time, with one colour per pin.
+/// Deviations of the rising or of the falling edges over time, with one colour per pin.
 SvgChart passages(const HallIdentity& f, bool rising) {
   SvgChart chart{.title = rising ? "Rising edges in the order of time" : "Falling edges in the order of time",
                  .x_label = "s",
                  .y_label = "deviation from the nominal place, electrical degrees",
                  .levels = {0.0}};
-  // Without voltages the absolute place is unknown, so that the mean of all edges is drawn as zero.
+  // Without voltages the absolute angle is unknown; the mean of all edges is then drawn as zero.
   double level = 0.0, count = 0.0;
   for (const EdgePassage& p : f.passages)
     if (!f.place && !p.left_out) level += p.place_deg - f.edges[p.edge].own_deg.value, count += 1.0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes identified Hall probes as one HTML file: at which angle each edge was passed, and how the rotor
-// turned.
+// Writes identified Hall probes as one HTML file: the angle of each edge, and the rotor's motion.
 #pragma once
 #include <string>
 
@@ -11,7 +10,7 @@ namespace report {
 struct IdentifyPage {
   std::string name;  ///< name of the log
   const sixstep::analysis::HallIdentity& found;
-  std::string command;  ///< the command that makes this page again
+  std::string command;  ///< the command that writes this page again
   std::string version;
 };
 

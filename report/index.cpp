@@ -28,7 +28,7 @@ std::string linked(const IndexEntry& entry) {
 
 std::string anchor(std::size_t place) { return fmt::format("e{}", place + 1); }
 
-/// The requirement that is nearest to its limit, with its distance.
+/// The requirement that is closest to its limit, with the remaining distance.
 std::string closest_cell(const sixstep::study::Outcome& outcome) {
   const sixstep::study::Verdict* tightest = nullptr;
   for (const auto& v : outcome.verdicts)
@@ -50,7 +50,7 @@ std::string furthest(const sixstep::study::Outcome& outcome) {
                      with_subscripts(worst->figure));
 }
 
-/// All experiments on one screen: one line each, with the requirement nearest to its limit.
+/// A table with one line per experiment, with the requirement closest to its limit.
 std::string overview(const std::vector<IndexEntry>& entries) {
   std::string rows;
   for (std::size_t n = 0; n < entries.size(); ++n) {
@@ -99,7 +99,7 @@ std::string failed_list(const std::vector<IndexEntry>& entries) {
   return items.empty() ? items : "<ul class=\"failed\">" + items + "</ul>\n";
 }
 
-/// Interrupted runs, and runs that were never begun.
+/// Interrupted runs, and runs that were not started.
 std::string unfinished_section(const std::vector<IndexEntry>& entries) {
   std::string items;
   for (const IndexEntry& entry : entries)
@@ -110,7 +110,7 @@ std::string unfinished_section(const std::vector<IndexEntry>& entries) {
   return items.empty() ? items : "<h2>Not finished</h2>\n<ul class=\"unfinished\">" + items + "</ul>\n";
 }
 
-/// The verdict of all experiments; if some are not finished, of the finished ones.
+/// The verdict of all experiments; if some are not finished, the verdict of the finished ones.
 Standing standing_of(const std::vector<IndexEntry>& entries) {
   const auto finished = std::ranges::count_if(entries, [](const IndexEntry& e) { return e.finished; });
   const auto passed =

@@ -19,7 +19,7 @@ using sixstep::study::Trace;
 
 constexpr double end_of_time = std::numeric_limits<double>::infinity();
 
-/// Rows per bucket: the first, the last, and the lowest and highest row of each column.
+/// Rows per bucket: the first row, the last row, and the rows of each column's lowest and highest value.
 constexpr std::size_t rows_a_bucket = 2 * sixstep::study::column_count + 2;
 
 std::size_t row_at(const std::vector<double>& time, double t_s) {
@@ -28,8 +28,8 @@ std::size_t row_at(const std::vector<double>& time, double t_s) {
 
 /// Expected number of rows in a run.
 double expected_rows(const Scenario& s) {
-  // With soft chopping there are seven rows per period: a tick and two edges, each edge with both sides of a
-  // jump.
+  // With soft chopping there are seven rows per period: rows of a tick and of two edges, with both sides of
+  // each jump.
   constexpr double rows_a_period = 7.0;
   return s.duration_s / s.pwm.period_s * rows_a_period;
 }
@@ -45,8 +45,8 @@ KeptRows::KeptRows(const Scenario& scenario, std::size_t most_bytes)
   trace_.columns = sixstep::study::all_columns();
   trace_.values.resize(trace_.columns.size());
   trace_.every_event = true;
-  // Reserved memory costs nothing until rows are stored in it. Growing columns would be copied each time
-  // their size doubles.
+  // Reserved memory costs nothing until rows are stored in it. Without the reservation, a column would be
+  // copied each time its size doubles.
   const double expected = std::min(expected_rows(scenario), static_cast<double>(most_));
   if (expected > 0.0)
     for (std::vector<double>& column : trace_.values) column.reserve(static_cast<std::size_t>(expected) + 1);
@@ -57,9 +57,8 @@ void KeptRows::add(sixstep::study::Row row) {
   for (std::size_t n = 0; n < row.size(); ++n) trace_.values[n].push_back(row[n]);
 }
 
-/// Replaces the older half of the complete rows by an envelope of a sixteenth of its size. An envelope that
-/// has grown to a quarter of all rows is replaced by one of half its length. So each row is processed at most
-/// twice.
+/// Replaces the older half of the complete rows by an envelope of a sixteenth as many rows. If the envelope
+/// exceeds a quarter of all rows, it is replaced by an envelope of half as many rows.
 void KeptRows::thin() {
   const std::size_t before = rows(), end = thinned_ + (before - thinned_) / 2;
   step_ = step_to_keep(end);
@@ -74,7 +73,7 @@ void KeptRows::thin() {
   say_what_is_whole();
 }
 
-/// The largest step so far, if no row of it is lost yet and its rows are no more than an eighth of all.
+/// The largest step so far, if all its rows still exist and are at most an eighth of all rows.
 std::optional<Interval> KeptRows::step_to_keep(std::size_t end) const {
   const auto step = largest_step(trace_, *scenario_);
   if (!step || step->of == "start" || !is_whole(trace_, step->window)) return std::nullopt;

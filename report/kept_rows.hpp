@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the rows of a run for its report in bounded memory. Every event is kept until memory is full. Then an
-// envelope, with each column's lowest and highest values, replaces the older rows. The latest rows and those
-// of the largest step are kept.
+// Keeps the rows of a run for its report in bounded memory. Until the memory is full, every event is kept.
+// Then an envelope replaces the older rows: each column's lowest and highest values. The latest rows and the
+// rows of the largest step are kept.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -14,17 +14,17 @@
 
 namespace report {
 
-/// Upper limit of memory for the rows of a report. Including everything made from them, the program stays
-/// below 256 MiB.
+/// Largest memory for the rows of a report, bytes. With all data that are computed from the rows, the program
+/// needs less than 256 MiB.
 inline constexpr std::size_t most_row_bytes = 160'000'000;
 
 class KeptRows {
  public:
-  /// The scenario must outlive this object. Reports that are made at the same time share the memory.
+  /// The scenario must outlive this object. Reports that are written at the same time share the memory.
   explicit KeptRows(const sixstep::study::Scenario& scenario, std::size_t most_bytes = most_row_bytes);
 
   void add(sixstep::study::Row row);
-  /// All columns at every event; `whole` gives the intervals without an envelope.
+  /// All columns at every event; trace().whole lists the intervals in which no envelope replaces rows.
   const sixstep::study::Trace& trace() const { return trace_; }
 
  private:
@@ -37,12 +37,12 @@ class KeptRows {
   const sixstep::study::Scenario* scenario_;
   sixstep::study::Trace trace_;
   std::size_t most_;              // largest number of rows
-  std::size_t thinned_ = 0;       // number of rows of the envelope, which are the first rows
-  std::optional<Interval> step_;  // interval among them that is kept completely
+  std::size_t thinned_ = 0;       // number of rows of the envelope; they are at the beginning
+  std::optional<Interval> step_;  // interval within the envelope whose rows are all kept
 };
 
-/// The message that the report will not keep all rows: an estimate before the run, a fact after it. Empty if
-/// the report keeps all rows.
+/// The message that the report will not contain all rows: rows_foretold() before the run, rows_told() after
+/// it. Empty if the report contains all rows.
 std::string rows_foretold(const sixstep::study::Scenario& scenario, std::size_t most_bytes = most_row_bytes);
 std::string rows_told(const sixstep::study::Trace& trace);
 

@@ -13,13 +13,13 @@
 namespace report {
 namespace {
 
-constexpr double highest_count = 65533.0;  // one count is left over, so that zero can be placed on a whole
-                                           // count
+constexpr double highest_count = 65533.0;  // one count fewer than possible: add_column() shifts the range by
+                                           // up to one count, so that zero is a whole count
 constexpr std::uint16_t no_number = 65535;
 
-/// zlib's settings. The lower planes of a run's times hardly repeat, so that only the frequency of their
-/// bytes is used. A page that is too large with the quick level may fit with the thorough one, which takes
-/// three times as long.
+/// zlib's settings. The three lower bytes of the times hardly repeat, so only the frequencies of their values
+/// are used (count_times). A page that is too large with `quick` may fit with `thorough`, which takes three
+/// times as long.
 struct Effort {
   int level;
   bool count_times;
@@ -33,7 +33,7 @@ class Deflated {
   Deflated(std::size_t rows, std::size_t columns, const Effort& effort, std::size_t most_bytes)
       : effort_(effort), most_(most_bytes) {
     constexpr std::size_t to_change =
-        64;  // additional bytes, at most, if a plane's settings differ from those of the previous plane
+        64;  // most additional bytes if a plane's settings differ from those of the previous plane
     planes_ = time_planes + 2 * columns;
     const std::size_t room = compressBound(planes_ * rows) + planes_ * to_change;
     bytes_ = std::make_unique_for_overwrite<Bytef[]>(room);
@@ -69,7 +69,7 @@ class Deflated {
   bool sound_ = true, counting_ = false;
 };
 
-/// Adds planes, each with the bytes of one weight. The high bytes of small differences are zeros, which
+/// Adds planes, each with the bytes of one significance. The high bytes of small differences are zeros and
 /// compress to almost nothing.
 template <class Count>
 void add_planes(Deflated& out, const std::vector<Count>& counts) {
@@ -89,10 +89,10 @@ void add_planes(Deflated& out, const std::vector<Count>& counts) {
 void add_times(Deflated& bytes, const std::vector<double>& time, PackedRows& out) {
   double gap = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n) gap = std::max(gap, time[n] - time[n - 1]);
-  constexpr double picosecond = 1e-12, most = 4e9;  // below 2^32, with room for rounding
+  constexpr double picosecond = 1e-12, most = 4e9;  // below 2^32, with a margin for rounding
   out.start_s = time.front();
   out.tick_s = std::max(picosecond, gap / most);
-  // The counts may wrap, because their differences fit into 32 bits.
+  // The counts may wrap: their differences fit into 32 bits.
   std::vector<std::uint32_t> counts;
   counts.reserve(time.size());
   for (const double t : time)
@@ -114,7 +114,7 @@ void add_column(Deflated& bytes, const std::vector<double>& values, PackedRows& 
   for (const double v : values)
     if (finite(v)) low = std::min(low, v), high = std::max(high, v);
   PackedRows::Column column{low <= high ? low : 0.0, low < high ? (high - low) / highest_count : 0.0};
-  // Zero stays exactly zero: the current of a blocking phase must not become a rounding error.
+  // Zero remains exactly zero: the current of a blocking phase must not become a rounding error.
   if (low < 0.0 && high > 0.0) column.low = -column.step * std::ceil(-low / column.step);
   std::vector<std::uint16_t> counts(values.size());
   for (std::size_t n = 0; n < values.size(); ++n) {
@@ -142,7 +142,7 @@ std::optional<PackedRows> packed_with(const Effort& effort, const std::vector<do
 std::optional<PackedRows> packed_rows(const std::vector<double>& time,
                                       const std::vector<const std::vector<double>*>& columns,
                                       std::size_t most_bytes) {
-  // Too large even if compression left only a tenth of a byte per value.
+  // Too large even if compression reduced each value to a tenth of a byte.
   if (time.size() < 2 || time.size() * columns.size() / 10 > most_bytes) return std::nullopt;
   auto packed = packed_with(quick, time, columns, most_bytes);
   return packed ? packed : packed_with(thorough, time, columns, most_bytes);

@@ -26,14 +26,14 @@ std::string row(std::string_view name, const std::string& value, std::string_vie
       name, escaped(value), escaped(frame), with_subscripts(source));
 }
 
-/// A row with the quantity in the sheet's own unit, without another prefix.
+/// A row with the quantity in the sheet's unit; the prefix is not changed.
 std::string row(std::string_view name, const Quantity& q, std::string_view unit,
                 std::string_view frame = "") {
   return row(name, plain(q.value, 7, true) + "\u00a0" + std::string(unit), q.frame.empty() ? frame : q.frame,
              q.source);
 }
 
-/// A row with the quantity; in N, m and kg if the file has a linear motor's key.
+/// A row with the quantity. The unit is linear (N, m, kg) if the sheet's key is a linear motor's.
 std::string row(std::string_view name, const std::optional<Quantity>& q, std::string_view unit,
                 std::string_view frame = "") {
   if (!q) return "";

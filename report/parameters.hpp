@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the inputs of a run: the sheet's values with frame and source, the model that follows from them, and
-// the gains.
+// Writes the inputs of a run: the sheet's values with frame and source, the model computed from them, and the
+// gains.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,12 +13,12 @@ namespace report {
 std::string sheet_section(const sixstep::design::Sheet& sheet);
 std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
-/// Unit of d1 and d0, output per error: an outer loop's output is a part of the largest one.
+/// Unit of d1 and d0: output per error. The output of an outer loop is a fraction of its largest output.
 std::string_view gain_unit(const sixstep::study::LoopGains& gains, bool linear);
 std::string gains_section(const sixstep::study::Outcome& outcome);
-/// The numbers of a user's controller. Those that are the controller's presets are marked.
+/// The numbers of a user's controller. Numbers that are the controller's presets are marked.
 std::string own_section(const sixstep::study::Own& own);
-/// The derivation of a design's numbers: symbol, formula, value.
+/// The derivation of a design as a table: symbol, formula, value.
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);
 
 }  // namespace report

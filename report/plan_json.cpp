@@ -51,7 +51,7 @@ json plan_json(const PagePlan& plan, std::size_t most) {
            {"repeats", plan.repeats},
            {"grid", plan.story.plan.sampling == analysis::Sampling::grid}};
   out["states"] = base64(std::span<const std::uint8_t>(rows.states));
-  // Whether the run numbers are consecutive, so that they need no column.
+  // Whether the run numbers are multiples of `every`. Then they need no column.
   bool counts = true;
   for (std::size_t n = 0; n < rows.numbers.size(); ++n)
     counts = counts && rows.numbers[n] == static_cast<double>(n * rows.every);

@@ -7,7 +7,7 @@
 
 namespace report {
 
-/// The JSON from which the page's scripts draw.
+/// The JSON that the page's scripts draw.
 std::string plan_data(const std::vector<PagePlan>& plans);
 
 }  // namespace report

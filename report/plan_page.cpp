@@ -39,7 +39,7 @@ std::string tag(const PlanPageInput& in, std::size_t p) {
                      escaped(in.plans[p].story.name));
 }
 
-/// The plan's name on a separate line, above the part of this plan.
+/// The name of plan `p` on a separate line, above this plan's part of the page.
 std::string whose(const PlanPageInput& in, std::size_t p) {
   return in.plans.size() < 2 ? "" : "<p class=\"whose\">" + tag(in, p) + "</p>\n";
 }
@@ -157,11 +157,12 @@ std::string statistics(const PlanPageInput& in) {
          "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
-/// A figure that several plans have, drawn into one picture over one axis.
+/// A figure of several plans, drawn into one picture with a common axis.
 struct Shared {
   const analysis::FigureColumn* column;
   Span span;
-  std::vector<std::pair<std::size_t, std::size_t>> in;  ///< index of a plan, and index of its figure
+  std::vector<std::pair<std::size_t, std::size_t>> in;  ///< pairs: index of a plan, index of the figure in
+                                                        ///< this plan
 };
 
 std::vector<Shared> shared_figures(const std::vector<PagePlan>& plans) {
@@ -210,7 +211,7 @@ std::string for_each_plan(const PlanPageInput& in, Section section, bool tagged 
   return html;
 }
 
-/// The note that the drawings show only a part of the runs, if there are too many.
+/// A note if the drawings show only a part of the runs.
 std::string left_out(const PlanPageInput& in) {
   for (const PagePlan& plan : in.plans)
     if (plan.story.series.runs > most_rows_on_a_page / in.plans.size())

@@ -14,20 +14,21 @@ namespace report {
 struct PagePlan {
   const text::PlanStory& story;
   std::string title, motor, notes;
-  std::string repeats;  ///< a command line to which a run's number is appended: "sixstep run a.toml --only"
-  std::map<std::size_t, std::string> reports{};  ///< file of the report for each run number that has one
+  std::string repeats;  ///< a command line that repeats a run once the run's number is appended: "sixstep run
+                        ///< a.toml --only"
+  std::map<std::size_t, std::string> reports{};  ///< file name of each existing report, by run number
 };
 
 struct PlanPageInput {
-  std::vector<PagePlan> plans;  ///< one or two; the second is drawn over the first
+  std::vector<PagePlan> plans;  ///< one or two plans; the second is drawn over the first
   std::string command;
   std::string version;
 };
 
 inline constexpr std::size_t most_plans_on_a_page =
-    2;  ///< each plan has two colours, for runs that hold and runs that miss
+    2;  ///< each plan needs two colours: for passed and for failed runs
 
-/// Largest number of rows for the drawings. If there are more runs, an even selection is drawn. The
+/// Largest number of rows in the drawings. If there are more runs, an even selection of them is drawn. The
 /// statistics use all runs.
 inline constexpr std::size_t most_rows_on_a_page = 200'000;
 

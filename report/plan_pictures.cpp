@@ -18,7 +18,7 @@ namespace analysis = sixstep::analysis;
 constexpr double plot_width = 360, plot_height = 150, plot_left = 12, plot_right = 12, plot_top = 18,
                  plot_bottom = 24;
 
-/// The range of the histogram's axis: the span of the values, and a limit if it is near.
+/// The range of the histogram's axis: the span of the values, and a limit if it is close to the span.
 struct Reach {
   double low, high;
   double at(double v) const {
@@ -47,7 +47,7 @@ Reach reach_of(const analysis::FigureColumn& f, const Span& span) {
   return {reach.low - margin, reach.high + margin};
 }
 
-/// The fraction of all runs of the plan, so that plans of different size can be compared.
+/// The count as a fraction of all runs of the plan, so that plans of different size can be compared.
 double share(const Histogram& h, std::size_t count) {
   const std::size_t all = std::accumulate(h.counts.begin(), h.counts.end(), h.never + h.missing);
   return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(all, 1));
@@ -69,7 +69,7 @@ std::string bars(const Reach& reach, const Span& span, const DrawnHistogram& dra
   return fmt::format("<path d=\"{}\" style=\"fill: var(--{})\"/>", path, drawn.colour);
 }
 
-/// About five round numbers under the axis.
+/// About five round numbers below the axis.
 std::string ticks(const Reach& reach, const Scale& scale) {
   const double rough = (reach.high - reach.low) * scale.factor / 5,
                power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -99,7 +99,7 @@ std::string limit_lines(const analysis::FigureColumn& f, const Reach& reach) {
     const bool flip = x > 0.6 * plot_width;
     row = std::fabs(x - last) < as_wide_as_a_label
               ? row + 1
-              : 0;  // labels that would overlap are placed one below the other
+              : 0;  // a label that would overlap is placed in the next row
     last = x;
     svg += fmt::format(
         "<line class=\"limit\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1}\"/><text x=\"{2:.1f}\" y=\"{5}\" "

@@ -12,18 +12,19 @@
 
 namespace report {
 
-/// The runs of one plan in a histogram.
+/// The histogram of one plan's runs.
 struct DrawnHistogram {
   std::string_view colour;  ///< name of a colour in the style sheet
   const Histogram& histogram;
 };
 
-/// A <figure> with bars that show each bin's fraction of a plan's runs. It also shows the span, the limits
-/// nearby, and the number of runs without a value.
+/// A <figure> with a bar for each bin: the bin's fraction of the plan's runs. Below: the span, limits close
+/// to it, and the number of runs without a value.
 std::string histogram_picture(const sixstep::analysis::FigureColumn& figure, const Span& span,
                               const std::vector<DrawnHistogram>& drawn);
 
-/// Sobol indices of each figure as bars with their intervals; empty if the plan is not sampled for them.
+/// Sobol indices of each figure as bars with their confidence intervals; empty if the plan is not sampled for
+/// them.
 std::string index_section(const PagePlan& plan);
 
 }  // namespace report

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a plan's rows for a page: columns of numbers for the drawings, the distribution of each figure, and
-// the runs to inspect first.
+// Reads a plan's rows for a page: columns of numbers for the drawings, and the distribution of each figure.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,13 +24,13 @@ struct PlanColumn {
   bool logarithmic = false;
   bool required = false;  ///< the figure has a requirement, with these limits
   std::optional<double> min{}, max{};
-  std::vector<std::string> words{};  ///< words of a key without numbers; the values are then indices into
-                                     ///< these words
+  std::vector<std::string> words{};  ///< words of a key without numbers; `values` are then indices into
+                                     ///< `words`
   std::vector<float> values{};       ///< one value per row; NaN: none
 };
 
 struct PlanRows {
-  std::size_t every = 1;  ///< every n-th run is kept
+  std::size_t every = 1;  ///< every n-th run is a row
   std::vector<double> numbers;
   std::vector<std::uint8_t> states;  ///< a RunState per row
   std::vector<PlanColumn> columns;   ///< keys, values of the spread, figures
@@ -40,7 +39,7 @@ struct PlanRows {
 /// Returns at most `most` rows, evenly chosen.
 PlanRows plan_rows(const text::PlanStory& story, std::size_t most);
 
-/// The finite values of a figure, from least to greatest; low > high if there is none.
+/// The range of a figure's finite values; low > high if there are none.
 struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   bool empty() const { return !(low <= high); }

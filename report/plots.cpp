@@ -11,14 +11,14 @@
 namespace report {
 namespace {
 
-/// Whether the phases change their legs during the run, so that one drawing cannot show all connections.
+/// Whether an event changes the phases' legs. One drawing then cannot show all connections.
 bool rewires(const sixstep::study::Scenario& s) {
   return std::any_of(s.at.begin(), s.at.end(), [&](const sixstep::study::At& at) {
     return at.bridge.phases != sixstep::study::AtOrder::same;
   });
 }
 
-/// All changes of conduction, if they are few enough for a page. `with_rows`: only the run's end, because the
+/// All changes of conduction, if there are at most 400000. `with_rows`: only the run's end, because the
 /// packed rows contain the codes.
 json conduction_json(const Conduction& c, bool with_rows) {
   constexpr std::size_t most = 400000;
@@ -30,8 +30,8 @@ json conduction_json(const Conduction& c, bool with_rows) {
           {"end", c.end_s}};
 }
 
-/// The conduction code at each row. The column needs almost no space, because gates and currents determine
-/// its changes.
+/// The conduction code at each row. The compressed column needs almost no space, because its changes coincide
+/// with changes of gates and currents.
 std::vector<double> by_row(const Conduction& c, const std::vector<double>& time) {
   std::vector<double> codes;
   codes.reserve(time.size());
@@ -43,7 +43,7 @@ std::vector<double> by_row(const Conduction& c, const std::vector<double>& time)
   return codes;
 }
 
-/// Every row of every curve, followed by the conduction codes; null if this is too large for the page.
+/// Every row of every curve, followed by the conduction codes; null if they are too large for the page.
 json every_row(const std::vector<double>& time, const Groups& groups, const Conduction& conducts,
                std::size_t most_bytes) {
   std::vector<const std::vector<double>*> columns;
@@ -111,7 +111,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
     out["charts"].push_back(std::move(chart));
   }
   if (!groups.angle_deg.empty()) {
-    // The angle is smooth, so that straight lines between 2000 rows are exact enough for the drawing.
+    // The angle is smooth, so straight lines between 2000 rows are exact enough for the drawing.
     const Thinned rows = thinned(*time, {groups.angle_deg}, {}, 2000, 2000);
     out["angle"] = {{"axis", axes.of(*time, rows.rows)},
                     {"data", packed<float>(groups.angle_deg, rows.rows)}};

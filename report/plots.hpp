@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a trace as the JSON from which report.js draws.
+// Writes a trace as the JSON that report.js draws.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -11,12 +11,13 @@
 
 namespace report {
 
-/// Largest number of rows per chart. With more than `full` rows, the page has an envelope of at most `cap`
-/// rows, and in addition every packed row. If these are too large, it has every row of the close-ups only.
+/// Largest number of rows per chart. If a run has more than `full` rows, the page contains an envelope of at
+/// most `cap` rows and all rows in packed form. If the packed rows are too large, the page contains only the
+/// rows of the close-ups.
 struct PlotSize {
   std::size_t cap = 6000;
   std::size_t full = 16000;
-  std::size_t packed_bytes = 5'000'000;  ///< largest size of all packed rows; base64 adds a third
+  std::size_t packed_bytes = 5'000'000;  ///< largest size of all packed rows, bytes; base64 adds a third
 };
 
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64

@@ -31,7 +31,7 @@ std::string subtitle(const ReportInput& in) {
   return escaped(name) + " · " + escaped(given(in.outcome.simulated_s, "s")) + " simulated";
 }
 
-/// Warnings above all numbers: a fault, or a run that ended early.
+/// Warnings above all numbers: a fault, and the notes of the run.
 std::string alerts(const ReportInput& in) {
   std::string html;
   if (in.outcome.fault)
@@ -74,7 +74,7 @@ BookOf book_of(const sixstep::study::Scenario& s) {
           .delta = s.sheet.connection == sixstep::design::WindingConnection::delta};
 }
 
-/// After an interrupt the user waits for the report, and packing every row would take longest.
+/// After an interrupt the user waits for the report. Packing every row would take longest, so it is omitted.
 PlotSize size_of(const ReportInput& in) {
   PlotSize size;
   if (sixstep::study::cut_short(in.scenario, in.outcome)) size.packed_bytes = 0;

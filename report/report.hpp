@@ -15,24 +15,24 @@ namespace report {
 struct ReportInput {
   const sixstep::study::Scenario& scenario;
   const sixstep::study::Outcome& outcome;
-  const sixstep::study::Trace& trace;  ///< trace of KeptRows; columns that are all NaN are left out
-  std::string command;                 ///< the command that makes this report again
+  const sixstep::study::Trace& trace;  ///< trace of KeptRows; columns without a number are omitted
+  std::string command;                 ///< the command that writes this report again
   std::string version;
   std::string scenario_text;  ///< text of the scenario's file
 };
 
-/// Returns the page. The same input gives the same bytes: no date, no machine name.
+/// Returns the page. The same input gives the same bytes: the page contains no date and no machine name.
 std::string render(const ReportInput& input);
 
 struct IndexEntry {
   std::string title;
   std::string file;  ///< file name of the report, relative to the index; empty: there is no report
   const sixstep::study::Outcome* outcome;  ///< null: there is no outcome
-  bool finished = true;                    ///< false: interrupted or never started, so that it is not judged
+  bool finished = true;                    ///< false: interrupted or not started, so the run is not judged
 };
 
 /// The table of all verdicts of one command, with links to the reports. If an experiment is not finished, the
-/// table begins with a note on it and has no total.
+/// table begins with a note and has no total.
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version);
 

@@ -15,31 +15,33 @@ namespace {
 
 using sixstep::study::EnergyBook;
 
-// Sizes of the drawing in pixels. A label has two lines, and labels must not touch. Above the drawing is room
-// for the nodes' names.
+// Sizes of the drawing in pixels. A label has two lines, and labels must not overlap. The space above the
+// drawing is for the nodes' names.
 constexpr double sankey_width = 940, full = 130, label_height = 36, sankey_gap = 10, sankey_margin = 20,
                  sankey_bar = 10;
 constexpr double source_x = 190, first_x = 340, second_x = 560, sink_x = 750;
 constexpr double text_height = 18;
-constexpr double thinnest = 1.0;  // so that every flow is visible
-constexpr double least = 1e-4;    // relative to the largest flow; smaller flows are only in the table below
+constexpr double thinnest = 1.0;  // every flow remains visible
+constexpr double least = 1e-4;    // fraction of the largest flow; smaller flows are only in the table below
+                                  // the drawing
 
 /// Energy that enters or leaves a node.
 struct Flow {
   const char* name;
   const char* style;  ///< style class: "passed", "heat", "kept"
   double joule;
-  double y = 0.0;  ///< middle of the flow's place in the outer column
+  double y = 0.0;  ///< middle of the flow in the outer column
 };
 
-/// Bridge and windings, or rotor and shaft. The flows into a node and out of it have the same sum.
+/// A node: bridge and windings, or rotor and shaft. The sum of the incoming flows is equal to the sum of the
+/// outgoing flows.
 struct Node {
   const char* name;
   std::vector<Flow> in, out;
   double y = 0.0;
 };
 
-/// Adds a term of a balance whose sum is zero. A positive term is a source, a negative one a sink, each with
+/// Adds a term of a balance whose sum is zero. A positive term is a source, a negative term a sink; each has
 /// its own name.
 void add(Node& node, double joule, const char* giving, const char* given_style, const char* taking,
          const char* taken_style) {
@@ -53,7 +55,7 @@ double sum(const std::vector<Flow>& flows) {
   return total;
 }
 
-/// The drawing from left to right: the first node passes `between` to the second.
+/// The drawing from left to right: the first node passes the energy `between` to the second.
 struct Drawing {
   Node first, second;
   double between = 0.0;
@@ -80,8 +82,8 @@ Node mechanical(const EnergyBook& b) {
   return node;
 }
 
-/// Places the flows below each other from `top` on, each with room for its label. Returns the top of the next
-/// one.
+/// Places the flows one below the other from `top` on, each with space for its label. Returns the top of the
+/// next flow.
 double place(std::vector<Flow>& flows, const Drawing& d, double top) {
   for (Flow& flow : flows) {
     const double room = std::max(d.wide(flow.joule), label_height);
@@ -91,12 +93,14 @@ double place(std::vector<Flow>& flows, const Drawing& d, double top) {
   return top;
 }
 
-/// Sources are on the left, sinks on the right. Those of the second node are above those of the first, so
-/// that no bands cross.
+/// Sources are on the left, sinks on the right. The flows of the second node are above the flows of the first
+/// node, so that no bands cross.
 void arrange(Drawing& d) {
   d.second.y = sankey_margin;
   d.first.y = place(d.second.in, d, sankey_margin);
-  if (!d.second.in.empty()) d.first.y += text_height;  // the node's name is below those bands
+  if (!d.second.in.empty())
+    d.first.y += text_height;  // the node's name is below the bands of the second
+                               // node's sources
   const double left = place(d.first.in, d, d.first.y);
   // The first node's outgoing bands pass below the second node's bar.
   const double below = std::max(place(d.second.out, d, sankey_margin),
@@ -120,8 +124,8 @@ std::string label(const Flow& flow, double x, const char* anchor, const Scale& s
       x, flow.y - 4, anchor, flow.name, flow.y + 13, plain(flow.joule * scale.factor, 4) + " " + scale.unit);
 }
 
-/// The bands and the bar of one node. `incoming` and `outgoing` pass between the nodes: the second node takes
-/// the incoming energy below its own sources, and the first gives the outgoing energy above its own sinks.
+/// The bands and the bar of one node. Energy also passes from the first node to the second: `outgoing` leaves
+/// the first node above its sinks, `incoming` enters the second node below its sources.
 std::string bands(const Node& node, const Drawing& d, double x, double outgoing, double incoming,
                   const Scale& scale) {
   std::string html;
@@ -156,7 +160,7 @@ std::string across(const Drawing& d, const Scale& scale) {
   for (const Flow& flow : d.second.in) y += d.wide(flow.joule);
   const Flow flow{"", "passed", d.between};
   const double left = d.first.y + wide / 2, right = y + wide / 2;
-  // The label is on the band; if the band is too thin, the label is above it, and below it if the band climbs
+  // The label is on the band. If the band is too thin, the label is above it, or below it if the band rises
   // to the right.
   const bool thin = wide < text_height, climbs = thin && left - right > text_height;
   const double x = (first_x + sankey_bar + second_x) / 2, middle = (left + right) / 2;
@@ -166,7 +170,7 @@ std::string across(const Drawing& d, const Scale& scale) {
                      x, base, climbs ? "start" : "middle", plain(d.between * scale.factor, 4), scale.unit);
 }
 
-/// The content of the drawing in words.
+/// The content of the drawing in words, for screen readers.
 std::string spoken(const Drawing& d, const Scale& scale) {
   const auto list = [&](const std::vector<Flow>& one, const std::vector<Flow>& other) {
     std::string text;

@@ -7,9 +7,9 @@
 
 namespace report {
 
-/// A <figure> with an SVG: the sources of energy over the run on the left, the sinks on the right. Empty if
-/// no energy flowed, or if the two sums differ by more than half a pixel, because the picture would then be
-/// wrong.
+/// A <figure> with an SVG: the sources of the run's energy on the left, the sinks on the right. Empty if no
+/// energy flowed. Also empty if the sums of sources and sinks differ by more than half a pixel, because the
+/// picture would then be wrong.
 std::string energy_sankey(const sixstep::study::EnergyBook& book);
 
 }  // namespace report

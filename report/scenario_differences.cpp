@@ -90,8 +90,8 @@ class Flat final : public sixstep::base::Visitor {
     member.walk(*this);
     path_ = outer;
   }
-  /// The list [[at]] is included, because it alone changes a run. Values that an event does not change are
-  /// omitted.
+  /// The list [[at]] is included, because no other list changes a run. Values that an event does not change
+  /// are omitted.
   void visit_list(std::string_view key, sixstep::base::ListMember& items, const About&) override {
     if (key != sixstep::study::events_list) return;
     Flat plain(motion_);
@@ -112,12 +112,13 @@ class Flat final : public sixstep::base::Visitor {
   std::string path_;
 };
 
-/// `extends` is among these keys, because the values of the extended file are already the scenario's own.
+/// Whether the key has no effect on a run. `extends` has none, because the scenario already contains the
+/// values of the extended file.
 bool changes_no_run(const std::string& key) {
   return key == "title" || key == "notes" || key == "extends" || key.starts_with("record.");
 }
 
-/// Keys in the order of the descriptions. Keys that only a later scenario has follow at the end.
+/// Keys in the order of the descriptions. Keys that only a later scenario contains follow at the end.
 std::vector<std::string> keys_of(const std::vector<Flat>& all) {
   std::vector<std::string> keys;
   for (const Flat& flat : all)

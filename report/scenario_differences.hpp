@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the keys in which scenarios differ, with the descriptions by which scenarios are also read.
+// Finds the keys in which scenarios differ, by the same descriptions with which scenarios are read.
 #pragma once
 #include <string>
 #include <vector>

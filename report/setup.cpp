@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes the surroundings of the motor in a scenario.
+// Describes in sentences the parts of a drive and its surroundings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string listed(const std::vector<double>& values, const char* unit) {
 
 namespace {
 
-/// The chopping in words: "soft chopping", and the chopped switch if it is not always the upper one.
+/// The chopping in words: "soft chopping", and the chopped switch if it is not always the upper switch.
 std::string chopping_words(const study::Pwm& p) {
   std::string words = std::string(sixstep::base::word(study::chopping_choices, p.chopping)) + " chopping";
   if (p.pattern != sixstep::control::PwmPattern::upper)
@@ -91,7 +91,7 @@ std::string arithmetic(study::Arithmetic a) {
   });
 }
 
-/// A user's own controller: its name, the controlled quantity, and the numbers that are not presets.
+/// A user's controller: its name, the controlled quantity, and the numbers that are not presets.
 std::string own_controller(const study::Scenario& s) {
   const study::Own& own = s.control.own;
   std::string text = fmt::format("{} ({}), {}", own.loaded ? own.loaded->name : "own", own.controller,

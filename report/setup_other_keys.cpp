@@ -31,7 +31,7 @@ void alter(std::optional<T>& x) {
   if (x) alter(*x);
 }
 
-/// Gives one key another value.
+/// Sets one key to another value.
 class KeyChange final : public sixstep::base::Visitor {
  public:
   KeyChange(std::string key, Motion motion) : key_(std::move(key)), motion_(motion) {}
@@ -67,7 +67,7 @@ class KeyChange final : public sixstep::base::Visitor {
   std::string path_;
 };
 
-/// At most eight values of a list.
+/// The first eight values of a list.
 std::string shortened(const std::string& text) {
   constexpr int most = 8;
   std::size_t end = 0;
@@ -79,12 +79,12 @@ std::string shortened(const std::string& text) {
   return text.substr(0, end) + "…";
 }
 
-/// Whether a key's value stands elsewhere on the page, or in the units of the other values.
+/// Whether a key's value is printed elsewhere on the page, or only determines units.
 bool stands_elsewhere(const std::string& key) {
   return key == "not_usable" || key.ends_with("reference.unit");
 }
 
-/// The same motor and duration with each other key at its default, and as many events.
+/// A scenario with the same motor, duration and number of events; each other key has its default.
 Scenario all_default(const Scenario& s) {
   Scenario usual;
   usual.motor = s.motor;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes a scenario's surroundings, one line each: supply, bridge, load, heat, sensors, and the changes
-// during the run.
+// Describes a scenario's surroundings, one line per part: supply, bridge, load, heat, sensors, and the
+// changes during the run.
 #pragma once
 #include <functional>
 #include <string>
@@ -21,8 +21,8 @@ bool all_ideal(const sixstep::study::Sensors& s);
 /// The first eight values, and the number of all values.
 std::string listed(const std::vector<double>& values, const char* unit);
 std::string events(const std::vector<sixstep::study::At>& events, bool linear);
-/// Each key with another value than its default that `sentences` do not depend on, and its value with its unit. So a
-/// key that no sentence states is listed, a new one too.
+/// Each key whose value is not its default and has no effect on `sentences`, with its value and unit. So
+/// every key that no sentence states is listed, also a new key.
 std::vector<std::pair<std::string, std::string>> other_keys(
     const sixstep::study::Scenario& scenario,
     const std::function<std::string(const sixstep::study::Scenario&)>& sentences);

@@ -30,7 +30,7 @@ std::string in_shell(const Shell& shell) { return filled_shell(shell, style(asse
 std::string in_shell(const Shell& shell, std::string_view data,
                      const std::vector<std::string_view>& scripts) {
   std::string code = "<script type=\"application/json\" id=\"data\">";
-  code += script_safe(data);  // the data are nearly all of the page
+  code += script_safe(data);  // the data are nearly the whole page
   code += "</script>\n";
   if (shell.charts) {
     code.append("<!-- Charts: uPlot.\n").append(assets::LICENSE()).append("-->\n<script>");

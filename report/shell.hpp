@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the parts that every page has: head, style, the line with its command, the scripts.
+// Writes the parts of every page: head, style, the line with the command, the scripts.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,8 +19,8 @@ struct Shell {
 /// A page without a script.
 std::string in_shell(const Shell& shell);
 
-/// A page with charts. `data` is the JSON that its scripts read. `scripts` share one scope, in this order,
-/// after uPlot if they use it.
+/// A page with charts. `data` is the JSON that the scripts read. The scripts share one scope and run in the
+/// given order, after uPlot if `charts` is true.
 std::string in_shell(const Shell& shell, std::string_view data, const std::vector<std::string_view>& scripts);
 
 }  // namespace report

@@ -14,8 +14,8 @@
 namespace report {
 namespace {
 
-/// A note on a stretch of fewer than two turns: a curve then ends at another value than it began with,
-/// and its strongest lines are those of this jump.
+/// A note on a stretch of fewer than two electrical turns. Its end value differs from its start value, and
+/// this jump causes the strongest lines.
 std::string cut_short(const Stretch& stretch) {
   constexpr double least_turn = 0.01;  // a held rotor that trembles has no electrical frequency
   if (!(stretch.part > least_turn)) return "";
@@ -92,8 +92,8 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
     const auto* values = find_column(trace, w.column);
     if (!values) continue;
     // 64 cells per period: the drawn lines reach an eighth of the cells' frequency, which is eight times the
-    // PWM's. Only frequencies above 56 times the PWM's would fold into the lines, and the cells' means reduce
-    // these to an eighth.
+    // PWM's frequency. Only frequencies above 56 times the PWM's frequency could alias into the drawn lines.
+    // Averaging over the cells reduces them to an eighth.
     Lines lines = lines_of(time, *values, stretch->time, scenario.pwm.period_s / 64);
     if (std::ranges::max(lines.amplitude) >= least_tone)
       out.all.push_back({w.id, w.title, w.quantity, w.unit, w.label, w.style, std::move(lines)});

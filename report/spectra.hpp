@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the spectra that a report shows: phase current and torque.
+// Computes the spectra that a report shows: of phase current and torque.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,8 +18,9 @@ struct DrawnSpectrum {
 struct Spectra {
   Stretch stretch;
   double period_s = 0.0;     ///< period of the PWM; 0 if comparators switch
-  double heat_step_s = 0.0;  ///< step of the thermal model, which changes the resistance; 0 without it
-  double mains_Hz = 0.0;     ///< 0: the bus has another source
+  double heat_step_s = 0.0;  ///< step of the thermal model, which changes the resistance at each step; 0
+                             ///< without the model
+  double mains_Hz = 0.0;     ///< frequency of the mains; 0: the bus is not rectified mains
   std::vector<DrawnSpectrum> all;
 };
 
@@ -30,8 +31,8 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
 /// Describes the method, with the strongest lines as tables.
 std::string spectra_section(const std::optional<Spectra>& spectra);
 
-/// The lines that a chart draws: frequency in Hz and amplitude. Each of about 1500 equal steps of the
-/// logarithmic axis shows its highest line.
+/// The lines that a chart draws: frequency in Hz and amplitude. The logarithmic axis is divided into about
+/// 1500 equal steps, and each step shows its highest line.
 struct Drawn {
   std::vector<double> frequency_Hz, amplitude;
 };

@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 constexpr double fewest_periods = 64.0;
 constexpr double most_periods =
-    4096.0;  // with 64 cells per period, this is as many cells as a transform processes in about 50 ms
+    4096.0;  // with 64 cells per period, a transform of this many cells takes about 50 ms
 constexpr std::size_t fewest_cells = 1024, most_cells = 1u << 18;
 
 /// The value at t on the straight line between two rows.
@@ -31,7 +31,7 @@ double value_at(const Values& time, const Values& y, double t) {
   return y[n - 1] + (y[n] - y[n - 1]) * (t - time[n - 1]) / (time[n] - time[n - 1]);
 }
 
-/// The last time, not before `not_before`, at which the straight lines through the rows were at `level`.
+/// The last time, not before `not_before`, at which the polyline through the rows crossed `level`.
 std::optional<double> last_crossing(const Values& time, const Values& y, double level, double not_before) {
   for (std::size_t n = time.size(); n-- > 1 && time[n] >= not_before;) {
     const double a = y[n - 1] - level, b = y[n] - level;
@@ -41,7 +41,7 @@ std::optional<double> last_crossing(const Values& time, const Values& y, double 
   return std::nullopt;
 }
 
-/// Means of the straight lines through the rows, over `count` equal cells of the stretch.
+/// Means of the polyline through the rows, over `count` equal cells of the stretch.
 Values cell_means(const Values& time, const Values& y, const Interval& stretch, std::size_t count) {
   const double width = (stretch.to - stretch.from) / static_cast<double>(count);
   Values means(count, 0.0);
@@ -53,8 +53,8 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
     if (!(from < end)) continue;
     const double slope = (y[n] - y[n - 1]) / (t1 - t0);
     while (from < end) {
-      const bool last = cell + 1 == count;  // the last cell's edge may be rounded to a value below the
-                                            // stretch's end
+      const bool last = cell + 1 == count;  // rounding may place the last cell's edge before the stretch's
+                                            // end
       const double to = last ? end : std::min(end, stretch.from + width * static_cast<double>(cell + 1));
       if (to > from) means[cell] += (to - from) * (y[n - 1] + slope * ((from + to) / 2 - t0)) / width;
       if (to < end) ++cell;
@@ -64,8 +64,8 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
   return means;
 }
 
-/// The tone to which a line belongs that is higher than its neighbours. It is computed from the line and its
-/// higher neighbour, by the Hann window's response to a tone `off` lines away.
+/// The tone of line k, which is higher than its neighbours. Frequency and amplitude are computed from line k
+/// and its higher neighbour, by the Hann window's response to a tone `off` lines away.
 Tone tone_at(const Values& a, std::size_t k) {
   const bool up = a[k + 1] >= a[k - 1];
   const double ratio = (up ? a[k + 1] : a[k - 1]) / a[k];
@@ -74,13 +74,13 @@ Tone tone_at(const Values& a, std::size_t k) {
   return {static_cast<double>(k) + (up ? off : -off), a[k] / window};
 }
 
-/// Upper bound of the Hann window's leakage of a tone at this distance in lines.
+/// Upper bound of the Hann window's leakage from a tone at this distance, in lines.
 double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * lines - 1)) : 1.0; }
 
 std::vector<Tone> tones_of(const Values& a) {
   const double floor = a.empty() ? 0.0 : std::max(1e-3 * std::ranges::max(a), least_tone);
   std::vector<Tone> peaks, tones;
-  // The sum excludes the first line, because a drift over the stretch appears there too.
+  // The search excludes the first line, because a drift over the stretch appears there too.
   for (std::size_t k = 2; k + 1 < a.size(); ++k)
     if (a[k] > floor && a[k] > a[k - 1] && a[k] >= a[k + 1]) peaks.push_back(tone_at(a, k));
   std::ranges::stable_sort(peaks, [](const Tone& p, const Tone& q) { return p.amplitude > q.amplitude; });
@@ -123,7 +123,7 @@ void transform(std::vector<std::complex<double>>& values) {
     reversed ^= bit;
     if (n < reversed) std::swap(values[n], values[reversed]);
   }
-  // The factors for half the size are every second factor of the full size: division by a power of two does
+  // The factors for half the size are every second factor of the full size. Division by a power of two does
   // not change the bits of the angle.
   std::vector<std::complex<double>> turns(count / 2), turn(count / 2);
   for (std::size_t k = 0; k < turns.size(); ++k)
@@ -133,7 +133,7 @@ void transform(std::vector<std::complex<double>>& values) {
     for (std::size_t start = 0; start < count; start += size)
       for (std::size_t k = 0; k < size / 2; ++k) {
         const std::complex<double> even = values[start + k], other = values[start + k + size / 2];
-        // The product is written out, because the complex operator also checks for infinities, which takes
+        // The product is written out: the operator of std::complex also checks for infinities, which takes
         // three times as long.
         const std::complex<double> odd(turn[k].real() * other.real() - turn[k].imag() * other.imag(),
                                        turn[k].real() * other.imag() + turn[k].imag() * other.real());
@@ -151,7 +151,7 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   const auto window = [count](std::size_t n) {
     return 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count));
   };
-  // The mean is weighted by the window: without the weights, a fraction of a period would appear as a tone in
+  // The mean is weighted by the window. Without the weights, an incomplete period would appear as a tone in
   // the first line.
   double mean = 0.0;
   for (std::size_t n = 0; n < count; ++n) mean += means[n] * window(n) / (0.5 * static_cast<double>(count));
@@ -175,7 +175,8 @@ Origin origin_of(double at, const Causes& causes) {
   constexpr long long highest_side = 12;
   const double electrical = static_cast<double>(causes.turns), periods = causes.periods;
   const bool turns = causes.turns > 0;
-  constexpr double near = 0.3;  // in lines: a tone is placed more precisely, unless another one is near
+  constexpr double near = 0.3;  // in lines: the frequency of a tone is more accurate than this, unless
+                                // another tone is close
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
   };
@@ -192,7 +193,7 @@ Origin origin_of(double at, const Causes& causes) {
   }
   if (beat >= 1.0 && turns && std::abs(at - beat * periods) < electrical / 2)
     return {"beside " + times(beat, "PWM"), at};
-  // At high orders every line is near some multiple.
+  // At high orders, every line is close to a multiple of the electrical frequency.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return {order == 1.0 ? "electrical, the fundamental" : times(order, "electrical"), order * electrical};
   // Full-wave rectified mains pulsate at multiples of twice the mains' frequency.

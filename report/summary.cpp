@@ -48,7 +48,7 @@ std::string closest(const Outcome& outcome) {
                 fmt::format("{}: {}", with_subscripts(tightest->figure), escaped(room_words(*tightest))));
 }
 
-/// The used part of the bus, if no two consecutive samples used all of it.
+/// The used part of the bus voltage, if no two consecutive samples used all of it.
 std::string least_of_bus(double largest_duty, bool legs) {
   constexpr double whole = 1.0 - 1e-6;
   if (largest_duty >= whole) return "all of it used at single samples only";
@@ -105,7 +105,7 @@ std::string own_numbers(const Scenario& scenario) {
   return text;
 }
 
-/// The text for a drive that has no loop with gains.
+/// The text for a drive without a loop that has gains.
 std::string without_gains(const Scenario& scenario) {
   using sixstep::control::Mode;
   if (scenario.control.mode == Mode::off) return "off";
@@ -161,12 +161,12 @@ std::string step_chart(const Trace& trace, const Step& step) {
   return svg_chart(chart);
 }
 
-/// The motor current is no phase's current at a commutation.
+/// During a commutation, the motor current is not the current of any phase.
 constexpr const char* of_the_pair =
     "<p class=\"quiet\">The motor current is half the difference of the driven pair's two currents. When the pair "
     "changes, the new phase has no current yet, and the motor current falls by up to half.</p>";
 
-/// The current in the window of the step, then that until the next one.
+/// The current in the window of the step, then the current until the next step.
 std::string step_sentences(const Step& step, const StepCurrent& current, double end_s) {
   const bool asked = step.of != "start";
   const std::string shown = computed(step.window.to - step.at_s, "s");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the first screen of a report with the verdict: the limiting requirement, the gains with their
+// Writes the first screen of a report, with the verdict: the limiting requirement, the gains with their
 // source, the current during a step, and the costs in energy and switching.
 #pragma once
 #include <string>

@@ -18,7 +18,7 @@ struct Size {
 };
 Size size_of(const SvgChart& chart) { return chart.compact ? Size{400, 210} : Size{640, 280}; }
 
-/// Converts numbers to places in the drawing.
+/// Converts numbers to positions in the drawing.
 class Axis {
  public:
   Axis(bool logarithmic, double from, double to) : logarithmic_(logarithmic), from_(from), to_(to) {}
@@ -29,8 +29,8 @@ class Axis {
     high_ = std::max(high_, v);
   }
   bool empty() const { return !(low_ <= high_); }
-  /// Widens the range by the fraction `part` of its span on each side; if the curve is flat, by 5 % of its
-  /// value. A logarithmic axis is unchanged.
+  /// Widens the range on each side by the fraction `part` of its span. The range of a flat curve is widened
+  /// by 5 % of its value. A logarithmic axis is unchanged.
   void widen(double part) {
     if (logarithmic_) return;
     const double span = high_ - low_, size = std::max(std::abs(low_), std::abs(high_));
@@ -102,7 +102,7 @@ std::string path(const SvgCurve& c, const Axis& x, const Axis& y) {
   return fmt::format("<path class=\"{0}\" style=\"stroke:var(--{0})\" d=\"{1}\"/>\n", c.style, d);
 }
 
-/// A label is placed after its point, or after a label that is already there.
+/// Places each label behind its point, or behind another label that is already there.
 std::string marks(const SvgChart& chart, const Axis& x, const Axis& y) {
   constexpr double line = 12, letter = 7.5;
   struct Name {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a chart that needs no script: a design's charts have a few hundred points and no zoom.
+// Draws a chart without a script: a design's charts have a few hundred points and no zoom.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace report {
 
-/// Styles of the style sheet for a group of curves.
+/// Names in the style sheet for the curves of a group.
 inline constexpr const char* curve_styles[] = {"a", "b", "c"};
 
 struct SvgCurve {
@@ -20,7 +20,7 @@ struct SvgCurve {
 struct SvgMark {
   double x, y;
   std::string label;
-  std::string style;  ///< style, with the names for curves
+  std::string style;  ///< name in the style sheet, as for curves
 };
 
 struct SvgChart {

@@ -16,8 +16,8 @@ bool is_level(const Curves& curves, std::size_t n) {
   return true;
 }
 
-/// The rows needed for drawing. A row is not needed if its neighbours have the same values in every curve,
-/// because it lies on a level line.
+/// The rows needed for drawing. A row whose neighbours have the same values in every curve is not needed,
+/// because the curves are level there.
 std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) {
   std::vector<std::size_t> rows;
   rows.reserve(count);
@@ -26,7 +26,7 @@ std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) 
   return rows;
 }
 
-/// Adds the first and last rows and each curve's extremes in [begin, end), in rising order and without
+/// Adds the first row, the last row and each curve's extremes in [begin, end), in rising order and without
 /// repetition.
 void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std::size_t end,
                    const Curves& curves, std::vector<std::size_t>& chosen, std::vector<std::size_t>& kept) {

@@ -19,11 +19,12 @@ std::string with_aside(const std::string& main, const std::string& extra) {
   return extra.empty() ? main : fmt::format("{}<small class=\"aside\">{}</small>", main, extra);
 }
 
-/// A small scale with the allowed range shaded and a mark at the measured value. Limits are at 20 and 80 %,
-/// so that the remaining distance is visible.
+/// A small scale with the allowed range shaded and a mark at the measured value. Limits are at 20 and 80 % of
+/// the width, so that a value beyond a limit is also visible.
 std::string gauge(const Verdict& v) {
   if (!std::isfinite(v.measured) || (!v.min && !v.max)) return "";
-  double low = 0.0, high = 80.0, at = 0.0;  // places of allowed range and mark, in per cent of the width
+  double low = 0.0, high = 80.0, at = 0.0;  // positions of the allowed range and of the mark, in per cent of
+                                            // the width
   if (v.min && v.max) {
     const double width = *v.max - *v.min;
     low = 20.0;

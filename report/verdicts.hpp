@@ -16,14 +16,15 @@ struct Standing {
 };
 Standing standing(const sixstep::study::Outcome& outcome);
 
-/// The remaining distance to the nearer limit, relative to half the distance between the two limits, or to
-/// the only limit; negative if the requirement is missed. Empty if this has no meaning.
+/// The distance to the closer limit, relative to half the distance between the two limits, or to the only
+/// limit. Negative if the requirement is missed. Empty if the distance is not defined.
 std::optional<double> room(const sixstep::study::Verdict& verdict);
 /// The distance in words: "1.5 % below its limit", "0.2 A from the nearer of its limits". Only for a
-/// requirement that is met and has a room().
+/// requirement that holds and has a room().
 std::string room_words(const sixstep::study::Verdict& verdict);
 
-/// Rows of the requirement table: mark, figure, required, measured, and place within the limits.
+/// Rows of the requirement table: mark, figure, required value, measured value, and position within the
+/// limits.
 std::string requirement_rows(const sixstep::study::Outcome& outcome);
 
 /// Rows of the comparison table: figure, source's value, measured, deviation, source.

@@ -15,7 +15,7 @@ using sixstep::study::Trace;
 
 constexpr std::string_view gate_names[] = {"gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"};
 
-/// Rows at which a column has a new value.
+/// Rows at which a column changes.
 std::vector<std::size_t> changes(const std::vector<double>& values) {
   std::vector<std::size_t> rows;
   for (std::size_t n = 1; n < values.size(); ++n)
@@ -23,7 +23,7 @@ std::vector<std::size_t> changes(const std::vector<double>& values) {
   return rows;
 }
 
-/// Turn-on instants of the six gates, in rising order.
+/// Turn-on instants of all six gates, in rising order.
 std::vector<double> turn_ons(const Trace& trace, const std::vector<double>& time) {
   std::vector<double> instants;
   for (const auto& name : gate_names) {
@@ -42,7 +42,7 @@ std::optional<Interval> switching_periods(const Trace& trace, const sixstep::stu
   const double start = time.front(), end = time.back();
   if (!(period > 0.0) || end - start < 3.0 * period) return std::nullopt;
   const std::vector<double> instants = turn_ons(trace, time);
-  // Hysteresis control has no fixed period, so that its close-up spans some of its own cycles.
+  // Hysteresis control has no fixed period, so its close-up shows some cycles of the comparators.
   const bool free_running = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                             scenario.control.mode >= sixstep::control::Mode::current;
   if (free_running && instants.size() >= 5) {
@@ -54,7 +54,7 @@ std::optional<Interval> switching_periods(const Trace& trace, const sixstep::stu
   for (std::int64_t n = last - 3; n >= 0; n -= 3) {
     const Interval window{at(n), at(n + 3)};
     const auto begin = std::lower_bound(instants.begin(), instants.end(), window.from);
-    if (!is_whole(trace, window)) break;  // then no earlier window is complete either
+    if (!is_whole(trace, window)) break;  // no earlier window is complete either
     if (std::upper_bound(instants.begin(), instants.end(), window.to) - begin >= 3) return window;
   }
   return Interval{at(last - 3), at(last)};
@@ -82,8 +82,8 @@ std::optional<Interval> one_commutation(const Trace& trace, double period, const
   for (std::size_t k = edges.size(); k-- > 0;) {
     if (currents[k] < 0.5 * strongest) continue;
     const double edge = time[edges[k]];
-    // A sector may last microseconds, or without end near standstill. The length of the close-up follows the
-    // sector within bounds.
+    // A sector may last microseconds, or arbitrarily long near standstill. Bounds limit the length of the
+    // close-up.
     const double sector = k > 0 ? edge - time[edges[k - 1]] : 10.0 * period;
     const Interval window{edge - std::clamp(0.5 * sector, 3.0 * period, 8.0 * period),
                           edge + std::clamp(1.1 * sector, 6.0 * period, 14.0 * period)};
@@ -121,7 +121,7 @@ Windows choose_windows(const Trace& trace, const sixstep::study::Scenario& scena
   if (!time || time->size() < 2) return {};
   Windows out{switching_periods(trace, scenario, *time),
               one_commutation(trace, scenario.pwm.period_s, *time)};
-  // A step that lasts the whole run needs no close-up of its own.
+  // A step as long as the run needs no close-up.
   const auto step = largest_step(trace, scenario);
   if (step && step->window.to - step->window.from < 0.8 * (time->back() - time->front()) &&
       is_whole(trace, step->window))

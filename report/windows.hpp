@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the close-ups of a report from the trace.
+// Selects the close-ups of a report from the trace.
 #pragma once
 #include <optional>
 
@@ -9,12 +9,12 @@
 
 namespace report {
 
-/// A column by name; null if the trace does not have it, or if it holds no number.
+/// A column by name; null if the trace does not contain it, or if it contains no number.
 const std::vector<double>* find_column(const sixstep::study::Trace& trace, std::string_view name);
 
-/// Whether the trace has every row of the interval.
+/// Whether the trace contains every row of the interval.
 bool is_whole(const sixstep::study::Trace& trace, const Interval& interval);
-/// The time from which on the trace has every row; the first row's time if none was replaced.
+/// The time from which on the trace contains every row; the first row's time if no row was replaced.
 double whole_from_s(const sixstep::study::Trace& trace);
 
 struct Windows {

@@ -21,10 +21,10 @@ using analysis::WiringStudy;
 
 constexpr double card_width = 384, card_gap = 6, card_chart_left = 12, chart_width = 112, text_left = 138;
 constexpr std::size_t card_characters = 40;
-/// Drawn fraction of a run: after it nothing changes.
+/// Drawn fraction of a run; later the current does not change.
 constexpr double shown_part = 0.4;
 
-/// The current after one start. The scale ends at 1.3 times the current of the stalled motor.
+/// The current after one start. The scale ends at 1.3 times the current of the locked motor.
 std::string current(const WiringStudy& s, const analysis::FreeRun& run, double top, double bottom) {
   const double most = 1.3 * s.bench.current_A;
   std::vector<Place> line;

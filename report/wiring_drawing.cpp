@@ -13,7 +13,7 @@ namespace {
 
 using sixstep::analysis::WiringDoes;
 
-constexpr double within = 0.3;  // in pixels; a smaller difference is invisible
+constexpr double within = 0.3;  // in pixels; a smaller difference is not visible
 
 double distance(const Place& p, const Place& a, const Place& b) {
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
@@ -21,8 +21,8 @@ double distance(const Place& p, const Place& a, const Place& b) {
   return std::fabs(dx * (p.y - a.y) - dy * (p.x - a.x)) / length;
 }
 
-/// Thins a line as Ramer, Douglas and Peucker do: the point farthest from the straight line between the ends
-/// is kept, and so on on both sides of this point.
+/// Thins a polyline with the method of Ramer, Douglas and Peucker: keeps the point farthest from the straight
+/// line between the ends, and repeats this on both sides of the point.
 std::vector<Place> thinned_wave(const std::vector<Place>& points) {
   std::vector<bool> stays(points.size(), false);
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the elements of the wiring pictures: lines with no more points than are visible, and a mark and a
-// colour for each behaviour.
+// Draws the elements of the wiring pictures: polylines with only the visible points, and a mark and a colour
+// for each behaviour.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace report {
 
-/// A drawing in its own pixels, without the <svg> around it.
+/// A drawing with its size in pixels, without the surrounding <svg>.
 struct Panel {
   double width = 0.0, height = 0.0;
   std::string svg;
@@ -21,7 +21,7 @@ struct Place {
 };
 
 /// A path "M..l.." in tenths of a pixel, for a group that is scaled by 0.1. Points within 0.3 pixels of a
-/// straight line are left out.
+/// straight line are omitted.
 std::string line_through(const std::vector<Place>& points);
 
 /// The style class of a behaviour: "forward", "rough", "hums", "backward", "unclear".
@@ -33,7 +33,7 @@ std::string mark_of(sixstep::analysis::WiringDoes does, double x, double y);
 /// Lines of text of at most `width` characters, `leading` pixels apart. The first baseline is at y.
 std::string wrapped(std::string_view text, std::size_t width, double x, double y, double leading,
                     std::string_view style = "");
-/// The number of lines that wrapped() makes.
+/// The number of lines that wrapped() writes.
 std::size_t lines_of(std::string_view text, std::size_t width);
 
 /// The ratio as text: "×17" for 17 times the phase current of straight wires.

@@ -28,7 +28,7 @@ double at(std::size_t n, double begin, double size) {
   return begin + static_cast<double>(n) * (size + grid_gap) + (n >= 3 ? group_gap : 0);
 }
 
-/// Three wires from the motor's terminals, in their order, to the board's places.
+/// Draws three wires from the motor's terminals, in their order, to the board's terminals.
 std::string wires(const std::array<std::uint8_t, 3>& ends, const char* const (&from)[3],
                   const char* const (&to)[3], double x, double y, bool across) {
   std::string out;
@@ -89,7 +89,7 @@ std::string torque(const analysis::PairTorque& of, double straight_Nm_A, const W
                      line_through(theory), line_through(seen));
 }
 
-/// Fraction of a turn that fills the height for a humming motor.
+/// The part of a turn that fills the height, for a humming motor.
 constexpr double humming_turns = 0.4;
 
 std::string runs(const WiringCase& c, double running_turns) {

@@ -41,7 +41,8 @@ std::string table(const WiringStudy& s) {
   for (const WiringCase& c : s.cases) {
     const analysis::Symptom seen = s.symptom(c);
     std::string cures;
-    for (const analysis::Cure& cure : c.cures)  // of the three equivalent cures with four wires, one suffices
+    for (const analysis::Cure& cure : c.cures)  // of the three equivalent cures with four wires, one is
+                                                // printed
       if (cures.empty() || cure.wires() < 4) cures += (cures.empty() ? "" : "; or ") + text::cure_text(cure);
     const bool runs = analysis::direction_of(c.measured.does) != 0;
     rows += fmt::format(

@@ -18,7 +18,7 @@ using sixstep::analysis::WiringStudy;
 
 constexpr double sheet_margin = 20, sheet_gap = 22, head = 60;
 
-/// The page's colours (web/report.css), for a picture outside of the page.
+/// The page's colours (web/report.css), for a picture that is not in a page.
 constexpr std::string_view colours =
     R"(svg{--page:#f6f7f8;--paper:#fff;--ink:#171b20;--quiet:#59636e;--line:#dce0e5;--a:#0072b2;--b:#d55e00;--c:#008f66}
 @media (prefers-color-scheme:dark){svg{--page:#101316;--paper:#171b1f;--ink:#e7eaed;--quiet:#9ca6b1;--line:#2c333a;--a:#56b4e9;--b:#f08a3c;--c:#2fc79a}}

@@ -32,8 +32,8 @@ constexpr sixstep_controller controller(std::uint32_t answers) {
           .hall = nullptr};
 }
 
-/// New gates act at a stop of the chip. If they differ from those in effect, the chip stops at once; else it
-/// stops at the next requested instant.
+/// Gates change only where the chip stops. If the caller's gates differ from the gates in effect, the chip
+/// stops at once; else it stops at the next requested instant.
 rig::CoreTrouble run_chip(void*, const rig::ChipRun&, rig::ChipAnswer& answer) {
   if (present == nullptr) return rig::CoreTrouble::gone;
   if (answer.gates == present->gates) answer.cycle = static_cast<std::uint64_t>(present->stop_ps);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller of the C library takes the controller's place. The engine calls a controller or a chip. Both
-// read what the caller has set, and store what the engine gives them.
+// The caller of the C library acts as the controller. The engine calls an adapter: a controller or a chip.
+// The adapter answers with the caller's last command. The controller also stores its measurement for the
+// caller.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace c_face {
 
-/// What the caller has set, and what the controller was last given.
+/// The caller's last command, and the last measurement and setpoint of the controller.
 struct Exchange {
   sixstep_answer answer{};
   sixstep_measured measured{};
@@ -22,8 +23,8 @@ struct Exchange {
   static constexpr std::int64_t never_ps = std::int64_t{1} << 62;
 };
 
-/// While this object lives, runs that its thread advances use `exchange`. A run has no pointer to it, so that
-/// a copy of the run is independent.
+/// While this object exists, each run that its thread advances uses `exchange`. A run contains no pointer to
+/// `exchange`, so a copy of the run is independent.
 class Exchanging {
  public:
   explicit Exchanging(Exchange& exchange);
@@ -38,10 +39,10 @@ class Exchanging {
 /// Name of the caller's controller in a scenario.
 inline const std::string caller_name = "caller";
 
-/// The controller that answers with Exchange::answer: a pair, or three legs.
+/// The controller that answers with Exchange::answer: three legs if `legs`, else a driven pair.
 const sixstep_controller* caller_controller(bool legs);
 
-/// The chip that sets Exchange::gates. Its clock counts picoseconds.
+/// The chip that applies Exchange::gates. Its clock counts picoseconds.
 rig::ChipPort caller_chip();
 
 }  // namespace c_face

@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The signals as JSON. For a linear motor, each also has the name that files use, its unit, and the factor
-/// from the value to that unit.
+/// The signals as JSON. For a linear motor, each signal also has its name in files, its unit in files, and
+/// the factor from the value to that unit.
 Json signals(const Session& session) {
   Json list = Json::array();
   const std::vector<study::Column>& columns = study::all_columns();
@@ -31,7 +31,7 @@ Json signals(const Session& session) {
   return list;
 }
 
-/// The keys of [[at]], without the list's own name and without the instant.
+/// The keys of [[at]], without the prefix "at." and without time_s.
 Json changes() {
   constexpr std::string_view list_name = "at.";
   Json list = Json::array();

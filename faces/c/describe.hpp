@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the text of sixstep_describe().
+// Writes the text that sixstep_describe() returns.
 #pragma once
 #include <string>
 

@@ -18,15 +18,15 @@ using Cbor = nlohmann::json;
 
 constexpr char magic[] = "sixstep session";
 
-/// The bytes of an answer: its fields in the order of the struct. They are the same in every process with the
-/// same interface.
+/// The bytes of an answer as they lie in memory. The layout is the same in every process with the same
+/// interface number and byte order.
 std::vector<std::uint8_t> bytes_of(const sixstep_answer& answer) {
   std::vector<std::uint8_t> out(sizeof answer);
   std::memcpy(out.data(), &answer, sizeof answer);
   return out;
 }
 
-/// The parts of saved bytes. Empty if the bytes are no saved session of this version.
+/// The contents of saved bytes.
 struct Parts {
   Source source;
   Commands commands;
@@ -41,7 +41,7 @@ const Cbor* member(const Cbor& in, const char* name, Cbor::value_t type) {
   return found->type() == type || number ? &*found : nullptr;
 }
 
-/// Gates have no answer.
+/// A command that sets gates has no bytes of an answer.
 bool read_command(const Cbor& in, Commands& out) {
   if (!in.is_array() || in.size() != 3 || !in[0].is_number_integer() || !in[1].is_number_integer() ||
       !in[2].is_binary())
@@ -57,6 +57,7 @@ bool read_command(const Cbor& in, Commands& out) {
     out.add(at_ps, (std::memcpy(&answer, bytes.data(), sizeof answer), answer));
   return true;
 }
+/// Empty if the bytes are no saved session of this version.
 
 std::optional<Parts> parts_of(const Cbor& in) {
   if (!in.is_object()) return std::nullopt;
@@ -94,7 +95,7 @@ std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {
   return hash.value();
 }
 
-/// The part before the checksum; empty if the checksum differs.
+/// Returns the bytes before the checksum; empty if the checksum differs.
 std::span<const std::uint8_t> intact(std::span<const std::uint8_t> bytes) {
   if (bytes.size() <= checksum_bytes) return {};
   const auto body = bytes.first(bytes.size() - checksum_bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a session to bytes: scenario, commands and instant, from which the run is simulated again. They do
-// not contain memory contents, so that any machine with the same version of the library can read them.
+// Converts a session to bytes: scenario, commands and instant. A session is loaded by simulating the run
+// again. The bytes contain no state of the run, so another machine with the same byte order and the same
+// version of the library can load them.
 #pragma once
 #include <cstdint>
 #include <span>

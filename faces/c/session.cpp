@@ -17,7 +17,7 @@ namespace c_face {
 
 namespace {
 
-/// Finds files like the command line, and the caller's controller by its name.
+/// Resolves file names as the command line does, and the name "caller" to the caller's controller.
 text::Resolve resolve_with(const std::string& data_folder, bool legs) {
   return [on_disk = files::on_disk(data_folder), legs](const text::Naming& naming) {
     if (naming.kind == text::Naming::Kind::controller && naming.name == caller_name)
@@ -27,7 +27,8 @@ text::Resolve resolve_with(const std::string& data_folder, bool legs) {
   };
 }
 
-/// Puts the caller in the place of the scenario's controller. Only the keys of the scenario's board remain.
+/// Replaces the scenario's controller by the caller, for a driven pair or three legs. The keys of the board
+/// still apply.
 void hand_over(study::Scenario& s, sixstep_chip chip) {
   if (chip != SIXSTEP_CHIP_PAIR && chip != SIXSTEP_CHIP_LEGS) return;
   s.control.drive = study::FirmwareKind::own;
@@ -37,8 +38,8 @@ void hand_over(study::Scenario& s, sixstep_chip chip) {
 
 constexpr char change_head[] = "\n[[at]]\ntime_s = ";
 
-/// A change is read as the end of the scenario's text. In its problems, lines are counted from the change's
-/// own first line.
+/// A change is appended to the scenario's text and read with it. The lines of its problems are counted from
+/// the change's first line.
 base::Problems in_change(base::Problems found, const Source& source) {
   const auto own = std::count(source.toml.begin(), source.toml.end(), '\n') + 1, lines = own + 2;
   for (base::Problem& p : found) {
@@ -72,7 +73,7 @@ Session::Session(const Session& other)
 
 sixstep_status Session::refused(base::Problems found) {
   problems = std::move(found);
-  for (base::Problem& p : problems)  // replaces the command line's word for a setting
+  for (base::Problem& p : problems)  // a C program passes settings in sixstep_options
     if (constexpr std::string_view option = "--set "; p.where.starts_with(option))
       p.where.replace(0, option.size(), "options.settings: ");
   return SIXSTEP_REFUSED;
@@ -122,7 +123,7 @@ void Session::note_what_applies() {
     applies_[c] = study::applies(static_cast<study::ColumnId>(c), run_->scenario());
 }
 
-/// Makes ahead_ as a copy of run_, and reads the copy at the instant. run_ has only skipped to this instant.
+/// Copies run_ to ahead_ and advances the copy to the instant. run_ stays at the last change of the gates.
 bool Session::look_ahead(std::int64_t at_ps) {
   exchange_.stop_ps = Exchange::never_ps;
   ahead_ = run_;
@@ -134,13 +135,14 @@ double Session::time_s() const {
   return run_ ? seen().present().t_s : std::numeric_limits<double>::quiet_NaN();
 }
 double Session::tick_after_s(double at_s) const {
-  constexpr double far_s = 1e6;  // a count of picoseconds has room for it
+  constexpr double far_s = 1e6;  // an instant of 1e6 s in ps fits into 64 bits
   if (!run_ || !(std::abs(at_s) < far_s)) return std::numeric_limits<double>::quiet_NaN();
   return run_->tick_after_s(at_s);
 }
 double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
-/// A fault that ended the run is reported at once. A finished copy of the run gives the fault's problem.
+/// Status after an advance. If a fault ended the run early, its problem is read from a closed copy of the
+/// run.
 sixstep_status Session::reached(bool goes_on) {
   if (goes_on) return SIXSTEP_OK;
   if (seen().now_s() >= seen().scenario().duration_s * (1 - 1e-9)) return SIXSTEP_OVER;
@@ -154,7 +156,7 @@ sixstep_status Session::advance(double to_s) {
   if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
   if (std::isnan(to_s)) return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
   const Exchanging here(exchange_);
-  // The instant is limited: beyond the run's end nothing changes, and a larger number could exceed the range
+  // The instant is limited. Beyond the run's end nothing changes, and a larger number could exceed the range
   // of an instant.
   const double end_s = 2 * seen().scenario().duration_s;
   return reached(seen().advance(to_s < end_s ? (to_s < 0 ? 0.0 : to_s) : end_s));
@@ -166,9 +168,9 @@ sixstep_status Session::advance_to_tick() {
   return reached(seen().advance_to_tick());
 }
 
-/// Reads at instants of a grid that does not depend on the caller's steps. If the side changes between two
-/// instants, the step between them is halved until it is a picosecond. run_, which is at the last change of
-/// the gates, is the state from which this step is simulated again.
+/// Advances along a grid of 1/16 period, which does not depend on the caller's steps. If side() changes
+/// within a step, bisection locates the change to 1 ps. Each trial starts from a copy of run_, advanced to
+/// the lower instant.
 template <class Side>
 sixstep_status Session::advance_to_edge(const char* function, double to_s, const Side& side) {
   if (const sixstep_status status = usable(function); status != SIXSTEP_OK) return status;

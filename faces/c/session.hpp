@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session of the C interface: the library's session, the answers with which the caller controls it, and the
-// texts that it has handed out. Functions return a status and store their problems in `problems`.
+// A session of the C interface: the library's session, the caller's commands, and the texts returned to the
+// caller. Functions return a status and store their problems in `problems`.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -21,28 +21,29 @@ namespace c_face {
 
 /// The text of a scenario and its name.
 struct Source {
-  std::string name{};  ///< name in messages; files that the text names are in its folder
+  std::string name{};  ///< name in messages; its folder contains the files that the text names
   std::string toml{};
   std::string data_folder{};
   std::vector<std::pair<std::string, std::string>> settings{};
   sixstep_chip chip = SIXSTEP_CHIP_OF_SCENARIO;
 };
 
-/// What the caller set at an instant, for sixstep_save(). Gates may change at every communication point of a long run,
-/// so that a change takes few bytes.
+/// One command of the caller, kept for sixstep_save(). A long run may contain many changes of gates, so a
+/// command is small.
 struct Command {
   std::int64_t at_ps = 0;
   std::uint32_t gates = 0;
-  std::uint32_t answer = 0;  ///< 0: gates; else the number of an answer, from 1 on
+  std::uint32_t answer = 0;  ///< 0: the command sets gates; else the number of an answer, from 1 on
 };
 
 struct Commands {
   std::vector<Command> in_order{};
-  std::vector<sixstep_answer> answers{};  ///< each only if it differs from the one before
+  std::vector<sixstep_answer> answers{};  ///< an answer is added only if it differs from the answer before it
 
   void add(std::int64_t at_ps, std::uint32_t gates) { in_order.push_back({.at_ps = at_ps, .gates = gates}); }
   void add(std::int64_t at_ps, const sixstep_answer& answer) {
-    // Equal answers with other padding are kept twice, which costs bytes alone.
+    // memcmp also compares padding. Equal answers with different padding are stored twice, which only costs
+    // memory.
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     if (answers.empty() || std::memcmp(&answers.back(), &answer, sizeof answer) != 0)
       answers.push_back(answer);
@@ -65,7 +66,7 @@ class Session {
   sixstep_status set_gates(std::uint32_t gates);
   sixstep_status convert(sixstep_counts& counts);
   sixstep_status finish();
-  /// Continues at what a saved session had set and reached.
+  /// Repeats the commands of a saved session and advances to its instant.
   sixstep_status replay(const Commands& commands, std::uint64_t conversions, double to_s);
 
   /// An independent session in the same state, without its problems and texts.
@@ -88,11 +89,11 @@ class Session {
 
   sixstep_status misuse(const char* function, const char* limit, const char* cure);
 
-  std::string described, written;  ///< texts that the session has handed out
+  std::string described, written;  ///< texts returned to the caller, valid until the next call
 
  private:
-  /// The run that is read. With gates it is ahead of run_, which is at the last change of the gates, so that
-  /// reading ends no segment.
+  /// The run whose signals are read. With SIXSTEP_CHIP_GATES it is ahead_. run_ then stays at the last change
+  /// of the gates, so that reading ends no segment.
   study::Session& seen() { return ahead_ ? *ahead_ : *run_; }
   const study::Session& seen() const { return ahead_ ? *ahead_ : *run_; }
   sixstep_status usable(const char* function);

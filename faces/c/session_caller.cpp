@@ -9,8 +9,8 @@ namespace c_face {
 
 namespace {
 
-/// Problems: lags of the board's amplifiers and dividers. sixstep_convert() cannot apply them; only a
-/// controller's measurement has them.
+/// Returns a problem for each lag of the board's amplifiers and dividers. sixstep_convert() cannot apply a
+/// lag; only sixstep_measure() can.
 base::Problems lagging(const study::Scenario& s) {
   base::Problems out;
   const auto refuse = [&](bool lags, const char* key) {

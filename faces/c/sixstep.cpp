@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements the functions of sixstep.h. Each catches what the standard library throws if there is not enough
-// memory.
+// Implements the functions of sixstep.h. Each function catches the exceptions that the standard library
+// throws if memory is short.
 #include "faces/c/sixstep.h"
 
 #include <algorithm>
@@ -66,7 +66,8 @@ std::vector<std::pair<std::string, std::string>> settings_of(const char* const* 
   return out;
 }
 
-/// Makes a session, opens it with `open`, and returns it even if it was refused.
+/// Creates a session and opens it with `open`. If `open` refuses the input, the session contains the
+/// problems.
 template <class Open>
 sixstep_status made(sixstep_session** session, const Open& open) noexcept {
   if (session == nullptr) return SIXSTEP_MISUSE;

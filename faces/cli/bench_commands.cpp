@@ -41,7 +41,7 @@ struct BenchArguments {
   std::optional<int> pole_pairs;
   bool json = false, quiet = false, force = false;
   std::string write, html;
-  std::string command;  ///< the command that makes the files again
+  std::string command;  ///< the command that writes the files again
 };
 
 struct EmfArguments : BenchArguments {
@@ -49,7 +49,7 @@ struct EmfArguments : BenchArguments {
   std::optional<double> speed_rpm, tolerance_percent;
 };
 
-/// Adds a Problem if the number of an option is out of its range.
+/// Adds a Problem if `x`, the value of an option, is out of its range.
 void hold(base::Problems& problems, const char* option, const std::optional<double>& x, base::Range range,
           const char* cure) {
   if (x && !range.holds(*x)) problems.push_back({option, base::written(*x), base::limit_of(range), cure});
@@ -71,8 +71,8 @@ base::Problems check(BenchArguments& a) {
   return problems;
 }
 
-/// Replaces the library's members and the recording's headings by options. All other problems are those of
-/// the recording.
+/// In problems, replaces the names of the library's members and of the recording's columns by options. Any
+/// other problem gets the recording's path.
 base::Problems of_recording(base::Problems problems, const std::string& path) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"between", "--between"}, {"pole_pairs", "--pole-pairs"}, {"speed", "--speed"}};
@@ -102,7 +102,7 @@ base::Result<text::Recording> recording_of(const BenchArguments& a) {
   return text::read_recording(a.path, *text);
 }
 
-/// The output files. They are opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the measurement, so that an unwritable path fails at once.
 struct BenchOutputs {
   std::optional<files::AtomicFile> write, html, shape;
 
@@ -151,7 +151,7 @@ Exit identify_command(const BenchArguments& arguments) {
   return problems.empty() ? Exit::ok : Exit::bad_input;
 }
 
-/// The sheet, if there is one. Given pole pairs must be equal to the sheet's.
+/// Reads the sheet, if there is one. An option --pole-pairs must be equal to the sheet's value.
 base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (a.motor.empty()) return std::optional<design::Sheet>();
   const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
@@ -165,7 +165,7 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   return std::optional(*sheet);
 }
 
-/// The path of the shape's table, relative to the motor's file.
+/// The path of the back-EMF shape's table, relative to the motor file.
 std::string shape_beside(const EmfArguments& a) {
   if (a.shape.empty() || a.write.empty()) return file_name(a.shape);
   std::error_code error;

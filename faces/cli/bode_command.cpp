@@ -27,7 +27,7 @@ struct BodeFile {
   files::AtomicFile file;
 };
 
-/// Refuses options of one or many runs that a measurement does not use.
+/// Refuses options of ordinary runs that a measurement does not use.
 base::Problems strangers(const RunArguments& a) {
   base::Problems problems;
   const auto refuse = [&](const char* option, bool given) {
@@ -82,7 +82,7 @@ base::Problems write(std::vector<BodeFile>& files, const std::string& name, cons
   return unwritten;
 }
 
-/// Replaces the library's members by "--amplitude" and by the keys of the file.
+/// In problems, names the keys of the file, and the option --amplitude.
 base::Problems told(base::Problems problems, const std::string& name) {
   for (base::Problem& p : problems) {
     p.where = name + ": " + p.where;
@@ -103,7 +103,7 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
     if (a.paths.of(option) == "-") print(content(option, job.name(), *s, a));
   const bool prints = a.paths.prints() || a.paths.of("--csv") == "-";
   if (!a.quiet) print(text::bode_text(job.name(), *s), prints ? stderr : stdout);
-  // A quiet run prints its notes only if the loop has not answered.
+  // A quiet run prints its notes only if no line of the spectrum has a coherence of 0.9.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)
     print(text::visible(job.name()) + ": nothing was measured: no line has a coherence of 0.9\n", stderr);

@@ -12,7 +12,7 @@
 
 namespace cli {
 
-/// Adds a Problem if the word is none of the choices.
+/// Adds a Problem if the word is not one of the choices.
 template <class Choices, class Enum>
 void choose(const char* option, const std::string& word, const Choices& choices, Enum& into,
             base::Problems& found) {

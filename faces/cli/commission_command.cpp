@@ -30,10 +30,10 @@ struct CommissionArguments {
   std::string phases = "abc", wires = "123", inverted = "none";
   std::string write, html;
   bool json = false, quiet = false, force = false;
-  std::string command;  ///< the command that makes the files again
+  std::string command;  ///< the command that writes the files again
 };
 
-/// The output files. They are opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the measurement, so that an unwritable path fails at once.
 struct CommissionFiles {
   std::optional<files::AtomicFile> write, html;
 
@@ -58,7 +58,7 @@ base::Problems write(const analysis::CommissionStudy& s, const CommissionArgumen
   return found;
 }
 
-/// Replaces voltage_V by "--voltage"; keys of the sheet are named as those of the motor file.
+/// In problems, replaces the library's members by options and by keys of the motor file.
 base::Problems told(base::Problems problems, const CommissionArguments& a) {
   for (base::Problem& p : problems) {
     if (p.where == "voltage_V")

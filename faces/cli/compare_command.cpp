@@ -41,13 +41,12 @@ study::Trace all_columns() {
   return trace;
 }
 
-/// Stores a row in a rotary motor's units, because the page draws and subtracts the same columns for every
-/// motor.
+/// Stores a row in the units of a rotary motor, because the page reads the same columns for every motor.
 void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& columns) {
   for (std::size_t n = 0; n < row.size(); ++n) trace.values[n].push_back(row[n] / columns[n].per_turning);
 }
 
-/// A run that keeps the rows for drawing and those for subtraction.
+/// A run with two sets of rows: every event for drawing, and a common grid for subtraction.
 struct Compared {
   study::Scenario scenario;
   const loop::Core* core = nullptr;
@@ -92,7 +91,7 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   return runs;
 }
 
-/// A board's log.
+/// A board's log, and its comparison with the run.
 struct Log {
   std::string name;
   std::optional<double> shift_s;  ///< requested shift; empty: fitted
@@ -101,7 +100,7 @@ struct Log {
   LogFound found;
 };
 
-/// Replaces the library's members by options.
+/// In problems, replaces the library's member by its option.
 base::Problems of_options(base::Problems problems) {
   for (base::Problem& p : problems)
     if (p.where == "columns") p.where = "--columns";
@@ -127,9 +126,9 @@ base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study
                            .found = {}});
 }
 
-/// Fits the shift between the log's clock and the run by all columns, because a board's clock starts after
-/// the board's set-up. The range is twenty PWM periods, in steps of a twentieth of one; --shift replaces the
-/// fit. Problems: almost no row of the log is in the simulated time.
+/// Shifts the log's times to the run's, because a board's clock starts after the board's set-up. The shift is
+/// fitted over all columns within twenty PWM periods, in steps of a twentieth of a period; --shift replaces
+/// the fit. Problems: almost no row of the log is in the simulated time.
 base::Problems lay_over(Log& log, const Compared& run) {
   const study::Trace simulated = run.events->trace();
   study::Trace& trace = log.read.trace;
@@ -154,7 +153,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
   return {};
 }
 
-/// The page's file. Empty if no page is wanted.
+/// Opens the page's file. Empty if no page is requested.
 base::Result<std::optional<files::AtomicFile>> page_of_runs(const RunArguments& arguments) {
   const std::string& path = arguments.paths.of(page_option);
   if (path.empty()) return std::optional<files::AtomicFile>();

@@ -9,20 +9,20 @@ namespace cli {
 
 struct RunArguments;
 
-/// Whether runs are compared: with a board's log; or, if --html is the only output, several files with each
-/// other, or the results of one file on host and chip (lays_over).
+/// Whether runs are compared: one run with a board's log; or, if --html is the only output, several files
+/// with each other, or one file on host and chip (lays_over).
 bool compares(const RunArguments& arguments);
 
 /// Whether --on names a map of a user's own firmware.
 bool names_own_firmware(const RunArguments& arguments);
-/// Whether --on names a chip that runs a program of its own instead of the host's drive.
+/// Whether --on names a chip whose program is not the host's drive.
 bool on_a_chip(const RunArguments& arguments);
 /// Whether one file runs on the host and on a chip with another program than the host's drive, so that the
 /// page overlays both results.
 bool lays_over(const RunArguments& arguments);
 
-/// sixstep run A B .. --html FILE: runs all files and overlays them on one page. With --compare LOG it
-/// compares a board's log with its only run, in numbers and, if --html is given, on the page.
+/// `sixstep run A B .. --html FILE`: runs all files and overlays them on one page. With --compare LOG,
+/// compares the only run with a board's log, in numbers and, if --html is given, on the page.
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs);
 
 /// Problems of a comparison: too many runs for a page, or more than one run with a log.

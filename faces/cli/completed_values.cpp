@@ -37,7 +37,7 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
     if (text::visible(name) != name) continue;  // shells show candidates unescaped, one per line
-    // The path gets "./", because the parser would read a name that begins with - as an option.
+    // A name that begins with - gets the prefix "./": the parser would read it as an option.
     const std::string path = (name.front() == '-' && folder.empty() ? "./" : folder) + name;
     if (entry.is_directory(error))
       found.push_back({path + "/", ""});
@@ -94,8 +94,8 @@ Candidates styles() {
   return found;
 }
 
-/// The modes that a verb accepts: verbs that drive or design have no mode with all gates off, and a duty
-/// needs no design.
+/// The modes that a verb accepts. No verb accepts "off", in which all gates are off; `design` does not accept
+/// "duty", which needs no gains.
 Candidates modes(const CLI::App& verb) {
   Candidates found = words(study::mode_choices);
   std::erase_if(found, [&](const Candidate& c) {
@@ -104,7 +104,7 @@ Candidates modes(const CLI::App& verb) {
   return found;
 }
 
-/// Names of emulated cores, and of maps of firmware.
+/// Names of emulated cores and of firmware maps.
 Candidates cores(const std::string& current) {
   Candidates found;
   for (const loop::Core& core : loop::cores())
@@ -140,7 +140,7 @@ Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std:
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
   if (name == "--data") return files(current, "", true);
-  // CLI11 names the type of a number. Every other text without its own list is an output file.
+  // CLI11 names the type of a number. Any other text is the path of an output file.
   return option.get_type_name() == "TEXT" ? files(current, "") : Candidates{};
 }
 

@@ -15,8 +15,7 @@ namespace {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// The option that a word names, with its "--" and without the part after =; null if the verb does not have
-/// it.
+/// The option that a word names, with "--" and up to =; null if the verb does not have this option.
 const CLI::Option* option_of(const CLI::App& verb, const std::string& word) {
   return word.starts_with("-") ? verb.get_option_no_throw(word.substr(0, word.find('='))) : nullptr;
 }
@@ -27,7 +26,7 @@ const CLI::App* inner_verb(const CLI::App& verb, const std::string& word) {
   return found.empty() ? nullptr : found.front();
 }
 
-/// The state of reading after all words except the last.
+/// The parser's state after all words except the last.
 struct Reading {
   const CLI::App* verb;
   const CLI::Option* open = nullptr;  ///< option whose value is the next word
@@ -62,7 +61,7 @@ void add_options(const Reading& at, std::vector<Candidate>& out) {
       out.push_back({first_name(*option), option->get_description()});
 }
 
-/// The next positional argument. The last one may have any number of words.
+/// The next positional argument. The last positional argument may have several words.
 const CLI::Option* next_positional(const Reading& at) {
   std::vector<const CLI::Option*> all;
   for (const CLI::Option* option : at.verb->get_options())

@@ -44,7 +44,7 @@ struct ContestArguments {
   std::string json, csv, html, write, store;
   bool quiet = false, force = false, resume = false;
   unsigned jobs = 0;
-  std::string command;  ///< the command that makes the files again
+  std::string command;  ///< the command that writes the files again
 };
 
 /// A file name for a controller: "six-step-soft.toml" for "six-step, soft".
@@ -58,7 +58,7 @@ std::string file_name(std::string_view name) {
   return out + ".toml";
 }
 
-/// The output files. They are opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the runs, so that an unwritable path fails at once.
 struct ContestFiles {
   std::optional<files::AtomicFile> json, csv, html;
   std::vector<files::AtomicFile> scenarios;  ///< files of the entries with a scenario, in their order
@@ -104,7 +104,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
   return found;
 }
 
-/// Replaces the library's members by options.
+/// In problems, replaces the library's members by options.
 base::Problems in_contest_options(base::Problems problems) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"voltage_V", "--voltage"},
@@ -143,8 +143,8 @@ Exit exit_of_contest(const analysis::Contest& contest) {
   return any ? Exit::ok : Exit::failed;
 }
 
-/// A user's controller that cannot take part, for example because it has no speed loop: its row has only
-/// dashes.
+/// Reports each user's controller that has no run, for example because it has no speed loop. The row of such
+/// a controller contains only dashes.
 Exit own_without_run(const analysis::Contest& contest) {
   Exit exit = Exit::ok;
   for (std::size_t n = 0; n < contest.entries.size(); ++n) {
@@ -172,7 +172,7 @@ analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench be
                                    .stop = watch.token()});
 }
 
-/// Runs the drives within the tolerances, except those whose rows are already in the store.
+/// Runs the drives within the tolerances, except the drives whose rows are already in the store.
 base::Problems over_the_tolerances(const ContestArguments& a, analysis::Contest& contest) {
   if (a.drives == 0) return {};
   base::Result<files::PlanStore> store = store_of(contest, {a.store, a.resume, a.force, a.command});

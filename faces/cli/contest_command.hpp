@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// sixstep compare MOTOR: compares controllers, designed by their rules, on one course.
+/// `sixstep compare MOTOR`: compares controllers on one course. Each controller is designed by its own rule.
 Verb declare_contest(CLI::App& app);
 
 }  // namespace cli

@@ -15,7 +15,7 @@
 namespace cli {
 namespace {
 
-/// Adds the problems of a file that `option` names.
+/// Adds the problems of a file, with the option that names the file.
 void tell_at(const std::string& option, const base::Problems& problems, base::Problems& found) {
   for (base::Problem problem : problems) {
     problem.where = problem.where.empty() ? option : option + " " + problem.where;
@@ -37,7 +37,7 @@ void take_controller(const std::string& file, Contestants& out, base::Problems& 
   out.all.push_back({name, keys, is.sentence});
 }
 
-/// Gives a count of tools/own_cost.sh to the controller whose name it has.
+/// Adds the counts of a file of tools/own_cost.sh to the controller that the file names.
 void take_count(const std::string& file, Contestants& out, base::Problems& found) {
   const base::Result<std::string> json = files::read_regular_text(file);
   if (!json) return tell_at("--own-cost", json.problems(), found);

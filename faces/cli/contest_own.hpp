@@ -20,10 +20,10 @@ struct OwnArguments {
 
 void declare_own(CLI::App& verb, OwnArguments& own);
 
-/// The library's rows, and one for each of the user's own controllers.
+/// The library's controllers and the user's controllers, a row for each.
 struct Contestants {
   std::vector<analysis::Contestant> all;
-  std::deque<std::string> texts;  ///< texts of the user's controllers, to which the rows point
+  std::deque<std::string> texts;  ///< texts of the user's controllers; the rows refer to them
 };
 
 base::Result<Contestants> contestants_of(const OwnArguments& own);

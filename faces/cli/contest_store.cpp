@@ -15,7 +15,7 @@ namespace cli {
 
 base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing) {
   const study::Scenario& common = contest.bench.scenario;
-  // A digest of the inputs. It differs if a controller's rule now computes other numbers, or if a user's
+  // A digest of the inputs. It changes if a controller's rule computes other numbers, or if a user's
   // controller was recompiled.
   std::uint64_t inputs = files::text_digest(SIXSTEP_VERSION);
   for (const analysis::ContestRow& row : contest.rows)

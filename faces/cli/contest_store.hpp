@@ -18,7 +18,7 @@ struct ContestStoring {
 /// Opens the store for the drives of these entries. Problem: the store contains another comparison.
 base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing);
 
-/// Makes the drives that are not in the store, until all are made or the work is stopped. Then reads all
+/// Runs the drives that are not in the store, until all are run or the program is interrupted. Then reads all
 /// drives from the store.
 base::Problems take_drives(analysis::Contest& contest, batch::ContestOrder order, files::PlanStore& store);
 

@@ -40,10 +40,10 @@ struct CurveArguments {
   std::string csv, json, html;
   bool quiet = false, force = false;
   unsigned jobs = 0;
-  std::string command;  ///< the command that makes the page again
+  std::string command;  ///< the command that writes the page again
 };
 
-/// The output files. They are opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the computation, so that an unwritable path fails at once.
 struct CurveFiles {
   std::optional<files::CsvWriter> csv;
   std::optional<files::AtomicFile> json, html;
@@ -114,7 +114,7 @@ void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Pro
                           "give a --duty below 1, or leave it out"});
 }
 
-/// The option of a member: "--pwm-period" for pwm_period_s, because an option's name has no unit suffix.
+/// The option for a member: "--pwm-period" for pwm_period_s. The name of an option has no unit.
 std::string option_of(std::string member) {
   member.erase(std::min(member.rfind('_'), member.size()));
   std::replace(member.begin(), member.end(), '_', '-');

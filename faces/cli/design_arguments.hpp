@@ -10,13 +10,13 @@ namespace cli {
 
 struct DesignArguments {
   std::string motor;
-  std::string scenario;  ///< the scenario with the board, the motor and the task
+  std::string scenario;  ///< the scenario with the board, the motor and the mode
   std::optional<std::string> mode, chopping, rotor, currents;
   std::string method = "pole-placement";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
       torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, capture_Hz, step;
-  std::optional<double> force_limit_N, load_mass_kg;  ///< linear motor: in place of torque limit and load
-                                                      ///< inertia
+  std::optional<double> force_limit_N, load_mass_kg;  ///< linear motor: replace torque_limit_Nm and
+                                                      ///< load_inertia_kg_m2
   std::optional<int> delay_periods, edges;
   bool quick = false;  ///< true: without the runs within the tolerances
   bool quiet = false, force = false;

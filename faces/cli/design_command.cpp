@@ -41,8 +41,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The requested rotor sensor with the values of the scenario's keys. It is sampled once per period of this
-/// design.
+/// The requested rotor sensor, with the values of the scenario's keys. The sensor is sampled once per PWM
+/// period of this design.
 design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* scenario,
                               const design::DesignSpec& w, base::Problems& found) {
   design::RotorSensing rotor = w.rotor;
@@ -64,7 +64,7 @@ design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* s
   return rotor;
 }
 
-/// The specification. Options take precedence over the scenario's values and over the board's defaults.
+/// The specification of the design. Options override the scenario's values and the board's defaults.
 design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
   // Modes that have a design; off and duty have none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
@@ -129,7 +129,7 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The simulated scenario with the board's settings, except those of the loops. A warning names settings that
+/// The scenario with the designed loops and all other settings of the board. Warnings name the settings that
 /// could not be copied.
 analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board,
                                         bool writes_scenario) {
@@ -141,13 +141,13 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   const auto warn = [&s](std::string what, bool grave) {
     s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = design::Concern::board});
   };
-  // Advice is tried without the limits of the board's drive, only with the board's parts.
+  // The advice "usable with" was simulated with the board's parts, but without the limits of the board's
+  // drive.
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with"))
         w.cure += ", in a simplified run without the limits of the board's drive";
-  // The verdict applies to a sensorless drive's loops, but not to the written file, which lacks this drive's
-  // commutation.
+  // A sensorless drive keeps its loops' verdict although the written file lacks the drive's commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
     warn("the designed file keeps " + carried.kept + " of the board's scenario, so its run shows " +
@@ -206,7 +206,7 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
   return *scenario;
 }
 
-/// The subject with the named motor, else with the scenario's motor.
+/// The motor of the arguments, else the scenario's motor, as the subject of the design.
 base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
                                                  const std::optional<study::Scenario>& board,
                                                  base::Problems& found) {

@@ -15,7 +15,7 @@ inline constexpr base::Choice<design::GainMethod> method_choices[] = {
      "speed: the most phase for the lag of the current loop"},
 };
 
-/// `sixstep design MOTOR`: from the sheet to gains that are checked by simulation.
+/// `sixstep design MOTOR`: computes gains from the sheet and checks them by simulation.
 Verb declare_design(CLI::App& app);
 
 }  // namespace cli

@@ -19,15 +19,15 @@ constexpr const char* not_written = "leave it out: --json has all numbers";
 struct Use {
   const char* option;
   bool (*given)(const DesignArguments&);
-  std::string_view member;  ///< member of the spec that the option sets; empty: every design of gains reads
+  std::string_view member;  ///< member of the spec that the option sets; empty: every design of gains uses
                             ///< the option
-  const char* in_field;     ///< cure if a field-oriented drive does not use the option; nullptr: it uses it
+  const char* in_field;     ///< cure if a field-oriented drive does not use the option; nullptr: it does
   bool in_optimise;         ///< whether --optimise reads the option
 };
 
 using A = DesignArguments;
 
-/// All options except --force, --quiet, --jobs, --data, and except those that only --optimise has.
+/// All options except --force, --quiet, --jobs, --data and the options of --optimise.
 constexpr Use uses[] = {
     {"MOTOR", [](const A& a) { return !a.motor.empty(); }, "", "leave it out: the scenario names its motor",
      false},

@@ -9,17 +9,17 @@
 
 namespace cli {
 
-/// Options that a design of gains does not use in its mode, method and sensor.
+/// Refuses options that a design of gains does not use in its mode, method and sensor.
 base::Problems unread_by(const design::DesignSpec& spec, const DesignArguments& a);
 
-/// Problems of options that only the other kind of motor has (rotary or linear).
+/// Refuses options for the other kind of motor (rotary or linear).
 base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments& a);
 
 /// Refuses options that a field-oriented design does not read, because the scenario determines this design.
 base::Problems unread_by_field_design(const DesignArguments& a);
 
-/// Warns of a sheet that contradicts itself, because gains follow from its values. `motor`: the motor's name
-/// or file.
+/// Adds a warning if the sheet contradicts itself, because the gains are computed from it. `motor`: the
+/// motor's name or file.
 void warn_of_sheet(const design::Sheet& sheet, const std::string& motor,
                    std::vector<design::Warning>& warnings);
 

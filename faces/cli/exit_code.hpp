@@ -7,13 +7,13 @@
 
 namespace cli {
 
-/// The program's exit code; for several runs that of the gravest result.
+/// The program's exit code. For several runs, it is the exit code of the gravest result.
 enum class Exit : int {
   ok = 0,         ///< all requirements hold
   failed = 1,     ///< a requirement failed
-  bad_input = 2,  ///< also a file that cannot be read or written
-  fault = 3,      ///< a fault stopped a run, or the drive in it
-  internal = 4,   ///< a mistake of the program
+  bad_input = 2,  ///< also: a file cannot be read or written
+  fault = 3,      ///< a fault stopped a run or its drive
+  internal = 4,   ///< an error of the program itself
   // Exit codes after signals, as in shells: 128 plus the signal's number.
   hung_up = 129,      ///< SIGHUP: the terminal was closed
   interrupted = 130,  ///< SIGINT: the user pressed Ctrl-C

@@ -28,14 +28,13 @@ namespace {
 struct ExportArguments {
   std::string file;                 ///< the scenario
   std::string out;                  ///< path of the output; empty: standard output
-  std::string arithmetic;           ///< arithmetic of the target; empty: that of the scenario
+  std::string arithmetic;           ///< arithmetic of the target; empty: the scenario's arithmetic
   std::vector<std::string> ranges;  ///< operating range, such as "current_A=20"
   std::vector<std::string> sets;    ///< settings of the scenario: "key=value"
   std::string name_space = "exported";
   std::string data_dir;
   bool single_header = false, force = false;
-  std::optional<std::string> despite;  ///< the reason for writing the output although the drive is not
-                                       ///< cleared
+  std::optional<std::string> despite;  ///< reason for writing the output of a drive that is not cleared
   std::string command;                 ///< the command line as it can be typed again
 };
 
@@ -57,7 +56,7 @@ std::optional<study::Arithmetic> arithmetic_of(const std::string& word, base::Pr
   return {};
 }
 
-/// The number, if the whole text is a number above 0 that is plausible in its unit; else 0.
+/// The number if the whole text is a number above 0 and plausible in its unit; else 0.
 double positive(const std::string& text, std::string_view unit) {
   double x = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -97,7 +96,7 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
   return range;
 }
 
-/// The scenario with the drive for the chip, or the problems of the arguments.
+/// The scenario with the chip's drive, or the problems of the arguments.
 base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
@@ -122,7 +121,7 @@ base::Problems within(const std::string& file, base::Problems problems) {
   return problems;
 }
 
-/// Makes the run that decides about clearance, and shows its progress.
+/// Makes the run that decides about the clearance, and shows its progress.
 base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
   Progress progress({.seconds = {scenario.duration_s}}, false);
   const auto keep_going = [&progress](double t_s) {
@@ -134,11 +133,11 @@ base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
       {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = keep_going, .keep_books = false});
 }
 
-/// Reports all reasons against the export at once.
+/// Prints all reasons why the drive is not cleared.
 Exit not_cleared(const ExportArguments& a, const study::Control& control, const study::Clearance& c) {
   complain(within(a.file, c.unmeasured));
   complain(within(a.file, c.unheld));
-  // If the sensor changes, the loops that were designed for it must be designed again.
+  // Another sensor requires a new design of the loops.
   const bool of_sensor = std::any_of(c.unmeasured.begin(), c.unmeasured.end(),
                                      [](const base::Problem& p) { return p.where == "sensors.rotor"; });
   using Mode = sixstep::control::Mode;
@@ -179,7 +178,7 @@ Exit export_header(const ExportArguments& a) {
                             .command = a.command,
                             .clearance = nullptr,
                             .despite = a.despite.value_or("")};
-  // Values that do not fit the format, and an unwritable file, are reported before the run.
+  // Values that do not fit the format are reported before the run; an unwritable file as well.
   if (const auto unrun = text::config_header(wanted); !unrun)
     return refused(within(a.file, unrun.problems()));
   catch_interrupts();

@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// `sixstep design --scenario` for a field-oriented drive: the drive's loops with the gains of its run.
+/// `sixstep design --scenario` for a field-oriented drive: the loops with the gains that the run uses.
 Exit design_field(const DesignArguments& arguments, const study::Scenario& scenario);
 
 }  // namespace cli

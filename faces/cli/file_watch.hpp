@@ -6,9 +6,8 @@
 
 namespace cli {
 
-/// The state of the files when they were read. Time, size and identity of each file are compared ten times a
-/// second. This works on every disk, on shared folders, and with editors that write another file and rename
-/// it.
+/// Compares time, size and identity of each file with their values when it was read, ten times a second.
+/// Polling works on every disk, on shared folders, and with editors that write another file and rename it.
 class FileWatch {
  public:
   explicit FileWatch(std::vector<std::string> paths);

@@ -18,7 +18,7 @@ namespace {
 
 std::string json_text(const files::RunStory& s) { return text::json_summary(s.scenario, s.outcome); }
 
-/// A run with its rows. The rows refer to the scenario, so that this object must not move.
+/// A run with its rows. The rows refer to `scenario`, so this object must not move.
 struct Kept {
   explicit Kept(const study::Scenario& s) : scenario(s), events(scenario) {}
   study::Scenario scenario;
@@ -37,7 +37,7 @@ base::Result<files::Sink> report_sink(const files::Destination& to, const study:
   return sink;
 }
 
-/// The output of a chip's serial line, below a comment that names the run.
+/// The output of a chip's serial line, below a comment line with the chip and the command.
 std::string sent_text(const files::RunStory& s) {
   if (!s.outcome.chip) return "";
   return fmt::format("# sixstep {}: what an emulated {} sent; {}\n{}", SIXSTEP_VERSION, s.outcome.chip->chip,
@@ -49,7 +49,7 @@ base::Result<files::Sink> uart_sink(const files::Destination& to, const study::S
   return files::page_sink(to, sent_text);
 }
 
-/// A message with the number and size of rows on a grid. Empty unless they need much space on a disk.
+/// A message with the number and the size of the rows, if they need much disk space; else empty.
 std::string grid_foretold(const study::Scenario& s, double bytes_a_number) {
   constexpr double many_bytes = 5e8;
   const base::Result<std::vector<study::Column>> columns = study::record_columns(s);

@@ -63,7 +63,7 @@ std::string of_key(const KeyEntry& entry) {
   return text;
 }
 
-/// The entry whose path ends with this word, if only one does; else null.
+/// The entry whose path ends with this word, if exactly one entry does; else null.
 const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
   for (const KeyEntry& entry : entries) {
@@ -82,8 +82,7 @@ bool holds(std::string_view text, std::string_view word) {
 }
 
 /// The keys, and the words of keys, whose name or meaning contains `word`, one per line; empty if there are
-/// none. Keys of `at`, `motor_override` and `compare` are left out, because they repeat those of other
-/// tables.
+/// none. Keys of `at`, `motor_override` and `compare` are left out, because they repeat keys of other tables.
 std::string with_word(const std::vector<KeyEntry>& entries, std::string_view word) {
   std::string text;
   for (const KeyEntry& entry : entries) {
@@ -96,8 +95,8 @@ std::string with_word(const std::vector<KeyEntry>& entries, std::string_view wor
   return text;
 }
 
-/// The verb of this name, because `sixstep help COMMAND` means `sixstep COMMAND --help`. If a key has the
-/// same name, the help of the command comes first and that of the key below it.
+/// The verb of this name: `sixstep help COMMAND` means `sixstep COMMAND --help`. If a key has the same name,
+/// the help of the key follows below the help of the command.
 const CLI::App* command_of(const CLI::App& app, const std::string& name) {
   const auto found = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
   return found.empty() ? nullptr : found.front();
@@ -138,8 +137,8 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   for (const std::vector<KeyEntry>* entries : {&scenario, &sheet, &plan})
     for (const KeyEntry& entry : *entries) known.push_back(entry.path);
   std::string near = text::nearest(key, known);
-  for (const std::string& path : known)  // "voltage_V" is the end of such a path; a misspelt key may be one
-                                         // too
+  for (const std::string& path : known)  // a word such as "voltage_V" is the end of a path, and may be
+                                         // misspelt
     if (near.empty() && text::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
   constexpr std::size_t shortest_word = 3;
   const bool is_word = key.size() >= shortest_word &&

@@ -9,7 +9,7 @@
 namespace cli {
 
 CLI::Validator integer_in(std::int64_t least, std::int64_t most) {
-  CLI::Validator range = CLI::Range(least, most);  // text as --help shows it
+  CLI::Validator range = CLI::Range(least, most);  // only for the text that --help shows
   range.operation([least, most](std::string& word) {
     std::int64_t value = 0;
     const char* end = word.data() + word.size();

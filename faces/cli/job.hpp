@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs one scenario from its file to its outputs. Everything that can be refused is refused before the run
-// begins.
+// Runs one scenario and writes its outputs. Invalid inputs are refused before the run.
 #pragma once
 #include <functional>
 #include <optional>
@@ -17,14 +16,14 @@ class Job {
   Job(study::Scenario scenario, files::TraceOrigin origin)
       : scenario_(std::move(scenario)), origin_(std::move(origin)) {}
 
-  /// Opens every output. Problems: nothing was written, and the run must not start.
+  /// Opens every output. If it returns problems, nothing was written, and the run must not start.
   base::Problems prepare(const OutputPaths& paths) {
     foretold_ = Outputs::foretold(paths, scenario_);
     return outputs_.open(paths, scenario_, origin_);
   }
 
-  /// Sets the core that also runs the drive; null: only the host runs it. Problems: no core can run this
-  /// drive.
+  /// Sets the core that also runs the drive; null: only the host runs the drive. Returns problems if the core
+  /// cannot run this drive.
   base::Problems take_core(const loop::Core* core);
   const loop::Core* core() const { return core_; }
   /// Sets a word that is appended to the name if a file is run both on the host and on a chip.
@@ -35,7 +34,7 @@ class Job {
   void run(const std::function<void(double t_s)>& reached);
 
   Exit exit_code() const;
-  std::string name() const;  ///< stem of the file's name, and the core's name
+  std::string name() const;  ///< stem of the file's name, and the word of tell_where()
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   bool begun() const { return outcome_ || !problems_.empty(); }
@@ -44,7 +43,8 @@ class Job {
   /// The path of the run's page, or of the partial page of an interrupted run; empty if there is none.
   const std::string& page() const { return outputs_.page(); }
   const base::Problems& problems() const { return problems_; }
-  /// A message if an output will not hold, or after the run does not hold, the whole run. Empty otherwise.
+  /// foretold(): before the run, a message if an output will not contain the whole run. left_out(): after the
+  /// run, a message if an output does not contain it. Empty otherwise.
   std::string foretold() const;
   std::string left_out() const;
   /// The message about an interrupted run: the time, and the files with its results. Empty otherwise.

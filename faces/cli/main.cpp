@@ -36,7 +36,7 @@
 namespace cli {
 namespace {
 
-/// The command line in a form that a shell reads back. The program appears by its name without the path.
+/// The command line in a form that a shell can read again. The program's name is without its path.
 std::string retyped(int count, const char* const* words) {
   std::string text = "sixstep";
   for (int n = 1; n < count; ++n) text += " " + text::shell_word(words[n]);
@@ -63,8 +63,8 @@ constexpr Listed listed[] = {{"new", declare_new},         {"run", declare_run},
                              {"schema", declare_schema},   {"completion", declare_completion, true},
                              {"man", declare_man, true}};
 
-/// Declares the requested verb, or all verbs if that is not one of them. Declaring the options of all verbs
-/// takes longer than many verbs run.
+/// Declares the requested verb, or all verbs if `word` is not a verb. Declaring all verbs takes longer than
+/// many verbs run.
 std::vector<Verb> declared(CLI::App& app, std::string_view word) {
   for (const Listed& verb : listed)
     if (verb.name == word && !verb.looks_at_all) return {verb.declare(app)};
@@ -88,7 +88,7 @@ Exit run_program(int count, const char* const* words) {
   } catch (const CLI::ParseError& error) {
     return usage_error(app, error, count > 1 ? words[count - 1] : "");
   }
-  const files::ReadLog inputs;  // exists so that outputs that would replace an input are refused
+  const files::ReadLog inputs;  // logs the inputs, so that an output that would replace an input is refused
   const auto chosen = std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); });
   return exit_after_stop(chosen->call(retyped(count, words)));
 }
@@ -99,16 +99,16 @@ Exit out_of_memory() {
   return Exit::bad_input;
 }
 
-/// Ends the program at the failed allocation. Otherwise streams would catch std::bad_alloc, and a value read
-/// from a stream would be reported as wrong.
+/// Ends the program at the failed allocation. A stream would catch std::bad_alloc, and a value read from the
+/// stream would be reported as wrong.
 [[noreturn]] void end_without_memory() {
   const Exit exit = out_of_memory();
   files::remove_temporary_files();
   ::_exit(static_cast<int>(exit));
 }
 
-/// Handles uncaught exceptions: lack of memory in one of the program's own threads, or an internal error. For
-/// an internal error, abort() keeps the stack trace.
+/// Handles uncaught exceptions: lack of memory in a thread, or an internal error. After an internal error,
+/// abort() preserves the stack trace.
 [[noreturn]] void end_uncaught() {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
@@ -119,7 +119,8 @@ Exit out_of_memory() {
   std::abort();
 }
 
-/// Installs the handlers before the program's constants are initialised, because this allocates memory too.
+/// Installs the handlers before the program's constants are initialised, because the initialisation allocates
+/// memory.
 [[gnu::constructor(101)]] void take_terminations() {
   std::set_terminate(end_uncaught);
   std::set_new_handler(end_without_memory);

@@ -15,8 +15,8 @@
 namespace cli {
 namespace {
 
-/// Escapes text for roff: hyphens and backslashes. No line begins like a command, and no line is longer than
-/// usual in manual pages.
+/// Escapes hyphens and backslashes for roff. Wraps lines at 78 characters, and no line begins like a roff
+/// command.
 std::string roff(std::string_view text) {
   constexpr std::size_t longest_line = 78;
   std::string out;

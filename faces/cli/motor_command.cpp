@@ -34,7 +34,7 @@ struct Checked {
   design::SheetCheck check;
 };
 
-/// The sheet and its check. Empty if the sheet cannot be read or checked; the problems have been printed.
+/// The sheet with its check. Empty if the sheet cannot be read or checked; the problems are then printed.
 std::optional<Checked> checked(const MotorArguments& a) {
   base::Result<design::Sheet> sheet = files::read_sheet(a.name, a.data_dir);
   if (!sheet) {
@@ -49,7 +49,7 @@ std::optional<Checked> checked(const MotorArguments& a) {
   return Checked{std::move(*sheet), std::move(*check)};
 }
 
-/// Prints one line per motor compiled in.
+/// Prints one line for each built-in motor.
 Exit list_motors(const MotorArguments& a) {
   std::size_t width = 0;
   std::vector<text::NamedSheet> motors;

@@ -4,9 +4,13 @@
 
 namespace cli {
 
-/// `sixstep motor list|show|check|new|wiring|commission`: the motors compiled in; one sheet with its model;
-/// the check of a sheet (`failed` if the sheet contradicts itself); a template to fill in; the 36 ways to
-/// connect a motor; the measurement of a connected motor (wiring_command.hpp, commission_command.hpp).
+/// `sixstep motor`, with these subcommands:
+///   list        the built-in motors
+///   show        one sheet with its model
+///   check       the check of a sheet; `failed` if the sheet contradicts itself
+///   new         a template to fill in
+///   wiring      the 36 ways to connect a motor (wiring_command.hpp)
+///   commission  the measurement of a connected motor (commission_command.hpp)
 Verb declare_motor(CLI::App& app);
 
 }  // namespace cli

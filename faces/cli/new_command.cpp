@@ -37,7 +37,7 @@ struct NewArguments {
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
   analysis::FirstScenarioSpec spec;
-  // The modes of a first scenario. `off` is not among them, because the motor should move.
+  // The modes of a first scenario: without `off`, because the motor should move.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
   choose("--mode", a.mode, modes, spec.mode, found);

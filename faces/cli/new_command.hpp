@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// `sixstep new [NAME]`: writes a scenario to start from, which runs and passes without changes.
+/// `sixstep new [NAME]`: writes a first scenario, which runs and passes without changes.
 Verb declare_new(CLI::App& app);
 
 }  // namespace cli

@@ -11,14 +11,13 @@ namespace cli {
 /// The file name for `name`, with .toml appended if it has no extension.
 std::string toml_path(const std::string& name);
 
-/// A Problem if a file of that name exists.
+/// Returns a Problem if a file of that name exists.
 base::Problems taken(const std::string& path);
 
 /// Writes a new file completely; never replaces an existing one.
 base::Problems write_new(const std::string& path, const std::string& text);
 
-/// The motor's path in the form in which a scenario at `toml` must name it. The name of a motor compiled in
-/// is unchanged.
+/// The motor's path relative to the folder of the scenario `toml`. The name of a built-in motor is unchanged.
 std::string motor_beside(const std::string& motor, const std::string& toml);
 
 }  // namespace cli

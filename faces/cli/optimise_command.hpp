@@ -15,8 +15,8 @@ struct OptimiseArguments {
   unsigned jobs = 0;
 };
 
-/// `sixstep design --optimise PLAN`: finds in the plan's ranges the point with the least value of a figure at
-/// which every drive meets every requirement, and names the requirements that limit the figure.
+/// `sixstep design --optimise PLAN`: searches the plan's ranges for the least value of a figure at which
+/// every drive meets every requirement. Also names the requirements that limit the figure.
 Exit optimise_command(const OptimiseArguments& arguments);
 
 }  // namespace cli

@@ -25,7 +25,7 @@ files::Sink stdout_sink(const Format& format) {
   return sink;
 }
 
-/// A message about a control period that is shorter than on any board and makes the run slow: each period
+/// A message if the control period is shorter than 1 us, as on no board, and makes the run slow: each period
 /// takes 0.3 us to 3 us of computing time.
 std::string length_foretold(const study::Scenario& s) {
   constexpr double short_s = 1e-6, many = 1e7, one_s = 1e-6;
@@ -132,7 +132,7 @@ base::Problems Outputs::publish(const files::RunStory& story, bool whole) {
     append(problems, failed);
     if (output.sink.left_out) left_out_ += output.sink.left_out();
     if (!failed.empty() || output.path.empty()) continue;
-    // A path that is not a regular file has no partial name.
+    // A path that is not a regular file, such as a pipe, has no partial name.
     const std::string partial = files::partial_name(output.path);
     const bool is_partial = !whole && std::filesystem::exists(partial);
     if (is_partial) partial_files_.push_back(partial);

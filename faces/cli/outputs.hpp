@@ -12,31 +12,32 @@
 
 namespace cli {
 
-/// Makes the folder of --out.
+/// Creates the folder of --out.
 base::Problems make_folder(const std::string& out);
 
 struct OutputPaths {
-  /// path per format; empty: not wanted
+  /// path per format; empty: not requested
   std::vector<std::string> of_formats = std::vector<std::string>(formats().size());
   bool force = false;  ///< true: replace any existing file
 
   const std::string& of(std::string_view option) const;
-  /// Each wanted output file with its option; standard output is not included.
+  /// Each requested output file with its option; without standard output.
   std::vector<std::pair<std::string, std::string>> files() const;
-  /// Whether a format is printed to standard output, to which nothing else is then printed.
+  /// Whether one format is printed to standard output. Then nothing else is printed there.
   bool prints() const;
   bool any() const { return prints() || !files().empty(); }
 };
 
 class Outputs {
  public:
-  /// Opens the outputs. Problems: nothing was written, and the run must not start.
+  /// Opens the outputs. If it returns problems, nothing was written, and the run must not start.
   base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
                       const files::TraceOrigin& origin);
 
   void listen(study::Listeners& listeners) const;
 
-  /// The parts of the run that will not fit into an output; after publish(), the parts that did not.
+  /// foretold(): parts of the run that will not fit an output. left_out(): after publish(), parts that did
+  /// not fit.
   static std::string foretold(const OutputPaths& paths, const study::Scenario& scenario);
   const std::string& left_out() const { return left_out_; }
 
@@ -50,7 +51,7 @@ class Outputs {
   /// The final path of the HTML page; empty if there is none.
   const std::string& page() const { return page_; }
 
-  /// Names of an interrupted run's files.
+  /// Partial names of an interrupted run's files.
   const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:

@@ -54,7 +54,7 @@ batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::Plan
           .jobs = a.jobs};
 }
 
-/// Runs a stored run again. Problems: this program computes other values than the store has.
+/// Repeats one stored run. Returns problems if this program computes other values than the stored row.
 base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store) {
   std::optional<analysis::RunRecord> before;
   base::Problems problems = store.each([&](const analysis::RunRecord& record) {
@@ -69,7 +69,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
            .cure = "finish it with that version, or begin anew with --force"}};
 }
 
-/// A plan whose runs are complete: the rows of its store, and their results. It must not move.
+/// A plan with complete runs: the rows of its store and the results. The object must not move.
 class MadePlan {
  public:
   MadePlan(const ReadPlan& plan, files::PlanStore store)
@@ -85,7 +85,7 @@ class MadePlan {
   MadePlan& operator=(const MadePlan&) = delete;
 
   const text::PlanStory& story() const { return story_; }
-  /// The reasons why rows could not be read.
+  /// The reasons why some rows could not be read.
   const base::Problems& problems() const { return problems_; }
   /// A message about runs in the store that are not part of the plan; empty if there are none.
   std::string beyond() const {
@@ -95,7 +95,7 @@ class MadePlan {
                        analysis::runs_of(plan_.scenarios->plan()));
   }
   Exit exit() const { return exit_of_series(series_); }
-  /// The number of stopped or refused runs, and the reason of the first.
+  /// The number of stopped or refused runs, and the reason for the first such run.
   std::string stopped() const {
     const std::string lines = text::stopped_text(series_, plan_.scenarios->plan());
     return lines.empty() ? "" : text::visible(plan_.name) + ":\n" + lines;
@@ -105,7 +105,7 @@ class MadePlan {
   text::JunitSuite verdicts() const { return text::junit_suite(plan_.name, series_); }
 
  private:
-  /// Visits the rows of the requested plan, with its points.
+  /// Visits the rows of the requested plan, each with its point in the plan.
   void each(const std::function<void(const analysis::RunRecord&)>& visit) {
     const analysis::Plan& p = plan_.scenarios->plan();
     beyond_ = 0;
@@ -137,7 +137,7 @@ class MadePlan {
       plan_.scenarios->made_of().sheet_tolerances ? analysis::tolerances_not_drawn(plan_.nominal) : ""};
 };
 
-/// Makes the runs that are not in the store, until all are made or an interrupt arrives.
+/// Makes the runs that are not in the store, until all are made or the program is interrupted.
 base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& plan) {
   base::Result<files::PlanStore> store = store_of(a, plan, text::plan_identity(plan.scenarios->plan()));
   if (!store) return store;
@@ -166,14 +166,14 @@ base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& 
   return store;
 }
 
-/// Prints the table; a quiet run prints only which runs stopped or could not start.
+/// Prints the table; with --quiet, only the runs that stopped or could not start.
 void tell(const RunArguments& a, const MadePlan& made) {
   if (a.quiet) return print(made.stopped(), stderr);
   print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
   if (made.cut_short()) stop_is_told();
 }
 
-/// Also adds the problems to the build server's verdicts, because a suite without cases would look
+/// Also adds the problems to the verdicts for build servers, because a suite without cases would count as
 /// successful.
 Exit refused_plan(const std::string& name, const base::Problems& problems,
                   std::vector<text::JunitSuite>& suites) {
@@ -202,7 +202,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   return problems.empty() ? made.exit() : graver(made.exit(), Exit::bad_input);
 }
 
-/// Writes two plans on one page.
+/// Draws two plans on one page.
 Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
                    std::vector<text::JunitSuite>& suites) {
   base::Result<files::AtomicFile> file = files::AtomicFile::create({a.paths.of(page_option), a.paths.force});
@@ -244,7 +244,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   junit->write(text::junit_xml(suites));
   const base::Problems unwritten = interrupted() ? junit->commit_partial() : junit->commit();
   complain(unwritten);
-  // A path that is not a regular file has no partial name.
+  // A path that is not a regular file, such as a pipe, has no partial name.
   const std::string partial = files::partial_name(junit->path());
   if (interrupted() && unwritten.empty() && std::filesystem::exists(partial))
     tell_stop("the verdicts of the finished runs are in " + text::visible(partial));

@@ -4,8 +4,8 @@
 
 namespace cli {
 
-/// Runs the plans that the files and options of `sixstep run` define, and writes rows into a store, tables
-/// and files. The option --runs also defines a plan.
+/// Runs the plans that the files and options of `sixstep run` define, and writes the store, tables and files.
+/// The option --runs also defines a plan.
 Exit plan_command(const RunArguments& arguments);
 
 }  // namespace cli

@@ -19,8 +19,8 @@ namespace {
 using std::chrono::duration;
 using std::chrono::steady_clock;
 
-/// Bytes of a row in the store: run number, words, digest and checksum. Each column adds eight bytes for the
-/// number and SQLite's overhead.
+/// Bytes of a row in the store: number, words, digest and checksum of the run. Each column adds eight bytes
+/// for its value and SQLite's overhead.
 constexpr double row_bytes = 79, column_bytes = 9;
 
 std::string time_text(double s) {
@@ -43,7 +43,7 @@ std::string axis_text(const analysis::Axis& axis, const std::string& unit, bool 
               : fmt::format("{}: {}{}", axis.key, ends, spaced);
 }
 
-/// A few runs spread over the plan, which take about a second, and the time of one run on one core.
+/// A few runs at points spread over the plan; together they take about a second.
 struct Sample {
   std::size_t runs = 0;
   double each_s = 0.0;

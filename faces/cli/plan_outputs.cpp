@@ -60,7 +60,7 @@ base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& 
   return {};
 }
 
-/// If the page is written into a folder, reports of the worst runs are written into the same folder.
+/// If the page is written into a folder, also writes reports of the worst runs there.
 std::string PlanOutputs::page(const text::PlanStory& story, const ReadPlan& plan,
                               base::Problems& problems) const {
   WorstReports worst;
@@ -79,11 +79,11 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
-    // After an interrupt at this instant, the page may lack reports of the worst runs.
+    // After an interrupt, the page may lack reports of the worst runs.
     const bool in_place = whole && !interrupted();
     const base::Problems unwritten = in_place ? open.file.commit() : open.file.commit_partial();
     append(problems, unwritten);
-    // A path that is not a regular file has no partial name.
+    // A path that is not a regular file, such as a pipe, has no partial name.
     const std::string partial = files::partial_name(open.file.path());
     if (!in_place && unwritten.empty() && fs::exists(partial)) partial_files_.push_back(partial);
   }

@@ -14,8 +14,8 @@ namespace cli {
 /// Rows and page of a plan, in all requested formats.
 class PlanOutputs {
  public:
-  /// Opens the files. Problems: nothing was written, and no run must start. `arguments` must outlive this
-  /// object.
+  /// Opens the files. If it returns problems, nothing was written, and no run must start. `arguments` must
+  /// outlive this object.
   base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
   /// Publishes the files; if the plan was interrupted, under partial names.
   base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);

@@ -23,7 +23,7 @@ namespace {
 /// The cluster of this process. A process can initialise MPI only once.
 struct Ranks {
   batch::Cluster cluster;
-  bool whole = true;  ///< false: a process ended without notice
+  bool whole = true;  ///< false: a process of the cluster ended unexpectedly
 };
 
 Ranks& ranks() {
@@ -89,7 +89,7 @@ std::string answer(const text::Resolve& resolve, const std::string& question) {
   return bytes_of(resolve({r.choice<text::Naming::Kind>(4), r.text(), r.text()}));
 }
 
-/// The function that turns a number into a run, in a process that receives everything from the leader.
+/// The function that returns the run of a number, in a process that receives all texts from the leader.
 decltype(batch::PlanRuns::scenario) planned_scenario(const std::string& made_of, const analysis::Plan& plan,
                                                      batch::Ask ask) {
   text::PlannedText of = planned_text(made_of);
@@ -113,7 +113,7 @@ Exit among_ranks(const std::function<Exit()>& program) {
     return Exit::bad_input;
   }
   batch::Cluster& cluster = ranks().cluster = std::move(*joined);
-  // No colours, because mpirun gives the first process a terminal of its own, wherever the output goes.
+  // Switches colours off: mpirun connects the first process to a terminal even if the output goes to a file.
   if (cluster.size > 1) ::setenv("NO_COLOR", "1", 1);
   Exit exit = Exit::ok;
   if (cluster.rank == 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs sixstep as one of several processes that mpirun started. The first process runs the program; the
-// others make the runs that it sends them.
+// Runs sixstep as one of several processes that mpirun started. The first process runs the program. It sends
+// runs to the other processes, which simulate them.
 #pragma once
 #include <functional>
 
@@ -9,11 +9,11 @@
 
 namespace cli {
 
-/// Returns the program's exit code in all processes. Only the first process calls `program`, reads, prints
-/// and writes.
+/// Runs `program` in the first process; only this process reads, prints and writes files. Returns the
+/// program's exit code in all processes.
 Exit among_ranks(const std::function<Exit()>& program);
 
-/// Threads that make runs, summed over all processes; `jobs` as in batch::PlanRuns.
+/// Number of threads that make runs, in all processes together; `jobs` as in batch::PlanRuns.
 unsigned threads_for_runs(unsigned jobs);
 
 /// Makes the plan's runs with all processes. A single process works like batch::run_plan().

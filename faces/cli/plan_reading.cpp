@@ -27,7 +27,7 @@ bool is_plan_file(const std::string& file) {
   return text && text::is_plan(*text);
 }
 
-/// Adds the command line's options to a plan; an axis replaces the file's axis for the same key.
+/// Adds the command line's options to a plan. An axis of an option replaces the file's axis for the same key.
 base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   base::Problems problems;
   std::size_t of_file = plan.axes.size();
@@ -40,7 +40,7 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
       }
       continue;
     }
-    // An option replaces only axes of the file: two options for one key are a problem.
+    // An option replaces only axes of the file; two options for one key are a problem.
     const auto end = plan.axes.begin() + static_cast<std::ptrdiff_t>(of_file);
     const auto same = std::find_if(plan.axes.begin(), end,
                                    [&](const analysis::Axis& other) { return other.key == axis->key; });
@@ -70,7 +70,8 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   return problems;
 }
 
-/// Replaces vary[0] by "--vary pwm.period_s" in problems; if a list is missing for a scenario, by "--vary".
+/// In problems, replaces vary[0] by "--vary pwm.period_s". If a scenario lacks a list of axes, replaces vary
+/// by "--vary".
 void in_words_of(const RunArguments& a, const std::string& file, const analysis::Plan& plan,
                  base::Problems& problems) {
   for (base::Problem& problem : problems) {
@@ -129,7 +130,7 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   if (!problems.empty()) return problems;
   base::Result<text::PlanFile> of_file = plan_of(file);
   if (!of_file) return of_file.problems();
-  const files::ReadLog log;  // logs the inputs of the runs only, because other parts of the plan may change
+  const files::ReadLog log;  // logs only the inputs of the runs, because other parts of the plan may change
   base::Result<std::string> text = files::read_text(of_file->scenario);
   if (!text) return text.problems();
   analysis::Plan& plan = of_file->plan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the arguments of `sixstep run`, or a plan file, as a list of runs to make.
+// Reads the arguments of `sixstep run`, or a plan file, as a plan.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -30,11 +30,10 @@ bool plans(const RunArguments& arguments, const std::string& file);
 /// Reads the plan. `file` is a scenario, or a plan that names one.
 base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments);
 
-/// The origin of one run of the plan, with the command of the plan.
+/// The origin of one run of the plan, with the command that runs the plan.
 files::TraceOrigin origin_of_run(const ReadPlan& plan, std::uint64_t number);
 
-/// The path of the store: --store, or a file in the folder of --out. Empty: a store that is removed at the
-/// program's end.
+/// The path of the store: --store, or a file in the folder of --out. Empty: the store is temporary.
 std::string store_path(const RunArguments& arguments, const std::string& name);
 
 }  // namespace cli

@@ -22,7 +22,7 @@ std::size_t place_of_page() {
                                   formats().begin());
 }
 
-/// Writes the report of one run. Returns the problems; empty: it is written.
+/// Writes the report of one run. Returns problems if it is not written.
 base::Problems write_report(const RunArguments& a, const ReadPlan& plan, std::size_t number,
                             const std::string& path) {
   base::Result<analysis::PlannedRun> run = plan.scenarios->run(number);

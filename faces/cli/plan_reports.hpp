@@ -12,11 +12,11 @@
 
 namespace cli {
 
-/// A command line to which a run's number must be appended: "sixstep run a.toml --vary
+/// A command line that repeats a run once the run's number is appended: "sixstep run a.toml --vary
 /// pwm.period_s=20us:100us:9 --only".
 std::string repeating_command(const RunArguments& arguments, const ReadPlan& plan);
 
-/// The input of a plan's page; `reports` as in WorstReports::files.
+/// The contents of a plan's page; `reports` as in WorstReports::files.
 report::PagePlan page_of(const RunArguments& arguments, const ReadPlan& plan, const text::PlanStory& story,
                          std::map<std::size_t, std::string> reports);
 

@@ -10,13 +10,13 @@
 
 namespace cli {
 
-/// Starts to note such runs in the store's folder. If the plan is not continued (`goes_on`), earlier notes
-/// are deleted.
+/// Starts to note such runs in the store's folder. If the plan starts anew (`goes_on` false), deletes earlier
+/// notes.
 void note_stopped_runs(const files::PlanStore& store, bool goes_on);
-/// Stores the runs noted by earlier calls of the program as rows: stopped by a fault, with the reason.
-/// Returns their numbers, because the rows may not be in the file yet.
+/// Stores a row, stopped by a fault with the reason, for each run noted by earlier calls of the program.
+/// Returns the numbers of these runs, because the rows may not be in the file yet.
 std::set<std::size_t> take_stopped_runs(const ReadPlan& plan, files::PlanStore& store);
-/// Deletes the notes. Call it when the rows are in the store.
+/// Deletes the notes. Must be called after the rows are in the store.
 void forget_stopped_runs(const files::PlanStore& store);
 
 }  // namespace cli

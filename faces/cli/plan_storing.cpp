@@ -14,7 +14,7 @@
 namespace cli {
 namespace {
 
-/// Replaces the store's words by the names of the options.
+/// In a problem, replaces the store's words by the names of the options.
 void in_store_options(base::Problem& problem) {
   const auto replace = [](std::string& text, std::string_view word, std::string_view option) {
     if (const std::size_t at = text.find(word); at != std::string::npos)

@@ -53,7 +53,7 @@ Progress::Progress(Work work, bool quiet) : work_(std::move(work)), at_s_(work_.
   });
 }
 
-Progress::~Progress() = default;  // ends the thread, which then clears its line
+Progress::~Progress() = default;  // the thread ends here and clears its line
 
 void Progress::finished(std::size_t run) {
   reached(run, work_.seconds[run]);
@@ -81,8 +81,8 @@ std::string Progress::line(std::size_t width) const {
   std::string text = fmt::format("{:3.0f} %  ", 100 * fraction);
   if (done > before) text += clock_text(elapsed * (total - done) / (done - before)) + " left  ";
   text += what;
-  // The last column stays free, because a terminal would otherwise begin the next line. The bar has only few
-  // lengths, which avoids flicker.
+  // The last column stays empty, because a terminal would otherwise begin the next line. The bar's length is
+  // a multiple of ten, which avoids flicker.
   const std::size_t room = width > text.size() + 4 ? (width - text.size() - 4) / 10 * 10 : 0;
   if (room > 0) text = bar(fraction, std::min(room, longest_bar)) + text;
   return text.substr(0, width - 1);

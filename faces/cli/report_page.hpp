@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file of the command line that uses the report.
+// Connects the command line with the report.
 #pragma once
 #include <string>
 #include <vector>
@@ -17,9 +17,9 @@ namespace cli {
 struct ReportSource {
   const study::Scenario& scenario;
   const study::Outcome& outcome;
-  const study::Trace& events;  ///< every event, with both sides of each jump
+  const study::Trace& events;  ///< every event, with the values before and after each jump
   const std::string& text;     ///< text of the scenario's file
-  const std::string& command;  ///< the command that makes this report again
+  const std::string& command;  ///< the command that writes this report again
 };
 
 std::string report_page(const ReportSource& source);
@@ -40,14 +40,14 @@ struct LogFound {
   double shift_s = 0.0;
 };
 
-/// The page of a comparison. `log`: comparison with a log, which is then the last run.
+/// The page of a comparison. If `log` has columns, the last run is the log.
 std::string comparison_page(const std::vector<ComparedSource>& runs, const LogFound& log,
                             const std::string& command);
 
 /// The page of one plan, or of two plans drawn over each other.
 std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command);
 
-/// Numbers of the plan's runs to inspect first.
+/// Numbers of the plan's runs that should be inspected first.
 std::vector<std::size_t> worst_runs(const text::PlanStory& story, std::size_t most);
 
 }  // namespace cli

@@ -42,12 +42,12 @@ OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   return paths;
 }
 
-/// Files about all runs, which are written last.
+/// Files that describe all runs. They are written last.
 struct Lists {
   std::optional<files::AtomicFile> index, junit;
 };
 
-/// Opens all outputs before anything runs. Opening the index proves that the folder is writable.
+/// Opens all outputs before the first run. Opening the index proves that the folder is writable.
 base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs, Lists& lists) {
   base::Problems problems;
   if (!arguments.out.empty()) {
@@ -79,8 +79,8 @@ void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
   });
 }
 
-/// Writes the index of all runs. After an interrupt it writes an index of the finished runs under its partial
-/// name, with a message.
+/// Writes the index of all runs. After an interrupt, writes an index of the finished runs under its partial
+/// name and prints a message.
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
                            files::AtomicFile& index) {
   std::vector<report::IndexEntry> entries;
@@ -105,7 +105,8 @@ void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   for (const Job& job : jobs)  // an interrupted run has no verdict yet
     if (job.finished()) entries.push_back({job.name(), job.outcome()});
   if (arguments.quiet) return print(text::faults_text(entries), stderr);
-  std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output then holds only that format
+  std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output then contains only the
+                                                               // requested format
   if (entries.empty()) return;
   std::string text = text::verdict_table(entries, may_colour(to));
   // The summary is omitted if runs were interrupted or never began.
@@ -117,7 +118,7 @@ std::string verdicts_xml(const std::vector<Job>& jobs) {
   std::vector<text::JunitSuite> suites;
   suites.reserve(jobs.size());
   for (const Job& job : jobs)
-    // A run that was stopped because of an output did not reach its end, even if it has results.
+    // A run whose output failed did not reach its end, even if it has results.
     suites.push_back(job.outcome() && job.problems().empty() ? text::junit_suite(job.name(), *job.outcome())
                                                              : text::junit_suite(job.name(), job.problems()));
   return text::junit_xml(suites);
@@ -241,7 +242,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "number of drives of the series that [[spread]] describes");
   runs->excludes(watch)->check(integer_in(1, 1'000'000'000));
-  // Checked as a signed number, because a minus would otherwise be read as a large number.
+  // Checked as a signed number, because an unsigned parser would read -1 as a large number.
   const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
   run.add_option("--seed", a.seed, "seed of the series of drives; without it 1")->check(whole);
   run.add_option("--drive", a.drive, "only drive N of the series, with all its outputs")

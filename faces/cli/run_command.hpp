@@ -11,7 +11,7 @@
 
 namespace cli {
 
-/// Arguments of many runs.
+/// Arguments of a plan.
 struct PlanArguments {
   std::vector<std::string> vary;  ///< "key=from:to:points" or "key=value,value"
   std::string sampling;           ///< one of analysis::sampling_choices; empty: as in the plan
@@ -19,11 +19,11 @@ struct PlanArguments {
   bool tolerances = false;  ///< drives also differ within the sheet's tolerances
   std::string store;
   bool resume = false, dry_run = false;
-  std::optional<std::uint64_t> only;  ///< number of the single run of the plan to make, as if it were a
+  std::optional<std::uint64_t> only;  ///< number of the plan's only run to make, with the outputs of a
                                       ///< scenario
 };
 
-/// Arguments of a board's log, which the board sent over its serial line, or of another recording.
+/// Arguments of a board's log or of another recording.
 struct LogArguments {
   std::string path;                  ///< path of the log; empty: none
   std::optional<double> shift_s;     ///< time added to the log's times, s; empty: fitted
@@ -43,12 +43,12 @@ struct RunArguments {
   unsigned jobs = 0;     ///< number of threads; 0: one per core
   std::size_t runs = 0;  ///< number of drives of a series; 0: only the nominal run
   std::optional<std::uint64_t> seed;
-  std::optional<std::uint64_t> drive;  ///< the only drive of the series that is run
+  std::optional<std::uint64_t> drive;  ///< number of the only drive of the series to run
   PlanArguments plan;
   bool bode = false;                ///< measure the loop's frequency response instead of a run
   std::optional<double> amplitude;  ///< amplitude of the multisine, in the mode's unit; empty: the default
   std::string junit;                ///< file with verdicts for build servers
-  std::string on;       ///< core that runs the drive, in parallel with the host or instead of it; empty: none
+  std::string on;       ///< core that runs the drive, beside the host or instead of it; empty: none
   LogArguments log;     ///< log to compare with the run
   std::string command;  ///< the command line as it can be typed again
 };

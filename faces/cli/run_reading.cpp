@@ -21,7 +21,7 @@ namespace {
 
 std::string place(const std::string& file) { return fmt::format("{}:", file); }
 
-/// Digest of all files read for a scenario and of the values that the command line sets.
+/// Digest of all files read for a scenario and of the settings of the command line.
 std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a) {
   std::uint64_t digest = log.digest();
   for (const std::string& set : a.sets) digest = files::text_digest(set, digest);
@@ -100,7 +100,7 @@ struct NamedCore {
   const loop::Core* value;
 };
 
-/// The core of --on; null if only the host runs the drive.
+/// The core that --on names; null if only the host runs the drive.
 const loop::Core* core_of(const RunArguments& arguments, JobsRead& read) {
   const loop::Core* core = nullptr;
   if (names_own_firmware(arguments)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes jobs from the arguments of `sixstep run`, or reports everything that is wrong with these.
+// Makes jobs from the arguments of `sixstep run`, or reports all errors of the arguments.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace cli {
 base::Problems contradictions(const RunArguments& arguments);
 
 struct JobsRead {
-  std::unique_ptr<loop::Core> own_core;  ///< the core of --on MAP, to which the jobs point
+  std::unique_ptr<loop::Core> own_core;  ///< the core of --on MAP; the jobs point to it
   std::vector<Job> jobs;
   base::Problems problems;
   std::vector<std::string> files;  ///< files that were read, or could not be read

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads words of the command line that are a key and a value.
+// Reads settings of the command line: key and value.
 #pragma once
 #include <string>
 #include <vector>

@@ -5,8 +5,8 @@
 
 namespace cli {
 
-/// Runs the pieces of a work on up to `jobs` threads (0: one per core) and shows the progress: "7 of 41
-/// points".
+/// Returns a loop that runs pieces of work on up to `jobs` threads (0: one per core) and shows the progress:
+/// "7 of 41 points".
 analysis::ForEach side_by_side(unsigned jobs, bool quiet, const char* what);
 
 }  // namespace cli

@@ -54,7 +54,7 @@ std::string in_options(std::string_view text) {
     const std::string_view name = text.substr(0, length), rest = text.substr(length);
     const Word* word = word_of(name);
     const bool choice = word && rest.substr(0, is.size()) == is;
-    // Names such as "mode" and "step" are also ordinary words, and are replaced only in a choice.
+    // Names such as "mode" and "step" are also ordinary words. They are replaced only before " = ".
     out += word && (choice || name.find('_') != name.npos) ? word->option : name;
     text = rest;
     if (choice) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces a specification's members in texts by the options that set them: the library prints settle_s, but
-// the user has typed --settle.
+// In texts, replaces members of a specification by the options that set them. The library prints settle_s,
+// but the user has typed --settle.
 #pragma once
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@
 
 namespace cli {
 
-/// Replaces each member's name with a unit ("settle_s") and each choice ("chopping = complementary") by the
-/// option ("--settle", "--chopping complementary"). Keys within tables, such as control.current.settle_s, are
+/// Replaces each member with a unit ("settle_s") by its option ("--settle"), and each choice ("chopping =
+/// complementary") by "--chopping complementary". Keys within tables, such as control.current.settle_s, are
 /// unchanged.
 std::string in_options(std::string_view text);
 base::Problems in_options(base::Problems problems);

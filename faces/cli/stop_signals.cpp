@@ -15,9 +15,9 @@ namespace {
 
 struct StopSignal {
   int number;
-  /// Whether a second signal of this kind ends the program at once, because it then comes from the user.
-  /// SIGHUP arrives twice when a terminal closes, from the kernel and from the shell, and SIGXCPU arrives
-  /// once a second.
+  /// Whether a second signal of this kind ends the program at once, because only the user can send it twice.
+  /// SIGHUP arrives twice when a terminal closes, from the kernel and from the shell. SIGXCPU arrives once a
+  /// second.
   bool again_ends_at_once;
 };
 constexpr StopSignal stop_signals[] = {
@@ -40,7 +40,8 @@ extern "C" void on_stop_signal(int signal) {
   if (again) return end_at_once(signal);
   asked_to_end = signal;
   if (!files::controllers_are_watched()) return;
-  // Notes the controllers' calls: all code except a user's controller ends within a second.
+  // Marks the calls of users' controllers that are in progress. All code outside such a call ends within a
+  // second.
   files::mark_controller_calls();
   ::alarm(1);
 }
@@ -53,10 +54,10 @@ void take_stop_signals() {
   struct sigaction ask {
   }, before{};
   ask.sa_handler = on_stop_signal;
-  // SA_RESTART is not set, so that a signal ends a wait for the other end of a pipe.
+  // SA_RESTART is not set, so that a signal ends a wait for a pipe's other end.
   for (const StopSignal& stop : stop_signals) {
-    // These two signals may already be ignored: nohup ignores SIGHUP, and a shell's background job ignores
-    // the keyboard's SIGQUIT.
+    // SIGHUP and SIGQUIT may already be ignored: nohup ignores SIGHUP, and a shell ignores the keyboard's
+    // SIGQUIT for a background job.
     const bool may_be_ignored = stop.number == SIGHUP || stop.number == SIGQUIT;
     if (may_be_ignored && ::sigaction(stop.number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN)
       continue;

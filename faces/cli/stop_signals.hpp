@@ -7,10 +7,10 @@
 
 namespace cli {
 
-/// Makes such a signal remove temporary files before it ends the program at once.
+/// Lets a termination signal remove temporary files and end the program at once.
 void take_stop_signals();
-/// Makes such a signal stop runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once. Used by every
-/// verb that must clean up more than temporary files.
+/// Lets a termination signal stop the runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once.
+/// Every verb calls it that must remove more than temporary files.
 void catch_interrupts();
 
 bool interrupted();
@@ -19,15 +19,15 @@ Exit exit_of_interrupt();
 
 /// Prints the state of an interrupted verb on standard error.
 void tell_stop(const std::string& line);
-/// Tells exit_after_stop() that standard output has reported the interrupt.
+/// Records that standard output has reported the interrupt, for exit_after_stop().
 void stop_is_told();
-/// Reports an interrupt of work that leaves no result. `kept` names anything that the work does leave.
+/// Reports an interrupt of work without a result. `kept` names the files that remain.
 Exit told_interrupted(const std::string& what, const std::string& kept = "");
-/// The exit code of work that continues until it is interrupted: returns `exit` unchanged.
+/// The exit code of work that always runs until it is interrupted: returns `exit` unchanged.
 Exit ended_as_asked(Exit exit);
 
-/// The exit code of a verb that has returned. An interrupted verb never returns success, because its result
-/// may be incomplete. This function reports the interrupt if the verb has not reported it.
+/// The exit code of a verb that has returned. After an interrupt it is never success, because the result may
+/// be incomplete. Also reports the interrupt if the verb has not.
 Exit exit_after_stop(Exit exit);
 
 }  // namespace cli

@@ -7,7 +7,7 @@
 namespace cli {
 
 /// Stops the running simulations after Ctrl-C, or when `also` returns true. A signal handler can only set a
-/// flag, so that a thread polls the flag and `also`.
+/// flag, so a thread polls the flag and `also`.
 class StopWatch {
  public:
   explicit StopWatch(std::function<bool()> also = [] { return false; });

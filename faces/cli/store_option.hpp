@@ -6,8 +6,7 @@
 
 namespace cli {
 
-/// Adds the option --store of every verb that keeps rows. Its value must be a file, because a store is read
-/// again.
+/// Adds the option --store to a verb. Its value must be a regular file, because a store is read again.
 CLI::Option* take_store(CLI::App& verb, std::string& path, const std::string& meaning);
 
 }  // namespace cli

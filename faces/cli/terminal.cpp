@@ -24,14 +24,13 @@ int unprinted = 0;  // errno of the failed write to standard output; 0: none fai
 
 void print(std::string_view text, std::FILE* to) {
   if (to == stdout && unheard()) return;
-  // The loop writes everything in one call if the kernel allows it. A reader that needs only the first line
-  // then does not close the pipe during the writing.
+  // One call writes all of the text if the kernel allows it. A reader that needs only the first line then
+  // does not close the pipe during the writing.
   while (!text.empty()) {
     const ssize_t taken = ::write(::fileno(to), text.data(), text.size());
     if (taken >= 0) {
       text.remove_prefix(static_cast<std::size_t>(taken));
-    } else if (errno == EAGAIN) {  // the reader has made the pipe non-blocking, so that the program waits
-                                   // here
+    } else if (errno == EAGAIN) {  // the reader has made the pipe non-blocking: wait until it is writable
       pollfd ready{::fileno(to), POLLOUT, 0};
       ::poll(&ready, 1, -1);
     } else if (errno != EINTR) {
@@ -80,9 +79,9 @@ std::size_t terminal_width(std::FILE* stream) {
 void take_write_errors() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // Opens missing standard streams. open() returns the lowest free number: without this, one of the run's
-  // files would receive the printed text. The streams are opened in the wrong direction, so that they refuse
-  // reads or writes like a closed stream.
+  // Opens missing standard streams. open() returns the lowest free number; otherwise an output file would get
+  // the number of a stream and contain the printed text. Each stream is opened in the wrong direction, so
+  // that reads or writes fail as on a closed stream.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }

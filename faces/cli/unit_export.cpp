@@ -29,7 +29,7 @@ struct UnitArguments {
   bool force = false;
 };
 
-/// A file of sources/, with the path by which the other files include it.
+/// A file of the unit's folder sources/, with the path by which the other files include it.
 struct UnitSource {
   std::string path, text;
 };
@@ -61,8 +61,8 @@ std::vector<UnitSource> unit_sources_of(int fmi) {
   return own;
 }
 
-/// The shared object of a user's own controller goes into the unit. The unit's scenario then names it without
-/// a folder.
+/// The shared object of a user's controller is packed into the unit. The unit's scenario names it without a
+/// folder.
 base::Result<std::optional<files::ZipEntry>> own_controller_of(const UnitArguments& a,
                                                                study::Scenario& scenario) {
   std::string& name = scenario.control.own.controller;
@@ -100,8 +100,8 @@ struct UnitParts {
   std::optional<files::ZipEntry> controller;
 };
 
-/// modelDescription.xml comes first and uncompressed, because the program recognises its own units by its
-/// beginning.
+/// modelDescription.xml is the first entry and uncompressed: the program recognises its units by the
+/// beginning of the file.
 std::string archive_of(const UnitParts& parts, int fmi) {
   const std::string folder = fmi == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
   std::vector<files::ZipEntry> entries = {
@@ -117,7 +117,7 @@ std::string archive_of(const UnitParts& parts, int fmi) {
   return files::zipped(entries);
 }
 
-/// What sets the gates of the unit.
+/// Reads which part sets the gates of the unit.
 base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
   if (a.kind != "drive" && a.kind != "plant")
     return base::Problem{"--kind", a.kind, "is no kind of unit", "take drive or plant"};

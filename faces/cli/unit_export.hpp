@@ -4,7 +4,8 @@
 
 namespace cli {
 
-/// `sixstep export fmu SCENARIO`: the scenario as a functional mock-up unit, for every program that imports FMI.
+/// `sixstep export fmu SCENARIO`: writes the scenario as a functional mock-up unit, for programs that import
+/// FMI.
 Verb declare_unit_export(CLI::App& exports);
 
 }  // namespace cli

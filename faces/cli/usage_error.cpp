@@ -22,7 +22,7 @@ namespace {
 
 using base::Problem;
 
-/// The innermost verb that was read, and the words up to it.
+/// The innermost verb that the parser has read, and the words up to it.
 struct Called {
   CLI::App* verb;
   std::string path = "sixstep";
@@ -50,8 +50,8 @@ std::vector<std::string> options_of(const CLI::App& verb) {
   return names;
 }
 
-/// The verb that differs from the word in one or two letters, as by a typing error; nearest() requires more
-/// similarity, which short words do not have.
+/// The verb that differs from the word by at most two letters, as after a typing error. nearest() requires
+/// more similarity than short words can have.
 std::string nearest_verb(const std::string& word, const std::vector<std::string>& verbs) {
   for (int distance = 1; distance <= 2; ++distance)
     for (const std::string& verb : verbs)
@@ -59,7 +59,7 @@ std::string nearest_verb(const std::string& word, const std::vector<std::string>
   return "";
 }
 
-/// The --set that a user meant who wrote a key of the scenario as an option: "--duration".
+/// For a key of the scenario that was written as an option ("--duration"): the --set that the user meant.
 std::string setting_meant(const CLI::App& verb, const std::string& word) {
   if (!verb.get_option_no_throw("--set")) return "";
   std::vector<std::string> keys;
@@ -86,8 +86,8 @@ Problem unknown_word(const Called& called, const std::string& word) {
           .cure = near.empty() ? called.path + " --help lists them" : fmt::format("did you mean {}?", near)};
 }
 
-// The error's details come from the parsed options, because the exception contains only its kind and the
-// library's own text.
+// The error's details are read from the parsed options: the exception contains only its kind and the parser's
+// own text.
 
 std::string meaning(const Called& called, const CLI::Option* option) {
   return option ? "it means: " + option->get_description() : called.help();
@@ -102,8 +102,8 @@ std::optional<Problem> missing(const Called& called) {
   return {};
 }
 
-/// Reports a wrong number of values. Only the last option can lack one, because an option takes any next word
-/// as its value.
+/// Reports a wrong number of values. Only the last option can lack a value, because an option reads any next
+/// word as its value.
 std::optional<Problem> wrong_count(const Called& called, const std::string& last_word) {
   for (const CLI::Option* option : called.verb->get_options())
     if (static_cast<int>(option->results().size()) > option->get_items_expected_max())

@@ -11,8 +11,8 @@ class ParseError;
 
 namespace cli {
 
-/// Handles a command line that calls no verb. It prints the requested help or version, or otherwise the error
-/// in the form of all other messages, with the nearest known word for an unknown one.
+/// Handles a command line that calls no verb. Prints the requested help or version. Otherwise prints the
+/// error in the form of all other messages; for an unknown word, it suggests the nearest known word.
 Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string& last_word);
 
 }  // namespace cli

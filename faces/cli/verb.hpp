@@ -22,8 +22,8 @@ struct Verb {
   std::function<Exit(const std::string& command)> call;
 };
 
-/// A function that stores the command line in the arguments and calls `verb` with them. The parser has
-/// written the options into these arguments.
+/// Returns a function that stores the command line in `arguments` and calls `verb` with them. The parser has
+/// written the options into `arguments`.
 template <class Arguments>
 std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
                                                 std::shared_ptr<Arguments> arguments) {

@@ -31,10 +31,10 @@ struct WiringArguments {
   std::string svg, html, toml;
   bool json = false, quiet = false, force = false;
   unsigned jobs = 0;
-  std::string command;  ///< the command that makes the page again
+  std::string command;  ///< the command that writes the page again
 };
 
-/// The output files. They are opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the runs, so that an unwritable path fails at once.
 struct WiringFiles {
   std::optional<files::AtomicFile> svg, html, toml;
 
@@ -57,7 +57,7 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The bench with straight wires. The user crosses wires in the file or with --set.
+/// The scenario with straight wires, as text. The user crosses wires in the file or with --set.
 std::string scenario_of(const analysis::WiringStudy& s, const std::string& path) {
   study::Scenario scenario = analysis::straight_run(s);
   scenario.motor = motor_beside(scenario.motor, path);
@@ -74,7 +74,7 @@ base::Problems write(const analysis::WiringStudy& s, const WiringArguments& a, W
   return found;
 }
 
-/// Replaces voltage_V by "--voltage"; keys of the sheet are named as those of the motor file.
+/// In problems, replaces the library's members by options and by keys of the motor file.
 base::Problems told(base::Problems problems, const WiringArguments& a) {
   for (base::Problem& p : problems) {
     if (p.where == "voltage_V")

@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// `sixstep motor wiring MOTOR`: the motor's behaviour for each of the 36 ways to connect it. `failed` if
+/// `sixstep motor wiring MOTOR`: simulates the motor for each of the 36 ways to connect it. `failed` if
 /// simulation and theory differ.
 Verb declare_wiring(CLI::App& motor);
 

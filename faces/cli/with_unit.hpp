@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options for a number with its unit, like the keys of a scenario: "--period 25us".
+// Options for a number with a unit, written as in a scenario: "--period 25us".
 #pragma once
 #include <CLI/Option.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace cli {
 
-/// Makes an option convert its text into `unit`. A text that is no number with a fitting unit is unchanged,
-/// and the option's own check refuses it.
+/// Makes an option convert its text into `unit`. A text that is not a number with a suitable unit is
+/// unchanged; the option's own check then refuses it.
 CLI::Option* take_unit(CLI::Option* option, std::string unit);
 
 }  // namespace cli

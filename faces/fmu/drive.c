@@ -45,12 +45,12 @@ drive_result drive_refused(drive* self, const char* function, const sixstep_sess
   return n ? DRIVE_ERROR : drive_fail(self, function, "memory ended");
 }
 
-/* snprintf() writes the locale's point. */
+/* snprintf() writes the decimal separator of the locale; this function writes a point. */
 void drive_number(char* text, size_t room, double value) {
   char raw[64];
   size_t out = 0, in = 0;
   int digits = 6;
-  do snprintf(raw, sizeof raw, "%.*g", digits, value); /* as few as name the value to the bit */
+  do snprintf(raw, sizeof raw, "%.*g", digits, value); /* the fewest digits that give the value to the bit */
   while (digits++ < 17 && strtod(raw, NULL) != value);
   for (; raw[in] && out + 1 < room; ++in) {
     if (raw[in] && strchr("0123456789+-eE", raw[in]))
@@ -93,7 +93,7 @@ drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop
   return DRIVE_OK;
 }
 
-/* Only a longer run is requested: a shorter one would be another scenario, without advantage. */
+/* Opens a longer run if the stop time needs it. A shorter run would be another scenario, without advantage. */
 static drive_result lengthen(drive* self) {
   char setting[64] = "duration_s=";
   const char* settings[2] = {setting, NULL};
@@ -134,7 +134,7 @@ drive_result drive_initialize(drive* self) {
   return DRIVE_OK;
 }
 
-/* A copy is finished, so that the session can still be saved. */
+/* Finishes a copy of the session, so that the session itself can still be saved. */
 drive_result drive_terminate(drive* self) {
   sixstep_session* end = NULL;
   drive_result result = DRIVE_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Resources of the unit, and saved states as bytes. */
+/* Reads the resources of the unit, and converts saved states to bytes and back. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +10,8 @@ static int hex_digit(char c) {
   return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/* The path of a file URI ("file:///a%20b", "file:/a", "file://localhost/a"), or of a plain path. Returns 0 if it
-   does not fit. */
+/* The path of a file URI ("file:///a%20b", "file:/a", "file://localhost/a"), or a plain path. Returns 0 if the path
+   does not fit into `room`. */
 static int path_of(const char* location, char* path, size_t room) {
   size_t out = 0;
   const int is_uri = strncmp(location, "file:", 5) == 0;
@@ -43,7 +43,7 @@ static double double_of(unsigned long long bits) {
   return value;
 }
 
-/* Whether `count` values from this reference on exist. */
+/* Whether `count` consecutive references from `first` on exist. */
 static int is_reference(unsigned first, int count) {
   const unsigned end = first + (unsigned)count;
   if (count < 1 || count > DRIVE_ARRAY || first == 0) return 0;
@@ -69,8 +69,9 @@ static int read_input(unsigned reference, unsigned long long bits, const char* k
   return 1;
 }
 
-/* A line of variables.txt: "token T", "chip 3", "real 15 BITS COUNT", "integer 24 BITS COUNT", "boolean 1100 BITS COUNT",
- * "input 1000 BITS KEY". Numbers are the bits of doubles, which no locale changes. 0: it is none of these. */
+/* Reads a line of variables.txt: "token T", "chip 3", "real 15 BITS COUNT", "integer 24 BITS COUNT", "boolean 1100
+ * BITS COUNT", "input 1000 BITS KEY". BITS are the bits of a double, so no locale changes the number. Returns 0 for
+ * any other line. */
 static int read_line(const char* line, drive_variables* v) {
   char word[16], last[64];
   unsigned reference, chip;
@@ -96,7 +97,7 @@ static int read_variables(const char* path, drive_variables* v) {
   FILE* file = fopen(path, "r");
   if (!file) return 0;
   memset(v, 0, sizeof *v);
-  v->kinds[0] = DRIVE_REAL; /* the time */
+  v->kinds[0] = DRIVE_REAL; /* reference 0: the time */
   while (good && fgets(line, sizeof line, file)) good = read_line(line, v);
   fclose(file);
   return good && v->token[0];
@@ -119,7 +120,7 @@ drive_result drive_read(drive* self, const char* location, const char* token) {
   return DRIVE_OK;
 }
 
-/* The saved state of the instance that `of` points to; null: none. */
+/* The saved state of the instance at the address `of`; null: there is none. */
 static drive_state* find(const drive* self, const void* of) {
   drive_state* s = self->saved;
   while (s && s != of) s = s->next;
@@ -189,10 +190,10 @@ typedef struct {
 
 static const char magic[16] = "sixstep unit 2";
 
-/* FNV-1a: each byte changes the sum, whatever the others are. */
+/* FNV-1a checksum: a change of any byte changes the sum. */
 static uint64_t checksum(const head* h, const unsigned char* session) {
   uint64_t sum = 14695981039346656037u, n;
-  unsigned char bytes[sizeof *h]; /* not an assignment, which may leave padding out */
+  unsigned char bytes[sizeof *h]; /* a copy by memcpy, because an assignment may omit padding */
   memcpy(bytes, h, sizeof bytes);
   memset(bytes + offsetof(head, check), 0, sizeof h->check);
   for (n = 0; n < sizeof bytes; ++n) sum = (sum ^ bytes[n]) * 1099511628211u;

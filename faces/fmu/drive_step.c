@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Steps of a unit: inputs act, then the run advances. */
+/* Executes the steps of a unit: applies the inputs, then advances the run. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "faces/fmu/drive.h"
 #include "faces/fmu/plant.h"
 
-/* No control tick is left in the run for the change: it has no effect. */
+/* Whether the change was refused because no control tick is left in the run. It then has no effect. */
 static int is_too_late(const sixstep_session* session) {
   sixstep_problem p;
   return sixstep_problem_at(session, 0, &p) == SIXSTEP_OK && strcmp(p.place, "time_s") == 0;
@@ -39,7 +39,7 @@ static drive_result change_inputs(drive* self, const char* function) {
   return DRIVE_OK;
 }
 
-/* A number for a reader. */
+/* Writes a number with at most nine digits, for messages. */
 static void short_number(char* text, size_t room, double value) {
   char raw[64];
   double rounded;
@@ -65,19 +65,19 @@ static drive_result stop_early(drive* self, const char* function, double asked_s
   return DRIVE_DISCARD;
 }
 
-/* Inputs act at the present communication point. */
+/* Applies the inputs at the present communication point. */
 static drive_result apply_inputs(drive* self, const char* function) {
   const char* const wrong = plant_wrong_pair(&self->variables, &self->state);
   if (wrong) return drive_fail(self, function, wrong);
   if (change_inputs(self, function) != DRIVE_OK) return DRIVE_ERROR;
   switch (plant_apply(&self->variables, &self->state)) {
     case SIXSTEP_OK:
-    case SIXSTEP_OVER: return DRIVE_OK; /* over: the advance says why */
+    case SIXSTEP_OVER: return DRIVE_OK; /* over: the advance reports the reason */
     default: return drive_refused(self, function, self->state.session);
   }
 }
 
-/* FMI: an importer that has named a stop time must not step beyond it. Not a number: it has named none. */
+/* FMI: an importer that has set a stop time must not step beyond it. NaN: no stop time is set. */
 static int is_past_stop(const drive_state* s, double to_s) { return to_s > s->stop_s + 1e-12 * (1 + fabs(s->stop_s)); }
 
 static drive_result refuse_past_stop(drive* self, const char* function, double to_s) {
@@ -92,7 +92,7 @@ static drive_result refuse_past_stop(drive* self, const char* function, double t
 drive_result drive_begin_step(drive* self, const char* function, double point, double size) {
   const double now_s = self->state.now_s;
   if (!(size > 0) || !isfinite(size)) return drive_fail(self, function, "the step size must be above 0");
-  /* A picosecond is the library's resolution; importers that add steps up are further away in the end. */
+  /* The library's resolution is 1 ps. Importers that add up step sizes deviate by more in the end. */
   if (!(fabs(point - now_s) <= 1e-9 * (1 + fabs(now_s))))
     return drive_fail(self, function, "the communication point must be the end of the step before");
   if (is_past_stop(&self->state, point + size)) return refuse_past_stop(self, function, point + size);

@@ -14,7 +14,7 @@
 #define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE)
 
 typedef struct {
-  drive unit; /* first member: a drive's log gets its instance from the drive's address */
+  drive unit; /* first member: the log function finds the instance by the drive's address */
   char* name;
   fmi2CallbackFunctions callbacks;
   int events;         /* whether changes of inputs are logged */
@@ -78,7 +78,7 @@ fmi2Status FMI2(SetDebugLogging)(fmi2Component c, fmi2Boolean on, size_t count, 
   return fmi2OK;
 }
 
-/* A message about an instance that is not made. */
+/* Logs a message and frees an instance that cannot be created. */
 static fmi2Component refuse(instance* i, const char* message) {
   call_logger(i, fmi2Error, "logStatusError", message);
   free(i->name);
@@ -168,7 +168,7 @@ static fmi2Status get_whole(fmi2Component c, const char* function, drive_kind ki
   if (!has_arrays(c, function, READABLE, r, count, values)) return fmi2Error;
   for (n = 0; n < count; ++n) {
     if (drive_get(&((instance*)c)->unit, function, r[n], kind, &value) != DRIVE_OK) return fmi2Error;
-    values[n] = fabs(value) < 2147483647.0 ? (int)value : 0; /* NaN too is 0 */
+    values[n] = fabs(value) < 2147483647.0 ? (int)value : 0; /* NaN: 0 */
   }
   return fmi2OK;
 }
@@ -213,7 +213,7 @@ fmi2Status FMI2(SetInteger)(fmi2Component c, const fmi2ValueReference r[], size_
 fmi2Status FMI2(SetBoolean)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2Boolean values[]) {
   return set_whole(c, "fmi2SetBoolean", DRIVE_BOOLEAN, r, count, values);
 }
-/* The one text is an output. */
+/* The only text variable is an output. */
 fmi2Status FMI2(SetString)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2String values[]) {
   (void)r, (void)values;
   if (!may(c, "fmi2SetString", SETTABLE)) return fmi2Error;
@@ -275,7 +275,7 @@ static int has_status(fmi2Component c, const char* function, const void* value) 
   return value != NULL;
 }
 
-/* The standard's answer to a status that a unit does not have. */
+/* The standard's return value for a status that the unit does not have. */
 static fmi2Status no_status(fmi2Component c, const char* message) {
   call_logger(c, fmi2Discard, "logStatusDiscard", message);
   return fmi2Discard;

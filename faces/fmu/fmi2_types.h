@@ -32,7 +32,8 @@ typedef struct {
   fmi2ComponentEnvironment componentEnvironment;
 } fmi2CallbackFunctions;
 
-/* A program that links several units defines FMI2_FUNCTION_PREFIX as NAME_; a shared library has the plain names. */
+/* A program that links several units defines FMI2_FUNCTION_PREFIX as NAME_; the functions of a shared library have
+   no prefix. */
 #if defined(FMI2_FUNCTION_PREFIX)
 #define FMI2_JOIN(a, b) a##b
 #define FMI2_PREFIXED(a, b) FMI2_JOIN(a, b)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* FMI 3.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi3Error, and the instance goes
- * on. fmi3_step.c has steps and event mode, fmi3_none.c the functions that such a unit exports and cannot offer. */
+/* FMI 3.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi3Error, and the
+ * instance continues. fmi3_step.c implements steps and event mode. fmi3_none.c contains the functions that the unit
+ * must export but does not support. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,7 @@ static const char* const categories[] = {"logStatusError", "logStatusDiscard", "
 static void log_of(drive* unit, drive_result status, const char* category, const char* message) {
   const instance* i = (const instance*)(const void*)unit;
   if (!i->log || (status == DRIVE_OK && !i->events)) return;
-  /* A run that is over ends a step with fmi3OK and terminateSimulation. */
+  /* If the run is over, the step returns fmi3OK and terminateSimulation, so the log has a warning. */
   i->log(i->environment, status == DRIVE_DISCARD ? fmi3Warning : fmi3_status(status), category, message);
 }
 
@@ -42,7 +43,7 @@ FMI3_FUNCTION(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t count, co
   return fmi3OK;
 }
 
-/* Whether these are signals, which can be read within a step. */
+/* Whether all references are signals, which can be read within a step. */
 static int are_intermediate(drive* unit, const fmi3ValueReference r[], size_t count) {
   size_t n;
   for (n = 0; n < count; ++n)
@@ -116,7 +117,7 @@ static int has_arrays(fmi3Instance c, const char* function, unsigned phases, con
   return 0;
 }
 
-/* Whether the values of these references are `room`, as the standard wants. */
+/* Whether these references have `room` values in all, as the standard requires. */
 static int fits(fmi3Instance c, const char* function, const fmi3ValueReference r[], size_t count, size_t room) {
   size_t n, needed = 0;
   for (n = 0; n < count; ++n) needed += (size_t)drive_size(c, r[n]);
@@ -141,7 +142,7 @@ FMI3_FUNCTION(SetFloat64,
   return fmi3OK;
 }
 
-/* Integers and Booleans pass as doubles, which hold each of their values. A NaN is 0. */
+/* Integers and Booleans pass through doubles, which represent all their values exactly. A NaN becomes 0. */
 #define WHOLE_TYPE(type, kind)                                                                                           \
   FMI3_FUNCTION(Get##type, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3##type values[], size_t room)) { \
     double v[DRIVE_ARRAY];                                                                                               \

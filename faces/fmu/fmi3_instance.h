@@ -6,9 +6,9 @@
 #include "faces/fmu/fmi3_types.h"
 
 typedef struct {
-  drive unit; /* first: a drive's log finds its instance */
+  drive unit; /* first member: the log function finds the instance by the drive's address */
   fmi3LogMessageCallback log;
-  fmi3IntermediateUpdateCallback update; /* null: the importer wants none */
+  fmi3IntermediateUpdateCallback update; /* null: the importer requests no intermediate update */
   fmi3InstanceEnvironment environment;
   int events; /* changes of inputs are logged */
   int event_mode, early_return;
@@ -21,7 +21,7 @@ typedef struct {
   (DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED | DRIVE_EVENT | DRIVE_INTERMEDIATE)
 #define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_EVENT)
 
-/* Whether the call is allowed in these phases; else false, with a message. A null instance has no logger. */
+/* Whether the call is allowed in the instance's phase; if not, logs a message. A null instance has no logger. */
 static inline int fmi3_may(fmi3Instance c, const char* function, unsigned phases) {
   return c && drive_allowed((drive*)c, function, phases);
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions of FMI 3.0 that a unit exports and cannot offer: types that no variable has, other interfaces,
- * intervals of clocks, derivatives. modelDescription.xml says so. Each returns fmi3Error with a message. */
+/* Functions of FMI 3.0 that a unit must export but does not support: types that no variable has, other interfaces,
+ * intervals of clocks, derivatives. modelDescription.xml declares none of them. Each function returns fmi3Error with
+ * a message. */
 #include "faces/fmu/fmi3_instance.h"
 
-/* For a type that no variable has, or no variable that can be set. An empty list of references is no error. */
+/* For a type without variables, or without variables that can be set. An empty list of references is no error. */
 static fmi3Status none(fmi3Instance c, const char* function, unsigned phases, size_t count) {
   if (!fmi3_may(c, function, phases)) return fmi3Error;
   return count == 0 ? fmi3OK : fmi3_fail(c, function, "the unit has no such variable");
@@ -45,7 +46,7 @@ FMI3_FUNCTION(SetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t n,
   return none(c, "fmi3SetClock", SETTABLE, n);
 }
 
-/* A function whose arguments are not used. */
+/* Defines a function that refuses every call. Its arguments are not used. */
 #define REFUSED(name, arguments, used, why)                   \
   FMI3_FUNCTION(name, arguments) {                            \
     used;                                                     \

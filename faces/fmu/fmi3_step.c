@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Steps of FMI 3.0: early return, intermediate update, and event mode with two output clocks, at control ticks and at Hall
- * edges. Events are located whether an importer wants them or not, so none of this changes a bit of the run. */
+/* Steps of FMI 3.0: early return, intermediate update, and event mode with two output clocks, at control ticks and
+ * at Hall edges. Events are located whether an importer requests them or not, so requests do not change a bit of the
+ * run. */
 #include <math.h>
 
 #include "faces/fmu/fmi3_instance.h"
@@ -14,7 +15,7 @@ static unsigned stops_of(const instance* i) {
   return (uses[0] != 0 ? DRIVE_TICK : 0u) | (uses[1] != 0 ? DRIVE_HALL : 0u);
 }
 
-/* Begin of the next control tick at or after the present instant, in the importer's time. */
+/* The first control tick at or after the present instant, in the importer's time. */
 static double tick_from(const drive_state* s, double now_s) {
   return s->start_s + sixstep_tick_after(s->session, now_s - s->start_s);
 }
@@ -70,7 +71,8 @@ FMI3_FUNCTION(GetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t co
   return fmi3OK;
 }
 
-/* Calls the importer at an event within a step. Whether the importer wants to return from the step; *to: at which instant. */
+/* Calls the importer at an event within a step. Returns whether the importer requests a return from the step; *to is
+   then the requested instant. */
 static int update_asks_to_return(instance* i, double* to) {
   drive_state* const s = &i->unit.state;
   fmi3Boolean asked = false;
@@ -80,11 +82,11 @@ static int update_asks_to_return(instance* i, double* to) {
   i->update(i->environment, s->now_s, false, true, true, i->early_return, &asked, &at);
   s->phase = DRIVE_STEP_COMPLETE;
   if (!asked || !i->early_return) return 0;
-  *to = at > s->now_s && at < *to ? at : at > s->now_s ? *to : s->now_s; /* NaN: now */
+  *to = at > s->now_s && at < *to ? at : at > s->now_s ? *to : s->now_s; /* NaN: the present instant */
   return 1;
 }
 
-/* Goes from event to event up to `to`. *needed: an event of a clock is at the instant reached. */
+/* Advances from event to event up to `to`. *needed: whether a clock ticks at the reached instant. */
 static drive_result step_to(instance* i, double to, fmi3Boolean* needed) {
   drive_state* const s = &i->unit.state;
   const unsigned stops = stops_of(i);

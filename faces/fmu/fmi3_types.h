@@ -45,7 +45,8 @@ typedef void (*fmi3ClockUpdateCallback)(fmi3InstanceEnvironment);
 #define FMI3_EXPORT
 #endif
 
-/* A program that links several units defines FMI3_FUNCTION_PREFIX as NAME_; a shared library has the plain names. */
+/* A program that links several units defines FMI3_FUNCTION_PREFIX as NAME_; the functions of a shared library have
+   no prefix. */
 #if defined(FMI3_FUNCTION_PREFIX)
 #define FMI3_JOIN(a, b) a##b
 #define FMI3_PREFIXED(a, b) FMI3_JOIN(a, b)

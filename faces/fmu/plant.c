@@ -33,7 +33,7 @@ static uint32_t gates_of(const double* set) {
   return gates;
 }
 
-/* An input by its reference. */
+/* The value of an input, by its reference. */
 static double input(const double* set, unsigned reference) { return set[reference - DRIVE_FIRST_SET]; }
 static uint8_t byte(const double* set, unsigned reference) { return (uint8_t)input(set, reference); }
 
@@ -76,7 +76,7 @@ static sixstep_answer answer_of(sixstep_chip chip, const double* set) {
 sixstep_status plant_apply(const drive_variables* variables, drive_state* state) {
   sixstep_answer answer;
   sixstep_status status;
-  /* 0 and -0 count as two values: a set that is applied twice changes nothing. */
+  /* The bytes are compared. 0 and -0 count as different values, and setting an equal value again changes nothing. */
   /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison) */
   if (variables->chip == SIXSTEP_CHIP_OF_SCENARIO || memcmp(state->set, state->set_applied, sizeof state->set) == 0)
     return SIXSTEP_OK;
@@ -99,7 +99,8 @@ static int has_caller(const drive_variables* variables) {
   return variables->chip == SIXSTEP_CHIP_PAIR || variables->chip == SIXSTEP_CHIP_LEGS;
 }
 
-/* Between two ticks, and if no controller is outside, the library refuses: the values of the last tick remain. */
+/* Between two ticks, and if no external controller exists, the library refuses to measure. The values of the last
+   tick then remain. */
 void plant_measure(const drive_variables* variables, drive_state* state) {
   double* const to = state->measured;
   sixstep_measured seen;
@@ -116,7 +117,8 @@ void plant_measure(const drive_variables* variables, drive_state* state) {
   to[9] = setpoint;
 }
 
-/* The last control tick up to an instant of the run, plant_near() after it included; NaN: there is none after the present. */
+/* The last control tick at or before an instant of the run, or within plant_near() after it. NaN: no tick after the
+   present instant. */
 static double last_tick(const sixstep_session* run, double to_s) {
   const double near_s = plant_near(run), now_s = sixstep_time(run);
   double tick_s = sixstep_tick_after(run, fmax(now_s, to_s - 1.5 * sixstep_period(run))), next_s;
@@ -125,7 +127,7 @@ static double last_tick(const sixstep_session* run, double to_s) {
   return tick_s;
 }
 
-/* The library measures at a control tick only, and only if the run was advanced to the tick itself. */
+/* The library measures only at a control tick, and only if the run was advanced to the tick itself. */
 static sixstep_status advance(const drive_variables* variables, drive_state* state, double to_s) {
   sixstep_session* const run = state->session;
   const double tick_s = has_caller(variables) ? last_tick(run, to_s) : NAN;
@@ -133,12 +135,13 @@ static sixstep_status advance(const drive_variables* variables, drive_state* sta
   if (isnan(tick_s)) return sixstep_advance(run, to_s);
   if (sixstep_tick_after(run, sixstep_time(run)) < tick_s) status = sixstep_advance(run, tick_s - sixstep_period(run) / 2);
   if (status == SIXSTEP_OK) status = sixstep_advance_to_tick(run);
-  /* The run's end may be a tick. After a fault nothing is asked, so that its problem remains. */
+  /* A tick may be at the run's end. After a fault, plant_measure() is not called, so that the session's problem
+     remains. */
   if (status == SIXSTEP_OK || sixstep_time(run) >= to_s - 1e-12) plant_measure(variables, state);
   return status == SIXSTEP_OK && tick_s < to_s - plant_near(run) ? sixstep_advance(run, to_s) : status;
 }
 
-/* Whether a Hall edge comes before an instant, which may be a tick: the search ends a picosecond earlier. */
+/* Whether a Hall edge occurs before an instant. The instant may be a tick, so the search ends a picosecond earlier. */
 static sixstep_status advance_to_edge(sixstep_session* run, double end_s, int* found) {
   const int hall = sixstep_signal_index("hall");
   const double code = sixstep_value(run, hall), before_s = end_s - 1e-12;
@@ -157,7 +160,7 @@ sixstep_status plant_advance_to_event(const drive_variables* variables, drive_st
   sixstep_status status = SIXSTEP_OK;
   int is_tick, found = 0;
   *events = 0;
-  do { /* from tick to tick, if a controller outside measures at each that the search for an edge passes */
+  do { /* from tick to tick: an external controller must measure at each tick before the edge */
     const double tick_s = sixstep_tick_after(run, sixstep_time(run));
     is_tick = (ticks || (edges && has_caller(variables))) && tick_s <= to_s + near_s;
     if (edges) status = advance_to_edge(run, is_tick ? tick_s : to_s, &found);

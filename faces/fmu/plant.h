@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a unit without controller adds: inputs for the bridge, what the controller measures, counts of converters. */
+/* Additions of a unit without controller: inputs for the bridge, measurements of the controller, counts of
+   converters. */
 #ifndef SIXSTEP_FMU_PLANT_H
 #define SIXSTEP_FMU_PLANT_H
 
 #include "faces/fmu/drive.h"
 
-/* References of inputs for the bridge. Legs a, b, c have consecutive ones. */
+/* References of inputs for the bridge. Inputs of legs a, b, c have consecutive references. */
 enum {
   PLANT_GATES = 1100, /* six: upper a, lower a, upper b, lower b, upper c, lower c */
   PLANT_PAIR_ENABLED = 1110,
@@ -22,21 +23,23 @@ enum {
   PLANT_ENCODER_COUNT = 1307
 };
 
-/* Null, or the limit that the value of an input for the bridge breaks. */
+/* Null, or the limit that the value of an input violates. */
 const char* plant_limit(unsigned reference, double value);
-/* Start values of the inputs for the bridge, which are 0 in `state`: those of modelDescription.xml. */
+/* Sets the inputs for the bridge to their start values in modelDescription.xml. They are 0 before. */
 void plant_start(const drive_variables* variables, drive_state* state);
-/* Null, or the limit that the inputs of a pair break together: each alone could be on its way to a valid pair. */
+/* Null, or the limit that source and sink together violate. They are checked together, because an importer sets them
+   one after the other. */
 const char* plant_wrong_pair(const drive_variables* variables, const drive_state* state);
-/* Gives inputs that have changed to the session. SIXSTEP_OVER: the run is over. */
+/* Sets changed inputs in the session. SIXSTEP_OVER: the run is over. */
 sixstep_status plant_apply(const drive_variables* variables, drive_state* state);
-/* Advances to an instant of the run, or to the first event of `stops` before or at it; to a control tick within
- * plant_near() of it, where a controller measures. *events: those at the instant reached. */
+/* Advances to an instant of the run, or to an earlier event of `stops`. If an external controller measures, advances
+ * to a control tick within plant_near() of the instant. *events: the events at the reached instant. */
 sixstep_status plant_advance_to_event(const drive_variables* variables, drive_state* state, double to_s, unsigned stops,
                                       unsigned* events);
-/* Instants this near are one, s: sums of step sizes miss control ticks by rounding. */
+/* Instants closer than this are equal, s. Sums of step sizes miss control ticks by rounding. */
 double plant_near(const sixstep_session* session);
-/* Reads what a controller outside measures, if the run stands at a control tick. An advance does it at the last tick passed. */
+/* Reads the measurement of an external controller, if the run is at a control tick. An advance calls it at the last
+   passed tick. */
 void plant_measure(const drive_variables* variables, drive_state* state);
 /* Reads the counts of converters. */
 void plant_look(const drive_variables* variables, drive_state* state);

@@ -18,8 +18,8 @@ namespace loop {
 
 namespace {
 
-/// All arguments of exec, prepared before the fork. After the fork, memory cannot be allocated, because
-/// another thread's lock may be held without end.
+/// All arguments of exec, prepared before the fork. After the fork, memory must not be allocated: another
+/// thread may have held the allocator's lock, which then stays locked.
 struct Prepared {
   std::string program;
   std::vector<std::string> environment;
@@ -80,8 +80,8 @@ base::Problem not_here(const std::string& program) {
 base::Result<Child> Child::start(const Command& command) {
   const Prepared prepared(command);
   if (prepared.program.empty()) return not_here(command.words.front());
-  // Descriptors are first copied to temporary numbers above all requested ones, so that none is overwritten
-  // before it is copied.
+  // Descriptors are first copied to temporary numbers above all requested numbers, so that no descriptor is
+  // overwritten before it is copied.
   std::vector<Given> out_of_the_way;
   for (const Given& given : command.given)
     out_of_the_way.push_back({::fcntl(given.ours, F_DUPFD_CLOEXEC, 64), given.theirs});

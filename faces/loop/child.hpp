@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a program as a process that never outlives this process, however this process ends.
+// Runs a program as a process that ends with this process, in whatever way this process ends.
 #pragma once
 #include <sys/types.h>
 
@@ -18,7 +18,7 @@ std::string on_path(const std::string& program);
 /// The Problem of a program that is not on PATH, with the package that contains it.
 base::Problem not_here(const std::string& program);
 
-/// A descriptor of this process, and the number that it gets in the program.
+/// A descriptor of this process, and its number in the program.
 struct Given {
   int ours, theirs;
 };
@@ -27,20 +27,20 @@ struct Command {
   std::vector<std::string> words;  ///< the command; its first word is searched on PATH
   std::vector<Given> given;        ///< standard streams that are not listed go to /dev/null
   std::string temporary;           ///< TMPDIR of the program; empty: unchanged
-  bool outlives = false;           ///< true: the program ends by itself, not with this process
+  bool outlives = false;           ///< true: the process is not killed when this process ends
 };
 
 class Child {
  public:
-  /// Starts the program. Problems: it does not exist, or the system has no more processes. Ctrl-C at the
-  /// terminal does not reach it.
+  /// Starts the program. Problems: it does not exist, or the system cannot start another process. Ctrl-C at
+  /// the terminal does not reach the program.
   static base::Result<Child> start(const Command& command);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;
   /// Kills the process.
   ~Child();
 
-  /// The exit status of the process; 128 and more: a signal. Empty: the process is still running.
+  /// The exit status of the process; 128 and more: ended by a signal. Empty: the process still runs.
   std::optional<int> ended_within(std::chrono::milliseconds time);
   /// Waits until the process ends by itself.
   void wait();

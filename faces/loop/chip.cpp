@@ -4,7 +4,7 @@
 namespace loop {
 
 base::Result<std::unique_ptr<Chip>> Chip::start(const Core& core, const std::string& image) {
-  std::unique_ptr<Chip> made(new Chip);  // constructed first, because it pins the thread to its processor
+  std::unique_ptr<Chip> made(new Chip);  // constructed first, because it pins this thread to a processor
                                          // before the process starts
   base::Result<Talk> talk = Talk::begin(core.emulator, image, &made->greeting_, sizeof made->greeting_);
   if (!talk) return talk.problems();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a chip in its emulator, register by register, with its own firmware in place of the drive
+// Runs a chip with its own firmware in an emulator, register by register. The chip replaces the drive
 // (rig/chip_drive.hpp).
 #pragma once
 #include <memory>
@@ -19,10 +19,10 @@ class Chip {
   /// Loads the image; the chip is in reset. Problems: the emulator is missing or does not start.
   static base::Result<std::unique_ptr<Chip>> start(const Core& core, const std::string& image);
 
-  /// The port is valid as long as this object.
+  /// The port is valid while this object exists.
   rig::ChipPort port();
   double clock_Hz() const { return greeting_.clock_Hz; }
-  /// The times of the chip's interrupts so far; empty if the chip has ended.
+  /// The times of the chip's interrupts so far; empty if the emulator has ended.
   rig::ChipTimes times();
 
  private:

@@ -7,8 +7,8 @@ namespace loop {
 
 namespace {
 
-/// Options of the emulator: virtual time advances only with instructions and never waits. So a run is the
-/// same however busy the machine is.
+/// Options of the emulator: virtual time advances only with instructions and never waits. So a run does not
+/// depend on the load of the machine.
 constexpr const char* deterministic = "shift=10,sleep=off";
 
 std::vector<std::string> qemu(const char* program, const char* board) {
@@ -43,9 +43,9 @@ Core cortex(std::string_view name, std::string_view title, const char* cpu, cons
 }
 
 /// The AVR. clang 14 to 16 produce wrong code for it (docs/reference/core-bits.md). The compiler's flags are
-/// in a file in the program's folder, so that an image to flash has the same flags. They keep branches as
-/// branches, and switches without tables, because LLVM's replacements cost a fifth more cycles on a chip that
-/// shifts bit by bit.
+/// in a file in the program's folder, because images to flash use the same file. The flags disable LLVM's
+/// replacement of branches and its tables for switches, which cost a fifth more cycles on a chip that shifts
+/// bit by bit.
 Core avr() {
   return {.name = "avr",
           .title = "ATmega2560",

@@ -17,10 +17,10 @@ struct Core {
   std::string_view start_up;          ///< file of faces/firmware/bare/ with the code before main()
   std::string_view linker_script;     ///< linker script, a file of the same folder
   std::vector<std::string> libraries;
-  bool by_registers = false;  ///< true: a whole chip in place of the drive; false: a core that the host calls
+  bool by_registers = false;  ///< true: a whole chip replaces the drive; false: the host calls the core
   std::vector<std::string> linker{};  ///< linker command, if the compiler does not link
-  std::string elf{};            ///< path of a user's own program; empty: the library's program is compiled
-  double setpoint_range = 0.0;  ///< setpoint at the ends of the potentiometer, in the mode's unit
+  std::string elf{};                  ///< path of a user's program; empty: the library's program is compiled
+  double setpoint_range = 0.0;        ///< setpoint at the ends of the potentiometer, in the mode's unit
 };
 
 std::span<const Core> cores();

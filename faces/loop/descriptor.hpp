@@ -29,12 +29,12 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// A pipe. A started program inherits neither end unless the end is given explicitly.
+/// A pipe. A started program inherits an end only if the end is listed in Command::given.
 struct Pipe {
   Descriptor read, write;
 };
 
-/// Makes a pipe. The ends are empty if the system has no more descriptors.
+/// Creates a pipe. The ends are empty if the system has no more descriptors.
 inline Pipe made_pipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return {};

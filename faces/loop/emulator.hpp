@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a core in its emulator, call by call: it computes the drive in parallel with the host
+// Runs a core in its emulator, call by call. The core computes the drive in parallel with the host
 // (rig/lockstep_core.hpp).
 #pragma once
 #include <cstdint>
@@ -19,7 +19,7 @@ class Emulator {
   /// Loads the image and waits until its program runs. Problems: the emulator is missing or does not start.
   static base::Result<std::unique_ptr<Emulator>> start(const Core& core, const std::string& image);
 
-  /// The port is valid as long as this object.
+  /// The port is valid while this object exists.
   rig::CorePort port();
   std::uint64_t calls() const { return calls_; }
 
@@ -29,7 +29,7 @@ class Emulator {
 
   OneProcessor processor_;
   std::optional<Talk> talk_;
-  rig::CoreGreeting greeting_{.word = 0};  ///< empty until the program has sent its greeting
+  rig::CoreGreeting greeting_{.word = 0};  ///< 0 until the program has sent its greeting
   std::uint64_t calls_ = 0;
 };
 

@@ -12,8 +12,8 @@ namespace loop {
 
 namespace {
 
-/// The shell tries repeatedly to remove the folder, because a killed compiler may leave a child process that
-/// still writes for a moment.
+/// The shell removes the folder repeatedly, because a killed compiler may leave a child process that still
+/// writes into the folder.
 constexpr const char* waits_and_cleans =
     R"(PATH=/usr/bin:/bin; read -r _; n=0; while [ -e "$0" ] && [ $n -lt 200 ]; do rm -rf -- "$0" 2>/dev/null; n=$((n+1)); [ ! -e "$0" ] || sleep 0.1; done)";
 
@@ -31,7 +31,8 @@ base::Result<FreshFolder> FreshFolder::make() {
   std::error_code none;
   const std::string path = (std::filesystem::temp_directory_path(none) / fresh_name()).string();
   Pipe life = made_pipe();
-  // The shell that removes the folder starts before the folder exists, so that the folder can never remain.
+  // The shell that removes the folder starts before the folder exists, so that the folder is removed in every
+  // case.
   base::Result<Child> cleaner = Child::start({.words = {"/bin/sh", "-c", waits_and_cleans, path},
                                               .given = {{life.read.number(), 0}},
                                               .temporary = {},

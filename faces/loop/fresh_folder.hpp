@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a temporary folder for one run. A shell process removes the folder when the run ends, even if the
+// Creates a temporary folder for one run. A shell process removes the folder when the run ends, even if the
 // program is killed.
 #pragma once
 #include <string>
@@ -11,7 +11,7 @@ namespace loop {
 
 class FreshFolder {
  public:
-  /// Makes the folder. Problems: it cannot be made.
+  /// Creates the folder. Problems: the system refuses it.
   static base::Result<FreshFolder> make();
   FreshFolder(FreshFolder&&) noexcept = default;
   /// Removes the folder with its content.

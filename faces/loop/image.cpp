@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder with the library's headers, from which a core's program is made.
+/// The folder with the library's headers, from which the program for a core is compiled.
 base::Result<fs::path> sources() {
   const fs::path root = sources_folder();
   std::error_code none;
@@ -68,7 +68,7 @@ const char* drive_of(const study::Scenario& scenario) {
   return "-DSIXSTEP_LEAN_DRIVE";
 }
 
-/// The command that builds the program of a called core: it compiles and links in one step.
+/// The command that builds the program for a called core: it compiles and links in one step.
 Words called_core(const Core& core, const study::Scenario& scenario, const fs::path& root,
                   const fs::path& folder, const fs::path& image) {
   const fs::path bare = root / "faces/firmware/bare";
@@ -84,8 +84,8 @@ Words called_core(const Core& core, const study::Scenario& scenario, const fs::p
   return words;
 }
 
-/// The commands that build the program of a whole chip. They compile it like tools/firmware_image.sh, then
-/// link it after its C library's start code.
+/// The commands that build the program for a whole chip. The program is compiled as in
+/// tools/firmware_image.sh and linked with the start code of the C library.
 std::vector<Words> whole_chip(const Core& core, const fs::path& root, const fs::path& folder,
                               const fs::path& image) {
   const fs::path example = root / "faces/firmware/example/avr";
@@ -94,7 +94,7 @@ std::vector<Words> whole_chip(const Core& core, const fs::path& root, const fs::
   add(compile, {"@" + (example / "compile.flags").string()});
   add(compile, include_paths(root, folder));
   add(compile,
-      // --despite, because no bridge is connected
+      // an uncleared drive is allowed, because no bridge is connected
       {"-DSIXSTEP_DESPITE", "-c", (example / "main.cpp").string(), "-o", object});
   Words link = core.linker;
   add(link, {object, "-o", image.string()});
@@ -107,7 +107,7 @@ std::vector<Words> commands_for(const Core& core, const study::Scenario& scenari
   return {called_core(core, scenario, root, folder, image)};
 }
 
-/// The first error in the compiler's output, or else the output's first line.
+/// The first error in the compiler's output; without an error, the first line.
 std::string complaint_in(const fs::path& log) {
   std::ifstream in(log);
   std::string line, first;
@@ -131,7 +131,7 @@ base::Problems carried_out(const Core& core, const Words& words, const fs::path&
            "please report it with the scenario file"}};
 }
 
-/// Problems of all missing programs, found together before the compilation.
+/// Problems of all missing programs, reported together before the compilation.
 base::Problems missing_programs(const Core& core) {
   base::Problems missing;
   for (const Words* words : {&core.compiler, &core.linker, &core.emulator})

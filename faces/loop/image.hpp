@@ -10,8 +10,8 @@
 
 namespace loop {
 
-/// Returns the path of the image in `folder`. Problems: no header can be made; the compiler is missing or
-/// reports an error.
+/// Returns the path of the image in `folder`. Problems: the header cannot be exported; the compiler is
+/// missing or reports an error.
 base::Result<std::string> compiled_image(const Core& core, const study::Scenario& scenario,
                                          const std::string& folder);
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder of this program; empty if /proc is not available.
+/// The folder of the running program; empty if /proc is not available.
 fs::path program_folder() {
   std::error_code failed;
   const fs::path program = fs::read_symlink("/proc/self/exe", failed);
@@ -25,8 +25,8 @@ fs::path sources_folder() {
   if (const char* const said = std::getenv("SIXSTEP_SOURCES"); said != nullptr) return said;
   const fs::path folder = program_folder();
   if (folder.empty()) return {};
-  // A build folder has a file with the path of its sources, so that the program itself contains no path of
-  // the machine that built it.
+  // A build folder contains a file with the path of the sources, so that the program contains no path of the
+  // machine that built it.
   if (std::ifstream noted(folder / "sixstep-sources"); noted) {
     std::string root;
     std::getline(noted, root);

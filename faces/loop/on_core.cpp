@@ -17,7 +17,7 @@ namespace loop {
 
 namespace {
 
-/// A running core in parallel with the host, or a running chip in place of the drive.
+/// A started core, in parallel with the host, or a started chip, in place of the drive.
 using Running = std::variant<std::unique_ptr<Emulator>, std::unique_ptr<Chip>>;
 
 template <class Of>
@@ -42,7 +42,7 @@ base::Result<Running> loaded(const Core& core, const study::Scenario& scenario, 
   return core.by_registers ? started_chip(core, *image, folder) : started<Emulator>(core, *image);
 }
 
-/// The complete lines of the serial line's output.
+/// The complete lines in the output of the serial line.
 std::string sent_by(const FreshFolder& folder) {
   std::ifstream in(serial_file(folder), std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

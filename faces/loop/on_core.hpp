@@ -7,12 +7,12 @@
 
 namespace loop {
 
-/// Reasons why the core cannot run the scenario, found before anything is compiled.
+/// Reasons why the core cannot run the scenario, found before any compilation.
 base::Problems stands_against(const Core& core, const study::Scenario& scenario);
 
-/// Calls study::run() with the drive also on a core, or on a chip in its place; if `core` is null, only on
-/// the host. Leaves no file. Problems: those of stands_against(), an error of the compiler, a missing
-/// emulator.
+/// Calls study::run() with the drive also on a core, or with a chip in place of the drive; if `core` is null,
+/// only on the host. All temporary files are removed. Problems: those of stands_against(), an error of the
+/// compiler, a missing emulator.
 base::Result<study::Outcome> run(const Core* core, const study::Scenario& scenario,
                                  const study::Listeners& listeners);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a thread and the processes that it starts on one processor. Two alternating programs wait for each
-// other anyway, and waking a sleeping processor takes longer than a switch (loop_benchmark: twice the calls
-// per second).
+// Keeps a thread and the processes that it starts on one processor. Two programs that wait for each other
+// never run at the same time, and waking a sleeping processor takes longer than a task switch
+// (loop_benchmark: twice as many calls per second).
 #pragma once
 #include <sched.h>
 
@@ -11,7 +11,7 @@ namespace loop {
 
 class OneProcessor {
  public:
-  /// Takes the next processor in turn, among those that the thread may use.
+  /// Selects the next processor among those that the thread may use.
   OneProcessor() {
     static std::atomic<unsigned> turn{0};
     if (::sched_getaffinity(0, sizeof before_, &before_) != 0) return;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An option of the board's program (faces/loop/avr/board.cpp) with its pins: "--hall=K0,K1,K2".
+/// An option of the board's program (faces/loop/avr/board.cpp) with pins: "--hall=K0,K1,K2".
 std::string pins(const char* option, const std::vector<std::string>& names) {
   std::string word = option;
   for (const std::string& name : names) word += (word.back() == '=' ? "" : ",") + name.substr(1);

@@ -9,7 +9,7 @@
 
 namespace loop {
 
-/// Makes a core from a map's path and text (text/firmware_map/). Problems: mistakes in the map, or a missing
+/// Makes a core from a map's path and text (text/firmware_map/). Problems: errors in the map, or a missing
 /// program.
 base::Result<Core> own_firmware(const std::string& path, const std::string& text);
 

@@ -9,18 +9,18 @@ namespace loop {
 
 namespace {
 
-/// Time limits of an answer and of the start. A program that exceeds them counts as hanging. An emulator on a
-/// busy machine starts within the second limit.
+/// Time limits of an answer and of the start. A program that exceeds its limit counts as hanging. An emulator
+/// on a busy machine starts within start_limit_ms.
 constexpr int answer_limit_ms = 5000, start_limit_ms = 30000;
 
-/// Descriptor numbers of the pipes in the other program.
+/// Descriptor numbers of the pipes in the started program.
 constexpr int calls_there = 3, answers_there = 4;
 
 }  // namespace
 
 base::Result<Talk> Talk::begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                std::size_t bytes) {
-  // Only the child has the other ends, so that each side detects the end of the other.
+  // Only the child has the other ends, so that each process detects the end of the other process.
   Pipe calls = made_pipe(), answers = made_pipe();
   if (!calls.read || !answers.read)
     return base::Problem{emulator.front(), "", "cannot be reached: this program has too many open files",

@@ -18,7 +18,7 @@ namespace loop {
 class Talk {
  public:
   /// Starts the emulator with an image, and waits at most half a minute for the image's greeting. Problems:
-  /// no such program, too many open files, or no greeting.
+  /// the emulator is missing, too many files are open, or no greeting arrived.
   static base::Result<Talk> begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                   std::size_t bytes);
 
@@ -26,7 +26,8 @@ class Talk {
   rig::CoreTrouble say(const void* from, std::size_t bytes);
   /// Reads all bytes; each part must arrive within `limit_ms`.
   rig::CoreTrouble hear(void* to, std::size_t bytes, int limit_ms);
-  /// Sends a call and reads the answer within five seconds. A program that needs longer counts as hanging.
+  /// Sends a call and reads the answer. If the answer takes more than five seconds, the program counts as
+  /// hanging.
   rig::CoreTrouble ask(const void* call, std::size_t call_bytes, void* answer, std::size_t answer_bytes);
 
  private:

@@ -17,14 +17,15 @@
 namespace files {
 namespace {
 
-/// Nobody else can open the store, and it is one file while nobody writes. Transactions are not forced to the
-/// disk: a power failure loses only the last ones, and the store stays intact.
+/// No other program can open the store, and it is a single file after the writer has closed it. Transactions
+/// are not forced to the disk: a power failure loses only the last transactions, and the store stays intact.
 constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 
 }  // namespace
 
-/// Rows wait for the writer thread, which writes all waiting rows in one transaction. These are few if runs
-/// are long, and many if runs are short. A kill can only lose rows that are not counted yet.
+/// Rows are queued for the writer thread, which writes all queued rows in one transaction. The queue contains
+/// few rows if runs are long, and many rows if runs are short. If the program is killed, only rows are lost
+/// that rows() does not count yet.
 struct PlanStore::Inside {
   static constexpr std::size_t most_waiting = 4096;
 
@@ -95,7 +96,7 @@ struct PlanStore::Inside {
     if (insert->failed()) return {db.problem()};
     return {};
   }
-  /// The present row of a SELECT. A Problem if its checksum is wrong.
+  /// Reads the present row of a SELECT. Problem: its checksum is wrong.
   base::Result<analysis::RunRecord> row_at(const Statement& select) {
     std::vector<Cell> cells;
     cells.reserve(cells_in_row(*plan.columns));
@@ -133,14 +134,14 @@ struct PlanStore::Inside {
   std::vector<bool> there;
   std::size_t count = 0;
   base::Problems problems;
-  std::jthread writer;  // last member, so that it ends before the members that it uses
+  std::jthread writer;  // last member, so that it ends before the members that it uses are destroyed
 };
 
 namespace {
 
 enum class Standing { nothing, store, other };
 
-/// A store is recognised by SQLite's header, which exists even while another program writes the store.
+/// Recognises a store by SQLite's header, which exists even while another program writes the store.
 Standing standing_at(const std::string& path) {
   std::error_code error;
   if (path.empty() || !std::filesystem::exists(path, error)) return Standing::nothing;
@@ -152,9 +153,8 @@ Standing standing_at(const std::string& path) {
   return begin.starts_with("SQLite format 3") && id == store_mark ? Standing::store : Standing::other;
 }
 
-/// Whether the file is the rest of a program that was killed while it created a store. All tables are made in
-/// one transaction, so that such a file is empty after SQLite's recovery. A damaged store still has its
-/// pages.
+/// Whether the file remains of a program that was killed while it created a store. All tables are created in
+/// one transaction, so such a file is empty after SQLite's recovery. A damaged store still contains pages.
 bool was_killed_at_birth(const std::string& path) {
   base::Result<Database> db = Database::open(path);
   base::Result<Statement> pages =
@@ -162,8 +162,8 @@ bool was_killed_at_birth(const std::string& path) {
   return pages && pages->step() && pages->whole(0) == 0;
 }
 
-/// SQLite's check of every page: whether rows exist and are in order. The content of rows is covered by the
-/// checksums.
+/// Runs SQLite's check of every page: whether rows exist and are in order. The checksums cover the contents
+/// of rows.
 base::Problems check_pages(Database& db) {
   base::Result<Statement> check = db.prepare("PRAGMA quick_check(1)");
   if (!check) return check.problems();
@@ -235,7 +235,7 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return refuse(
         "holds runs of a scenario that was changed since: " + before.scenario + " or a file that it names",
         "name another store, or overwrite this one (force)");
-  // In messages, columns have their names in the plan, not those in the file.
+  // Messages name columns as the plan does, not as the file does.
   store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;
   return store;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores the finished runs of a plan in one SQLite file. A row is stored whole or not at all, even if the
-// program is killed; docs/howto/run-many.md describes the tables.
+// Stores the finished runs of a plan in one SQLite file. A row is stored completely or not at all, even if
+// the program is killed. docs/howto/run-many.md describes the tables.
 #pragma once
 #include <condition_variable>
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace files {
 
-/// The description of a store. The first three members and the columns must be the same whenever the store is
-/// continued.
+/// The description of a store. To continue a store, the first three members and the columns must be equal to
+/// those in the file.
 struct StoredPlan {
   std::string sixstep{};  ///< version that made all rows of the store; empty: the running version
   std::string plan;       ///< the plan in one line (text::plan_identity)
@@ -32,7 +32,7 @@ struct StoredPlan {
 class PlanStore {
  public:
   /// Creates a store. `path` must not exist, unless `force` is set and the file is a store. An empty path
-  /// makes an unnamed store that is removed at the program's end.
+  /// creates an unnamed store that is removed at the program's end.
   static base::Result<PlanStore> create(const std::string& path, StoredPlan plan, bool force);
   /// Opens a store to continue it. Problems: the store is damaged, or it belongs to another plan or version.
   static base::Result<PlanStore> resume(const std::string& path, StoredPlan plan);
@@ -49,16 +49,16 @@ class PlanStore {
   std::size_t rows() const;
   bool has(std::size_t number) const;
 
-  /// Queues a row, from any thread. The row is in the file a moment later, and rows() then counts it. A row
-  /// with other columns is not written, and the store counts as failed.
+  /// Queues a row, from any thread. As soon as the row is in the file, rows() counts it. A row with other
+  /// columns is not written, and failed() then returns true.
   void add(analysis::RunRecord&& record);
-  /// Whether a row could not be written; then no further rows are written.
+  /// Whether a row could not be written. Then no further rows are written.
   bool failed() const;
   /// Waits until all rows are in the file. Problems: the reason why a row is not.
   base::Problems finish();
 
-  /// Visits the rows in the order of the runs' numbers. Problems: why a row could not be read. A row's
-  /// `point` has numbers as given, and words without quotes.
+  /// Calls `visit` for the rows in the order of the runs' numbers. Problems: the reason why a row could not
+  /// be read. The member `point` of a row contains numbers as given, and words without quotes.
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit);
 
  private:

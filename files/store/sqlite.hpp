@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wraps SQLite's handles as values that close themselves and report failures as Problems. SQLite was chosen
-// for three reasons: a database is one file, its transactions survive any kill, and its query language is
-// available everywhere.
+// Wraps SQLite's handles as values that close themselves and report failures as Problems. Reasons for SQLite:
+// a database is one file, its transactions survive a kill at any instant, and its query language is available
+// everywhere.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -37,7 +37,7 @@ class Statement {
     if (const auto* text = std::get_if<std::string>(&cell)) bind(place, std::string_view(*text));
   }
 
-  /// Advances to the next row; false if there is none. The statement can then be bound and run again.
+  /// Advances to the next row; false if there is none. Then the statement can be bound and executed again.
   bool step() {
     code_ = sqlite().step(statement_.get());
     if (code_ == SQLITE_ROW) return true;
@@ -82,7 +82,7 @@ class Statement {
 
 class Database {
  public:
-  /// Opens a database. An empty path means an unnamed file that is removed when it is closed.
+  /// Opens a database. An empty path opens an unnamed file that is removed when it is closed.
   static base::Result<Database> open(const std::string& path);
 
   /// Executes any number of statements that have no results.
@@ -101,7 +101,7 @@ class Database {
   std::string path_;
 };
 
-/// The Problem of a store that does not hold the data written into it; `how` is a clause.
+/// The Problem of a store that does not contain the written data; `how` is a clause.
 base::Problem damaged(const std::string& path, const std::string& how);
 
 /// A name for SQL, including the quotes: "a name".

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view checksum_word = "checksum", version_word = "sixstep";
 
-/// Columns of the table `run` after the columns that every store has: k0, k1, .. s0, .. f0, ..
+/// Columns of the table `run` after the columns of every store: k0, k1, .. s0, .. f0, ..
 std::vector<std::string> own_columns(const analysis::PlanColumns& c) {
   std::vector<std::string> names;
   for (std::size_t n = 0; n < c.keys.size(); ++n) names.push_back(fmt::format("k{}", n));
@@ -53,7 +53,7 @@ std::vector<ColumnRow> column_rows(const analysis::PlanColumns& c) {
   return rows;
 }
 
-/// The checksum does not cover the version, because a different version has its own message
+/// The checksum of a store's description, without the version: a different version has its own message
 /// (PlanStore::resume).
 std::uint64_t checksum_of_plan(StoredPlan plan) {
   std::vector<Cell> cells;
@@ -117,7 +117,7 @@ analysis::PlanColumns columns_from(const std::vector<ColumnRow>& rows) {
   return columns;
 }
 
-/// Whether the store has each table that the statements create. Further tables are allowed.
+/// Whether the store contains each table that the statements create. Further tables are allowed.
 bool has_tables(const std::vector<std::vector<Cell>>& tables, const StoredPlan& plan) {
   std::set<std::string> there;
   for (const std::vector<Cell>& row : tables) there.insert(text_of(row[0]));

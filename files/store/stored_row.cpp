@@ -18,7 +18,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t fixed_cells = 6;
 
-/// The cell of a number. SQLite cannot store NaN, which becomes null, nor the sign of zero, which is removed.
+/// The cell of a number. SQLite cannot store NaN, which becomes null, or the sign of zero, which is dropped.
 Cell number_cell(double x) { return x == x ? Cell(x + 0.0) : Cell(); }
 
 /// The cell of a value: a number as a number, a word without its quotes.
@@ -42,7 +42,7 @@ std::vector<std::string> remarks_of(std::string_view cell) {
   return remarks;
 }
 
-/// Reads cells one after another. After a cell of another kind than expected, it reads nothing more.
+/// Reads cells one after the other. After a cell of an unexpected kind, reads no further cells.
 class CellReader {
  public:
   explicit CellReader(const std::vector<Cell>& cells) : cells_(cells) {}

@@ -10,8 +10,8 @@
 
 namespace files {
 
-/// A checksum of 64 bits over the values, their kinds and their order. It is not cryptographic, and detects
-/// accidental changes only.
+/// A 64-bit checksum over the values, their kinds and their order. It is not cryptographic: it detects only
+/// accidental changes.
 std::uint64_t checksum_of(const std::vector<Cell>& cells, std::uint64_t before);
 
 /// The cells of a row: run, end, passed, problem, remarks, digest, keys, values of the spread, figures. NaN
@@ -21,8 +21,8 @@ std::vector<Cell> cells_of(const analysis::RunRecord& record);
 /// The number of cells in a row with these columns.
 std::size_t cells_in_row(const analysis::PlanColumns& columns);
 
-/// The row with these cells. Problem: cells_of() cannot have made them; `limit` states the difference as a
-/// clause.
+/// Returns the row with these cells. Problem: cells_of() cannot have written the cells; `limit` states the
+/// difference as a clause.
 base::Result<analysis::RunRecord> record_of_cells(const std::vector<Cell>& cells,
                                                   const analysis::TableColumns& columns);
 

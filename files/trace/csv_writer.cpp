@@ -10,7 +10,7 @@
 namespace files {
 namespace {
 constexpr std::size_t block = 1 << 16;
-constexpr std::size_t longest = 32;  // a number and a comma have at most 25 characters:
+constexpr std::size_t longest = 32;  // the longest number with its comma has 25 characters:
                                      // -2.2250738585072014e-308,
 }  // namespace
 
@@ -38,7 +38,7 @@ void CsvWriter::row(std::span<const double> numbers) {
     if (x - x == 0.0)
       end = fmt::format_to(end, FMT_COMPILE("{},"), x);
     else
-      *end++ = ',';  // the cell of a NaN stays empty
+      *end++ = ',';  // the cell of a NaN is empty
   }
   pending_.resize(static_cast<std::size_t>(end - pending_.data()));
   if (!numbers.empty()) pending_.back() = '\n';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a trace as text: comment lines that begin with #, one line of column names, then rows of numbers.
-// Reading a number gives the same bits again.
+// Writes a trace as text: comment lines that begin with #, one line of column names, then rows of numbers. A
+// number that is read back has the same bits.
 #pragma once
 #include <span>
 #include <string>

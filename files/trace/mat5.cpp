@@ -6,8 +6,8 @@
 namespace files {
 namespace {
 
-// Codes of table 1-1, and "miMATRIX". An element is a tag with type and length, then the bytes, padded to a
-// multiple of eight.
+// Data types of table 1-1, such as miMATRIX. An element is a tag with type and length, then the bytes, padded
+// to a multiple of eight.
 enum : std::uint32_t {
   mi_int8 = 1,
   mi_int32 = 5,
@@ -17,7 +17,7 @@ enum : std::uint32_t {
   mi_utf16 = 17
 };
 enum : std::uint32_t { class_struct = 2, class_char = 4, class_double = 6 };
-/// Bytes of a field name including its final zero: MATLAB's usual length, and its length for longer names.
+/// Bytes of a field name with its final zero: MATLAB's usual length, and the length for longer names.
 constexpr std::size_t usual_field = 32, long_field = 64;
 
 std::uint32_t n32(std::size_t n) { return static_cast<std::uint32_t>(n); }
@@ -30,7 +30,7 @@ std::string element(std::uint32_t type, std::string_view bytes) {
   return out;
 }
 
-/// The flags, size and name with which an array begins.
+/// The beginning of an array: flags, size and name.
 std::string array_head(std::uint32_t kind, const std::string& name, std::size_t rows, std::size_t columns) {
   std::string flags, size;
   put_bytes(flags, kind, n32(0));

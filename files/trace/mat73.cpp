@@ -25,7 +25,8 @@ enum : std::uint16_t {
 };
 constexpr std::int32_t decode_as_text = 2;
 
-// Datatypes. Each has class and version, bits, size, and the places of the number's parts (IV.A2.d).
+// Datatypes. Each contains class and version, bits, size, and the bit positions of the number's parts
+// (IV.A2.d).
 std::string float64() {
   std::string d("\x11\x20\x3f\x00", 4);
   put_bytes(d, std::uint32_t{8}, std::uint16_t{0}, std::uint16_t{64}, std::uint8_t{52}, std::uint8_t{11},
@@ -49,7 +50,7 @@ std::string words_of_any_length() {
   return d + fixed_words(1);
 }
 
-/// A dataspace with these sizes; without sizes a single value.
+/// A dataspace with these sizes; without sizes, a single value.
 std::string dataspace(std::initializer_list<std::uint64_t> sizes) {
   std::string d;
   put_bytes(d, std::uint8_t{1}, static_cast<std::uint8_t>(sizes.size()), std::uint16_t{0}, std::uint32_t{0});
@@ -85,11 +86,11 @@ struct Named {
   Address at = 0;
 };
 
-/// Appends objects to a file. The addresses of the columns' numbers are inserted at the end, when they are
-/// known.
+/// Appends objects to a file. The addresses of the columns' numbers are inserted at the end, when all objects
+/// are complete.
 class Objects {
  public:
-  /// `most_names`: largest number of names in a group, for which one node of its B-tree has room.
+  /// `most_names`: largest number of names in a group. One node of the group's B-tree has space for them.
   explicit Objects(std::size_t most_names) : half_a_node_((std::max<std::size_t>(most_names, 8) + 1) / 2) {
     bytes_.resize(superblock_bytes);
   }
@@ -118,7 +119,8 @@ class Objects {
 
   std::string bytes_;
   std::size_t half_a_node_;
-  std::vector<std::size_t> columns_;  ///< places at which the addresses of the columns' numbers are inserted
+  std::vector<std::size_t> columns_;  ///< positions in bytes_ at which the addresses of the columns' numbers
+                                      ///< are inserted
 };
 
 Address Objects::object(std::size_t messages, const std::string& all) {
@@ -128,7 +130,7 @@ Address Objects::object(std::size_t messages, const std::string& all) {
   return add(head + all);
 }
 
-/// A dataset has four messages: type, size, no fill value, and last the address of its contiguous bytes.
+/// A dataset has four messages: type, size, no fill value, and the address of its contiguous bytes.
 std::string Objects::dataset(const std::string& type, const std::string& space, Address at,
                              std::size_t bytes) {
   std::string layout("\x03\x01", 2);
@@ -137,7 +139,7 @@ std::string Objects::dataset(const std::string& type, const std::string& space, 
          message(is_fill, std::string("\x02\x02\x02\x00", 4)) + message(is_layout, layout);
 }
 
-/// MATLAB's sizes are in reverse order. Of an empty text, only its sizes are stored.
+/// MATLAB's sizes are in reverse order. For an empty text, only the sizes are stored.
 Address Objects::text(const std::string& words) {
   const std::vector<std::uint16_t> units = mat_units(words);
   std::string bytes, decode;
@@ -168,8 +170,8 @@ Address Objects::column(std::size_t rows) {
   return at;
 }
 
-/// A group has a heap with the names, a table of names and addresses sorted by name, and a tree with one node
-/// above the table.
+/// A group consists of a heap with the names, a table of names and addresses sorted by name, and a tree with
+/// one node above the table.
 Address Objects::group(std::vector<Named> members, const std::string& attributes) {
   std::sort(members.begin(), members.end(), [](const Named& a, const Named& b) { return a.name < b.name; });
   std::string names(8, '\0'), table("SNOD\x01\x00", 6);
@@ -195,7 +197,8 @@ Address Objects::group(std::vector<Named> members, const std::string& attributes
   return object(1 + said, message(is_names, both) + attributes);
 }
 
-/// The fields' names in their order. Each is stored as its length and its place in a separate heap.
+/// The names of the fields in their order. Each name is stored in a separate heap; the attribute contains its
+/// length and its index in the heap.
 Address Objects::names_of(const MatFields& fields) {
   constexpr std::size_t least = 4096;
   std::string heap("GCOL\x01\x00\x00\x00", 8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the parts that the writers of both MAT versions use.
+// Contains the functions that the writers of both MAT versions use.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,8 +11,8 @@ namespace files {
 /// A struct whose fields are texts, in their order.
 using MatFields = std::vector<std::pair<std::string, std::string>>;
 
-/// Text as units of 16 bits. MATLAB counts such units, other readers count characters. A character beyond
-/// U+FFFF, for which the counts differ, becomes the replacement character.
+/// Text as units of 16 bits. MATLAB counts units, other readers count characters. A character beyond U+FFFF
+/// has two units; it is replaced by the replacement character, so that both counts are equal.
 std::vector<std::uint16_t> mat_units(const std::string& text);
 
 /// Appends the bytes of numbers in this machine's byte order, which both versions allow.

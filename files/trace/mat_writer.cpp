@@ -45,8 +45,8 @@ void MatWriter::row(std::span<const double> numbers) {
   spool_.row(numbers);
 }
 
-/// Reserves space for the final file before a block of rows is accepted. A full disk then stops the run while
-/// there is still space for all accepted rows.
+/// Reserves space for the final file before a block of rows is accepted. If the disk is full, the run stops
+/// while there is still space for all accepted rows.
 void MatWriter::reserve() {
   constexpr std::size_t per_column = 4096;  // for headers, units and meanings; in HDF5 also for tables
   const std::size_t rows = spool_.rows() + ColumnSpool::block_rows;
@@ -73,7 +73,8 @@ std::vector<std::pair<std::string, MatFields>> MatWriter::structs(std::uint64_t 
           {"meanings", std::move(meanings)}};
 }
 
-/// Writes the small parts, then the columns: in version 5 each column after its header, in 7.3 only numbers.
+/// Writes the small parts, then the columns: in version 5 each column after its header, in version 7.3 only
+/// the numbers.
 bool MatWriter::assemble(std::uint64_t digest) {
   file_.begin_again();
   std::vector<std::string> names;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a trace as a MAT file: each column as a vector with its name, the structs `units` and `meanings` by
-// column, and `sixstep` with the trace's origin. Rows wait on the disk (ColumnSpool), so that memory does not
-// grow with the run.
+// column, and `sixstep` with the trace's origin. Until the end of the run, rows are stored on the disk
+// (ColumnSpool), so that memory does not increase with the run.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -19,8 +19,8 @@ namespace files {
 
 class MatWriter {
  public:
-  /// Largest number of rows in version 5: a variable must stay below 2 GiB, because many readers take its
-  /// sizes as signed.
+  /// Largest number of rows in version 5. A variable must be smaller than 2 GiB, because many readers read
+  /// its size as a signed number.
   static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
 
   static base::Result<MatWriter> create(const Destination& to, std::span<const study::Column> columns,
@@ -39,7 +39,7 @@ class MatWriter {
             std::size_t most_rows_of_v5);
   void reserve();
   std::vector<std::pair<std::string, MatFields>> structs(std::uint64_t digest) const;
-  /// Writes the file from its beginning. After a failure nothing of it is kept.
+  /// Writes the file from its beginning. After a failure, nothing of the new content is kept.
   bool assemble(std::uint64_t digest);
   base::Problems save_what_fits(std::uint64_t digest);
 

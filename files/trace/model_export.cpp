@@ -20,7 +20,7 @@ const std::vector<std::string> phase_states{"i_a_A", "i_b_A", "i_c_A", "w_m_rad_
     terminal_states{"i_a_A", "i_b_A", "w_m_rad_s", "theta_m_rad"},
     terminal_inputs{"u_ab_V", "u_bc_V", "T_load_Nm"};
 
-/// Symbols of a linear motor: v for w, x for theta, F for T, m for J.
+/// Symbols of a rotary motor, and the symbols that replace them for a linear motor.
 constexpr sixstep::base::LinearWord linear_symbols[] = {
     {"w_m_rad_s", "v_m_s"},    {"theta_m_rad", "x_m"},
     {"T_load_Nm", "F_load_N"}, {"pole_pairs", "pole_pairs_per_m"},

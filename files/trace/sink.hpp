@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Represents one output of a run in any format: it is opened before the run, filled during it, and finished
-// at the run's end.
+// One output of a run in any format. It is opened before the run, filled during the run, and finished at the
+// run's end.
 #pragma once
 #include <functional>
 #include <string>
@@ -22,13 +22,12 @@ struct Sink {
   std::function<void(study::Row)> on_record, on_event;  ///< empty if the output does not need rows
   study::LogicSink on_logic;                            ///< empty if the output does not need logic signals
   std::function<bool()> failed;  ///< whether the output can no longer be written; empty: it never fails
-  /// Gives the file its final name; its partial name if the run was interrupted.
+  /// Renames the file to its final name, or to its partial name if the run was interrupted.
   std::function<base::Problems(const RunStory&, bool whole)> finish;
-  std::function<std::string()>
-      left_out;  ///< parts of the run that the finished file does not have; empty: it has all
+  std::function<std::string()> left_out;  ///< parts of the run that the finished file lacks; empty: none
 };
 
-/// Opens an output. Problems: it cannot be written, and the run must not start.
+/// Opens an output. Problems: the output cannot be written, and the run must not start.
 using OpenSink = base::Result<Sink> (*)(const Destination&, const study::Scenario&, const TraceOrigin&);
 
 }  // namespace files

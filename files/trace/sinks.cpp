@@ -13,7 +13,7 @@
 namespace files {
 namespace {
 
-/// A sink for any file; `facts` are functions that compute arguments of commit() from the run.
+/// A sink for any file. `facts` compute the arguments of commit() from the run.
 template <class File, class... Facts>
 Sink sink_of(const std::shared_ptr<File>& file, Facts (*... facts)(const RunStory&)) {
   Sink sink;

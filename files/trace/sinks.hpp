@@ -19,7 +19,7 @@ base::Result<Sink> vcd_sink(const Destination& to, const study::Scenario& scenar
 base::Result<Sink> json_sink(const Destination& to, const study::Scenario& scenario,
                              const TraceOrigin& origin);
 
-/// A file that is written as a whole after the run.
+/// A file whose whole text is written after the run.
 base::Result<Sink> page_sink(const Destination& to, std::function<std::string(const RunStory&)> page);
 
 }  // namespace files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes the origin of a trace in the words at the top of every trace file.
+// Describes the origin of a trace in the first lines of every trace file.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,13 +11,13 @@ namespace files {
 
 struct TraceOrigin {
   std::string scenario;      ///< name of the scenario's file
-  std::uint64_t digest = 0;  ///< digest of all files read and of the values that the command line set
+  std::uint64_t digest = 0;  ///< digest of all files read and of the settings of the command line
   std::string title, motor;
-  std::string command;  ///< command that makes the trace again
+  std::string command;  ///< command that writes the trace again
   std::string text;     ///< text of the scenario's file as it was read
 };
 
-/// Three lines without a line break in them: program and version, scenario with digest, command.
+/// Three lines: program and version, scenario with digest, command. No line contains a line break.
 std::vector<std::string> origin_lines(const TraceOrigin& origin);
 
 }  // namespace files

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t block = 1 << 16;
 
-/// The identifier of a signal: one printable character from '!' on, which suffices for 94 signals.
+/// The identifier of a signal: one printable character from '!' on. There are 94 such characters.
 char identifier(std::size_t signal) { return static_cast<char>('!' + signal); }
 
 const char* type_of(const study::LogicSignal& s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes logic signals as a value change dump (IEEE 1364, clause 18), for GTKWave, PulseView and Surfer. Times
-// are the rig's whole picoseconds.
+// Writes logic signals as a value change dump (IEEE 1364, clause 18), for GTKWave, PulseView and Surfer.
+// Times are whole picoseconds, as in the rig.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,7 +19,7 @@ class VcdWriter {
   static base::Result<VcdWriter> create(const Destination& to, std::span<const study::LogicSignal> signals,
                                         const TraceOrigin& origin);
 
-  /// Adds the row of an instant; instants must not decrease.
+  /// Adds the signals' values at an instant. Instants must not decrease.
   void change(std::int64_t ps, std::span<const std::uint32_t> row);
   bool failed() const { return file_.failed(); }
   base::Problems commit();

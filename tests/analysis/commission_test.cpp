@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning on the bench that `commission_bench` makes of a sheet: the library's motors are identified within the claimed bounds, and
-// impossible ones are refused with the reason.
+// Commissioning on the bench that commission_bench() makes from a sheet. The library's motors are identified
+// within the stated bounds, and unsuitable motors are refused with the reason.
 #include "sixstep/analysis/commission/commission_study.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ constexpr OnBench benches[] = {
     {"maxon-488607", 0},    {"maxon-651607", 0},      {"maxon-651609", 0},       {"maxon-651614", 0},
     {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24},     {"gmcc-ksk89d53u", 100}};
 
-/// With SIXSTEP_ALL_MOTORS (ctest --preset long) every motor is tested, otherwise one in four.
+/// With SIXSTEP_ALL_MOTORS (ctest --preset long) every motor is tested, otherwise every fourth motor.
 bool in_full() { return std::getenv("SIXSTEP_ALL_MOTORS") != nullptr; }
 
 TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
@@ -67,10 +67,11 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
     EXPECT_NEAR(s->shown_offset_deg, subject.hall_offset_deg, 1e-9) << on.motor;
     EXPECT_LE(s->worst_edge_deg(), s->bounds.edge_deg) << on.motor;
     EXPECT_TRUE(s->holds()) << on.motor;
-    // The bounds are small as well: an infinite one would always hold.
+    // The bounds are also small: an infinite bound would always hold.
     EXPECT_LT(s->bounds.R_part, 0.01) << on.motor;
     EXPECT_LT(s->bounds.L_part, 0.05) << on.motor;
-    // A salient rotor's currents along and across the magnet are not separable: the bound is wide, but the value is good.
+    // For a salient rotor, the effects of the currents along and across the magnet are not separable. The
+    // bound is wide, but the value is good.
     EXPECT_LT(is.beyond_L_H > 0 ? std::fabs(s->found.flux_linkage_Vs / is.flux_linkage_Vs - 1)
                                 : s->bounds.flux_part,
               is.beyond_L_H > 0 ? 0.02 : 0.08)
@@ -79,7 +80,8 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
   }
 }
 
-/// For a sheet without a nominal current the default test current is low: a fifth of the current at full duty through two phases.
+/// Without a nominal current in the sheet, the default test current is low: a fifth of the current at full
+/// duty through two phases.
 TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   CommissionSubject drone = subject_of("dji-2212-920kv");
   const auto usual = analysis::commission_bench(drone);
@@ -97,8 +99,8 @@ TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   EXPECT_EQ(text::stand_in_words(*printed), "");
 }
 
-/// An even permutation of the phases keeps the motor's direction; an odd one reverses it. The edges are found at the board's angles in both
-/// cases.
+/// An even permutation of the phases keeps the motor's direction; an odd permutation reverses it. In both
+/// cases the edges are found at the board's angles.
 TEST(Commission, FindsTheLinesOfCrossedWires) {
   InPart some;
   constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
@@ -117,7 +119,7 @@ TEST(Commission, FindsTheLinesOfCrossedWires) {
   }
 }
 
-/// Another noise gives another result within the same bounds; the same noise gives the same bits.
+/// Different noise gives a different result within the same bounds. The same noise gives the same bits.
 TEST(Commission, HoldsWhateverTheNoiseAndIsTheSameForOne) {
   InPart some;
   double first = 0.0;
@@ -137,7 +139,7 @@ TEST(Commission, HoldsWhateverTheNoiseAndIsTheSameForOne) {
   }
 }
 
-/// A larger current covers more counts between the levels, so that rounding and dead time matter less.
+/// With a larger current, the levels differ by more counts, so rounding and dead time have less effect.
 TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
   CommissionSubject subject = subject_of("maxon-251601");
   subject.current_A = 3.0;
@@ -149,8 +151,9 @@ TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
   EXPECT_LT(more->bounds.edge_deg, less->bounds.edge_deg);
 }
 
-/// The fundamental of a trapezoid with slopes 2 g wide is 4 sin g/(pi g) (model.md 1). For given harmonics it is the first one. For a table
-/// it is the Fourier integral, 8/pi^2 for a triangle.
+/// Peak of the fundamental, relative to K_e (model.md 1): 4 sin g/(pi g) for a trapezoid with ramps of width
+/// 2 g; the first harmonic for given harmonics; the Fourier integral for a table, which is 8/pi^2 for a
+/// triangle.
 TEST(Commission, KnowsTheFundamentalOfEachShape) {
   plant::general::Machine m{.R_ohm = {1, 1, 1}, .K_e_V_s = {0.02, 0.02, 0.02}, .L_H = 1e-3, .pole_pairs = 4};
   for (const double flat_deg : {60.0, 100.0, 120.0, 150.0}) {
@@ -193,7 +196,7 @@ TEST(Commission, SaysWhichMotorsItCannotBeMadeWith) {
 
 TEST(Commission, WhatIsNotFoundIsNoProblemAndNotHeld) {
   CommissionSubject subject = subject_of("dji-2212-920kv");
-  subject.current_A = 4.0;  // dead time and diodes take half of the vector
+  subject.current_A = 4.0;  // half of the voltage vector is lost to dead time and diodes
   const auto s = analysis::study_commission({.subject = subject});
   ASSERT_TRUE(s);
   EXPECT_FALSE(s->lines_found());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve's points, the quantities at each, and the winding's thermal limits.
+// The points of a curve, the quantities at each point, and the winding's thermal limits.
 #include "sixstep/analysis/curve/curve.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ TEST(Curve, ComparesTheNominalPointAtItsTorque) {
   EXPECT_EQ(*curve.nominal->current_A, 2.33);
   EXPECT_EQ(curve.nominal->at_speed->speed_rad_s, *curve.nominal->speed_rad_s);
   EXPECT_NEAR(curve.nominal->at_torque->shaft_torque_Nm, 83.4e-3, 1e-12);
-  // Curve and sheet differ: at the nominal speed the torque is 12 % lower, which equals a speed 3.5 % lower at the nominal torque.
+  // Curve and sheet differ: at the nominal speed, the torque is 12 % lower. At the nominal torque, the speed
+  // is 3.5 % lower.
   const double slower = curve.nominal->at_torque->speed_rad_s / *curve.nominal->speed_rad_s - 1;
   EXPECT_LT(curve.nominal->at_speed->shaft_torque_Nm, 0.89 * 83.4e-3);
   EXPECT_GT(slower, -0.04);
@@ -75,7 +76,8 @@ TEST(Curve, TellsTheSheetsGradientFromItsTwoPoints) {
   EXPECT_NEAR(d.ideal, 1.03 / (0.0335 * 0.0335), 1e-9);
   EXPECT_NEAR(*d.printed, 8.8 * per_mNm, 1e-9);
   EXPECT_NEAR(*d.sheet, (6710 - 5240) / 83.4 * per_mNm, 1e-9);
-  // Sheet and simulation both have more than twice the ideal gradient, because commutation lowers the speed in both.
+  // The gradients of sheet and simulation are both more than twice the ideal gradient, because commutation
+  // lowers the speed in both.
   EXPECT_GT(*d.curve, 2 * d.ideal);
   EXPECT_NEAR(*d.curve, *d.sheet, 0.15 * *d.sheet);
 }
@@ -126,7 +128,8 @@ TEST(Curve, MarksOfAChoppedOneLieWithinItsPrecision) {
         *curve.marks.best_efficiency->efficiency);
 }
 
-/// Friction only takes power: without it efficiency and no-load speed are above those of the same motor with friction.
+/// Friction only consumes power: without friction, efficiency and no-load speed are higher than with
+/// friction.
 TEST(Curve, WithoutFrictionSaysThatItsFiguresAreUpperBounds) {
   const CurveRequest with = request(3);
   CurveRequest without = request(3);
@@ -160,7 +163,7 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
       const double friction = plant::friction_Nm(r.bench.motor.shaft, speed);
       const design::Heating heating{limits.continuous_A * limits.continuous_A * 1.03, friction * speed, 40};
       EXPECT_NEAR(design::steady_temperatures(model, heating)->winding_degC, 125, 1e-10) << speed;
-      // K_t of magnets at the housing's temperature falls by 0.12 % for each kelvin above 25 degC.
+      // K_t at the housing's temperature is lower by 0.12 % for each kelvin above 25 degC.
       const double housing = design::steady_temperatures(model, heating)->housing_degC;
       const double K_t = 0.0335 * (1 - 0.0012 * (housing - 25));
       EXPECT_NEAR(limits.continuous_Nm, K_t * limits.continuous_A - friction, 1e-14);
@@ -177,8 +180,9 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
   }
 }
 
-/// The thermal network's equations check the limits. The current allowed at the worse ends of the ranges heats the winding of that motor
-/// exactly to its limit. The current allowed at the middle values heats it beyond the limit.
+/// The limits are checked by the equations of the thermal network. The allowed current for the worse ends of
+/// the ranges heats the winding of a motor with these values exactly to its limit. The allowed current for
+/// the middle values heats it beyond the limit.
 TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   CurveRequest r = request(3);
   r.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
@@ -202,7 +206,8 @@ TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   EXPECT_LT(at_worst.continuous_A, by_values.continuous_A);
 }
 
-/// Second way: a file without ranges that has the worse ends as its values gives the same limits, times and mark.
+/// A second check: a file without ranges whose values are the worse ends gives the same limits, times and
+/// mark.
 TEST(Curve, LimitsOfRangesAreThoseOfAFileWithTheirWorseEnds) {
   CurveRequest ranged = request(3), plain = request(3);
   ranged.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
@@ -220,7 +225,7 @@ TEST(Curve, LimitsOfRangesAreThoseOfAFileWithTheirWorseEnds) {
   }
 }
 
-/// No torque is allowed where ambient temperature or friction alone heats the winding beyond its limit.
+/// No torque is allowed if ambient temperature or friction alone heats the winding beyond its limit.
 TEST(Curve, InHotAirTheWindingStandsNothing) {
   CurveRequest r = request(3);
   r.ambient_degC = 130;
@@ -229,7 +234,8 @@ TEST(Curve, InHotAirTheWindingStandsNothing) {
   EXPECT_TRUE(std::isnan(still.continuous_A) && std::isnan(still.short_Nm[0]));
   r.ambient_degC = 120;
   EXPECT_GT(analysis::thermal_limits(model, r, 0.0).continuous_Nm, 0.0);
-  // The friction of 7.3e-6 N m s at 700 rad/s is 3.6 W, which heats through 4.25 K/W by 15 K.
+  // The friction of 7.3e-6 N m s at 700 rad/s dissipates 3.6 W, which heats the motor by 15 K through 4.25
+  // K/W.
   EXPECT_TRUE(std::isnan(analysis::thermal_limits(model, r, 700.0).continuous_Nm));
 }
 
@@ -244,13 +250,14 @@ TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
   const Curve here = whole(warm), there = whole(cold);
   EXPECT_NEAR(here.points.front().shaft_torque_Nm / there.points.front().shaft_torque_Nm, on_K / on_R, 1e-9);
   EXPECT_GT(here.no_load.point.speed_rad_s, there.no_load.point.speed_rad_s / on_K * 0.98);
-  // The thermal limits belong to the motor, independent of the curve's temperature.
+  // The thermal limits are properties of the motor and do not depend on the curve's temperature.
   const analysis::ThermalLimits a = analysis::thermal_limits(*here.thermal, warm, 300),
                                 b = analysis::thermal_limits(*there.thermal, cold, 300);
   EXPECT_NEAR(a.continuous_A, b.continuous_A, 1e-12);
   EXPECT_NEAR(a.continuous_Nm, b.continuous_Nm, 1e-14);
   EXPECT_NEAR(a.short_Nm[0], b.short_Nm[0], 1e-14);
-  // The permissible time follows from the point's current, the resistance of the cold winding and the ambient temperature.
+  // The permissible time depends on the point's current, the resistance of the cold winding and the ambient
+  // temperature.
   const analysis::OperatingPoint& p = here.points.front();
   const design::Heating heating{p.winding_current_A * p.winding_current_A * 1.03, 0, 25};
   EXPECT_NEAR(*here.warming.front().permissible_s, *design::permissible_seconds(*here.thermal, heating),
@@ -259,7 +266,8 @@ TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
 
 TEST(Curve, APointHeldTooLongOverheats) {
   const Curve curve = whole(request(5));
-  // The stall current's 559 W into 3.7 J/K reach the limit within a second. The no-load point never does.
+  // The 559 W at the stall current heat 3.7 J/K to the limit within a second. The no-load point never reaches
+  // the limit.
   ASSERT_TRUE(curve.warming.front().permissible_s);
   EXPECT_FALSE(curve.warming.front().winding_degC) << "copper runs away above 1/(a R)";
   EXPECT_LT(*curve.warming.front().permissible_s, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design's test run uses the board's sensor: encoder, absolute encoder or resolver, on either side of a gear. The verdict describes that
-// run.
+// A design's test run uses the board's sensor: encoder, absolute encoder or resolver, on either side of a
+// gear. The verdict is about this run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ study::Scenario board_with(RotorSensing rotor, Mode mode = Mode::speed) {
   s.pwm.commutation = study::CommutationAt::sample;
   s.control.mode = mode;
   s.sensors.capture_Hz =
-      16e6;  // by 1 MHz an encoder's steps of the speed reach the limits (high_speed_test.cpp)
+      16e6;  // with 1 MHz, the steps of an encoder's speed reach the limits (high_speed_test.cpp)
   s.sensors = with_rotor(s.sensors, rotor, s.pwm.period_s);
   return s;
 }
@@ -70,12 +70,13 @@ TEST(DesignSensors, AMoveRestsWithinWhatTheSensorTells) {
   for (const RotorSensing rotor : shaft_sensors) {
     const DesignStudy s = studied(board_with(rotor, Mode::position));
     EXPECT_TRUE(s.usable());
-    // Three counts are 0.26 degrees with 4 x 1024 per turn, and 0.07 degrees with 2^14.
+    // Three counts are 0.26 degrees at 4 x 1024 counts per turn, and 0.07 degrees at 2^14.
     EXPECT_LE(figure(s, "swing around the target"), rotor == RotorSensing::encoder ? 4 * 360.0 / 4096 : 0.1);
   }
 }
 
-/// The load turns once in n turns of the motor: J_1 + J_2/n^2 gives the same loops. The sensor is on the load's side of the gear.
+/// The load makes one turn for n turns of the motor, so J_1 + J_2/n^2 gives the same loops. The sensor is on
+/// the load's side of the gear.
 TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   study::Scenario geared = board_with(RotorSensing::absolute);
   geared.load.gear = 5.0;
@@ -94,7 +95,8 @@ TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   EXPECT_NEAR(figure(s, "settling time"), figure(t, "settling time"), 0.1 * figure(t, "settling time"));
 }
 
-/// A probe edge 3 degrees late and the next one 2 degrees early leave 55 degrees between them instead of 60.
+/// A probe edge that is 3 degrees late and a next edge that is 2 degrees early are 55 degrees apart instead
+/// of 60.
 TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   study::Scenario board = board_with(RotorSensing::hall);
   board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
@@ -114,8 +116,8 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
     }
   }
   EXPECT_EQ(told, 2);
-  // Without given edges, the derivation prints dw_3: the step of the speed for probes 3 degrees off to alternate sides. A speed from six
-  // edges has no such step.
+  // Without given edges, the derivation prints dw_3: the step of the speed if probes are 3 degrees off in
+  // alternate directions. A speed from six edges has no such step.
   const auto dw = [&board](std::vector<double> edges_deg, const char* symbol, int speed_edges) {
     board.sensors.hall_edges_deg = std::move(edges_deg);
     board.sensors.speed_edges = speed_edges;
@@ -126,7 +128,7 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   EXPECT_NEAR(dw({}, "dw_3", 1), dw({3, -3, 3, -3, 3, -3}, "dw", 1), 1e-12);
   EXPECT_EQ(dw({}, "dw_3", 6), 0.0);
   board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
-  // Over a whole electrical turn the errors of the edges cancel, and learned edges have no error.
+  // Over a whole electrical turn, the errors of the edges cancel. Learned edges have no error.
   board.sensors.speed_edges = 6;
   EXPECT_EQ(rotor_sensing_of(board).stray_rad, 0.0);
   board.sensors.speed_edges = 1;
@@ -145,8 +147,8 @@ TEST(DesignSensors, AnotherSensorThanTheBoardsTakesItsPlaceWhole) {
   EXPECT_EQ(board.sensors.shaft, SensorShaft::motor);
 }
 
-/// Peaks of the excitation coincide with control ticks: half an excitation period is a whole number of control periods, near 50 us (10
-/// kHz).
+/// Peaks of the excitation coincide with control ticks: half an excitation period is a whole number of
+/// control periods, near 50 us (10 kHz).
 TEST(DesignSensors, AResolverIsExcitedInStepWithTheControl) {
   for (const double period_s : {10e-6, 25e-6, 30e-6, 40e-6, 50e-6, 100e-6}) {
     const study::Sensors s = with_rotor({}, RotorSensing::resolver, period_s);
@@ -177,9 +179,9 @@ TEST(DesignSensors, WhatASensorlessDriveComesToIsTold) {
   const DesignStudy s = studied(board);
   ASSERT_GE(s.sensorless.size(), 3u);
   EXPECT_EQ(s.sensorless[1].symbol, "w_low");
-  // The speed is at least a twentieth of the no-load speed.
+  // The speed is at least 1/20 of the no-load speed.
   EXPECT_GE(s.sensorless[1].value, 0.05 * 24 / s.design.motor.K_t_Nm_A * (1 - 1e-12));
-  // A load that the start cannot move is refused, and the message names the key.
+  // A load that the start cannot accelerate is refused, and the message names the key.
   board.control.sensorless.greatest_load = 2.0;
   const auto refused = study_design(
       {.subject = {.motor = board.motor, .sheet = board.sheet, .board = board}, .spec = spec_of(board)});

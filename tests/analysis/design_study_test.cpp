@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs judged by the switching simulation: without active limits the run gives the linear design's figures, the ripple is that of the
-// two exponentials, and the worst tolerance is the planted one.
+// Designs tested in the switching simulation. Without active limits, the run has the figures of the linear
+// design. The ripple is that of the two exponentials. The worst tolerance is the one that the test makes
+// worst.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,17 +62,18 @@ TEST(DesignedCurrentLoop, DoesInTheSimulationWhatWasDesigned) {
       const DriveDesign d = designed({.mode = Mode::current, .method = method, .delay_periods = late});
       const Outcome o = ran(design_scenario(d, subject));
       EXPECT_TRUE(o.passed());
-      // The design holds the mean voltage over the period. The PWM applies the pulse at the period's start, so that its effect decays
-      // longer until the next sample. The current is lower there, by at most 2.7 % of the gain here. The settling time may differ by one
-      // sample.
+      // The design assumes the mean voltage spread over the period. The PWM applies the pulse at the period's
+      // start, so its effect decays longer until the next sample. The current is lower there: with these
+      // gains by at most 2.7 %. The settling time may differ by one sample.
       EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"), 1.001 * period_s);
       EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), 0.027 * 2);
     }
   }
 }
 
-/// With samples in the middle of centred pulses a duty acts half a period later. The linear loop predicts the overshoot to x/4 = 1.4 %, x =
-/// R T/L: half a pulse differs by this part from half a held voltage.
+/// With samples in the middle of centred pulses, a duty acts half a period later. The linear loop predicts
+/// the overshoot within x/4 = 1.4 %, x = R T/L: this is the difference between the effect of half a pulse and
+/// that of half a spread voltage.
 TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   for (const int late : {0, 1}) {
     const DriveDesign d = designed({.mode = Mode::current, .delay_periods = late, .sampled_in_middle = true});
@@ -84,7 +86,8 @@ TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   }
 }
 
-/// With one shunt any specification samples in the middle of the period; a board's scenario states its own sample.
+/// With one shunt, every specification samples in the middle of the period. A board's scenario states its own
+/// sample instant.
 TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
   const auto late_of = [](const DesignSubject& on) {
     const auto s =
@@ -103,7 +106,8 @@ TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
 }
 
 TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
-  // A locked rotor at constant duty is an R-L circuit at the bus. After 20 time constants exp(-20) of the start remains.
+  // A locked rotor at constant duty is an R-L circuit at the bus. After 20 time constants, exp(-20) of the
+  // initial deviation remains.
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     for (const double duty : {0.6, 0.8}) {
       const DriveDesign d = designed({.mode = Mode::current, .chopping = chopping});
@@ -122,8 +126,8 @@ TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
   }
 }
 
-/// Ripple of straight current lines, computed by hand. The pair's voltage is 24 V during the pulse and -0.7 V while the diode conducts, and
-/// its mean equals R I.
+/// Ripple of straight current lines, computed by hand. The pair's voltage is 24 V during the pulse and -0.7 V
+/// while the diode conducts. Its mean is R I.
 TEST(DesignedCurrentLoop, ExpectsTheRippleThatTheDiodeMakes) {
   const DriveDesign d = designed({.mode = Mode::current});
   DesignSubject on = subject;
@@ -141,13 +145,14 @@ TEST(DesignedSpeedLoop, DoesInTheSimulationWhatWasDesigned) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const Outcome o = ran(design_scenario(d, subject));
   EXPECT_TRUE(o.passed());
-  // The linear design contains no ripple of the commutations, so that this test measures it and allows for it. The ripple moves the
-  // crossing of the 2 % band by ripple over slope, and the peak by its own height.
+  // The linear design does not contain the commutation ripple, so this test measures the ripple and allows
+  // for it. The ripple shifts the crossing of the 2 % band by ripple/slope, and the peak by the ripple
+  // itself.
   const double ripple = measured(o, "speed ripple"), band = 0.02 * 10;
   EXPECT_LT(ripple, 2 * band);
   EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), ripple);
-  // Near its end the response decays as exp(-xi w0 t), xi w0 = 4.6/T_reg. A level that differs by a is therefore reached log(1 +
-  // a/band)/(xi w0) later.
+  // Near its end, the response decays as exp(-xi w0 t), xi w0 = 4.6/T_reg. A level that is higher by a is
+  // therefore reached log(1 + a/band)/(xi w0) later.
   EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"),
               std::log(1 + ripple / band) * 10e-3 / 4.6);
 }
@@ -173,7 +178,8 @@ TEST(PositionGain, OvershootsBeyondAndNotAtTheGainFound) {
 }
 
 TEST(PositionGain, IsTheThesissForItsMove) {
-  // data/scenarios/thesis/7.5-position.toml has these bounds by trial: 2.4 does not overshoot, 2.5 does.
+  // The thesis found these bounds by trial (data/scenarios/thesis/7.5-position.toml): a gain of 2.4 does not
+  // overshoot, 2.5 does.
   const auto found =
       largest_position_gain(designed({.mode = Mode::position, .torque_limit_Nm = 0.78}), subject);
   ASSERT_TRUE(found);
@@ -196,7 +202,7 @@ TEST(Variations, AreAsWarmAsTheSheetLetsTheMotorBe) {
   EXPECT_EQ(all.size(), 1u + 9u + 16u);
   EXPECT_EQ(all[3].words, "R at 125 degC");
   EXPECT_NEAR(all[3].factors[0], 1.393, 1e-12);
-  // The housing reaches 25 + 100 4.25/8.75 degC with 4.5 and 4.25 K/W and 125 degC.
+  // With 4.5 and 4.25 K/W and a winding at 125 degC, the housing reaches 25 + 100 4.25/8.75 degC.
   EXPECT_EQ(all[8].words, "K_t at 74 degC");
   EXPECT_NEAR(all[8].factors[2], 1 - 0.0012 * 100 * 4.25 / 8.75, 1e-12);
 }
@@ -215,7 +221,7 @@ TEST(Variations, ChangeTheMotorAndNotTheController) {
   EXPECT_NEAR(o.motor.shaft.B_Nm_s, 7.3e-6, 1e-18);
   EXPECT_EQ(o.gains[0].d1, d.loop("current").gains.d1);
   EXPECT_EQ(o.gains[1].d1, d.loop("speed").gains.d1);
-  // The nominal variation is the nominal run, to rounding of the sheet.
+  // The nominal variation gives the nominal run, apart from rounding in the sheet.
   const Outcome same = ran(varied_scenario(nominal, d.motor, tolerances, all.front())), was = ran(nominal);
   EXPECT_NEAR(measured(same, "settling time"), measured(was, "settling time"), 1e-9);
 }
@@ -223,7 +229,8 @@ TEST(Variations, ChangeTheMotorAndNotTheController) {
 TEST(Robustness, FindsThePlantedTolerance) {
   const DriveDesign d = designed({.mode = Mode::current});
   const Scenario s = design_scenario(d, subject);
-  // The planted tolerance is the halved inductance, which doubles the loop's gain and its ripple. The other tolerances are small.
+  // The worst tolerance must be the halved inductance, which doubles the loop's gain and the ripple. The
+  // other tolerances are small.
   const std::vector<Tolerance> planted{{Strays::resistance, {{"R -1 %", 0.99}, {"R +1 %", 1.01}}},
                                        {Strays::inductance, {{"L halved", 0.5}}},
                                        {Strays::torque_constant, {{"K_t +1 %", 1.01}}}};
@@ -255,8 +262,8 @@ TEST(Robustness, SaysNeverWhereTheLoopNoLongerSettles) {
 }
 
 TEST(DesignedCurrentLoop, OfAFastLoopWithDelaySoftChoppingMakesAnOscillator) {
-  // A small negative duty with soft chopping puts the whole bus against the current (model.md 4b), which no linear design contains. The
-  // same gains settle as designed with complementary chopping.
+  // With soft chopping, a small negative duty applies the whole bus against the current (model.md 4b), which
+  // no linear design contains. With complementary chopping, the same gains settle as designed.
   const DesignSpec spec{.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1};
   DesignSpec complementary = spec;
   complementary.chopping = Chopping::complementary;
@@ -272,7 +279,7 @@ TEST(DesignScenario, TakesAStepThatWasAskedFor) {
   five.step = 5.0;
   const Scenario s = design_scenario(designed({.mode = Mode::current}), five);
   EXPECT_EQ(s.reference.value, 5.0);
-  // model.md 13: the held rotor's step to 5 A with the exact design settles in about 0.99 ms.
+  // model.md 13: with the exact design, a step to 5 A of the locked rotor settles in about 0.99 ms.
   EXPECT_NEAR(measured(ran(s), "settling time"), 0.99e-3, 1.001 * period_s);
 }
 
@@ -305,7 +312,8 @@ TEST(DesignStudy, CountsTheLoadsInertiaIn) {
                                .tolerances = {{Strays::inertia, {{"J +50 %", 1.5}}}}});
   ASSERT_TRUE(s && s->usable());
   EXPECT_EQ(s->outcome.gains[1].d1, s->design.loop("speed").gains.d1);
-  // The shaft is nearly an integrator: the same poles with 3.35/1.35 times the inertia need gains in that ratio, apart from friction.
+  // The shaft is nearly an integrator: for the same poles, 3.35/1.35 times the inertia needs 3.35/1.35 times
+  // the gains, apart from friction.
   const DriveDesign bare = designed({.mode = Mode::speed, .settle_s = 20e-3});
   EXPECT_NEAR(s->design.loop("speed").gains.d1 / bare.loop("speed").gains.d1, 3.35 / 1.35, 0.01);
   const Scenario heavy =
@@ -333,7 +341,7 @@ TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {
                                    .tolerances = sheet_tolerances(subject.sheet, Mode::position)});
   ASSERT_TRUE(moved && moved->robustness && moved->position);
   EXPECT_TRUE(moved->usable());
-  // The sheet's motor alone would allow more: with twice its inertia it would overshoot.
+  // The nominal motor would allow a higher gain: with twice the inertia it would overshoot.
   EXPECT_LT(moved->position->gain_rad_s_per_deg, 0.9 * moved->position->nominal);
   const RobustFigure& overshoot = moved->robustness->figures[1];
   EXPECT_EQ(overshoot.figure, "overshoot");
@@ -361,7 +369,7 @@ TEST(DesignStudy, PassesProblemsOn) {
       refused(
           {.mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum, .bandwidth_rad_s = 1e5}),
       "bandwidth_rad_s");
-  EXPECT_EQ(refused({.mode = Mode::speed}, -20.0), "");  // downwards is a step too
+  EXPECT_EQ(refused({.mode = Mode::speed}, -20.0), "");  // a downward step is allowed too
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field-oriented drive's figures against the laws of its loops and of the voltage circle.
+// Figures of a field-oriented drive, compared with the laws of its loops and of the voltage circle.
 #include "sixstep/analysis/verify/field_study.hpp"
 
 #include <gmock/gmock.h>
@@ -48,8 +48,8 @@ double value(const std::vector<design::DerivationStep>& steps, const std::string
   return 0.0;
 }
 
-/// The loop with a delay is L = k/(z (z - 1)), k = z_1 (1 - z_1): |L| = 1 where 2 sin(w T/2) = k, and its phase there is -90 degrees minus
-/// 3/2 w T.
+/// The loop with a delay is L = k/(z (z - 1)), k = z_1 (1 - z_1). At its crossover, 2 sin(w T/2) = k, and the
+/// phase is -90 degrees minus 3/2 w T.
 TEST(FieldStudy, TheCurrentLoopHasTheMarginsOfItsRule) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.control.field.bandwidth_Hz = 800;
@@ -61,7 +61,7 @@ TEST(FieldStudy, TheCurrentLoopHasTheMarginsOfItsRule) {
   ASSERT_TRUE(loop.figures.crossover_rad_s && loop.figures.phase_rad && loop.figures.gain);
   EXPECT_NEAR(*loop.figures.crossover_rad_s / w, 1.0, 1e-9);
   EXPECT_NEAR(*loop.figures.phase_rad, base::pi / 2 - 1.5 * w * T, 1e-9);
-  // The poles lie on the unit circle at k = 1: z^2 - z + 1.
+  // At k = 1 the closed loop is z^2 - z + 1, whose poles are on the unit circle.
   EXPECT_NEAR(*loop.figures.gain, 1 / k, 1e-9);
   EXPECT_NEAR(value(loop.steps, "z"), z, 1e-15);
   EXPECT_TRUE(f.warnings.empty());
@@ -77,7 +77,7 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   const LoopDesign &d = f.design.loops[0], &q = f.design.loops[1];
   EXPECT_EQ(d.name, "current d");
   EXPECT_EQ(q.name, "current q");
-  // The zero of each axis cancels the pole of its own winding inductance, so that both axes have the same loop.
+  // The zero of each axis cancels the pole of the axis's inductance, so both axes have the same loop.
   EXPECT_NEAR(value(d.steps, "a0"), -std::exp(-R * T / 0.2e-3), 1e-12);
   EXPECT_NEAR(value(q.steps, "a0"), -std::exp(-R * T / 0.4e-3), 1e-12);
   EXPECT_NEAR(*d.figures.crossover_rad_s / *q.figures.crossover_rad_s, 1.0, 1e-9);
@@ -85,7 +85,8 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   EXPECT_NEAR(value(f.axes, "k"), 0.2e-3 * 8 / (2 * K_e), 1e-12);
 }
 
-/// At the crossover |L| is the full torque times the PI's gain over J w. The current loop and the sampling change it by less than w T.
+/// At the crossover, |L| is the full torque times the PI's gain, divided by J w. The current loop and the
+/// sampling change it by less than w T.
 TEST(FieldStudy, TheSpeedLoopTurnsByTheTorqueOfIq) {
   study::Scenario s = field_oriented(Mode::speed, 300.0);
   s.control.speed.settle_s = 0.1;
@@ -126,7 +127,8 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// The linear loop predicts the simulated settling time of a step of i_q at a locked rotor, to one sample.
+/// The settling time of a step of i_q at a locked rotor, predicted by the linear loop, is equal to the
+/// simulated one within one sample.
 TEST(FieldStudy, TheStepIsTheRuns) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.load.locked = true;
@@ -138,7 +140,7 @@ TEST(FieldStudy, TheStepIsTheRuns) {
   EXPECT_NEAR(figures_of(s)[0], f.design.loops[0].step.settling_s, T);
 }
 
-/// As for six-step loops, a phase margin below 20 degrees or an unstable loop gives a grave warning.
+/// As for six-step loops, a phase margin below 20 degrees or an unstable loop causes a grave warning.
 TEST(FieldStudy, LittlePhaseIsGrave) {
   int usable = 0, little = 0;
   for (double settle_s = 0.5e-3; settle_s < 20e-3; settle_s *= 1.1) {

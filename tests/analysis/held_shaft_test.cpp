@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check of docs/howto/flash-an-image.md with the shaft held: twelve angles of an electrical turn distinguish straight wires from all
-// others, for any first angle.
+// The check of docs/howto/flash-an-image.md with the shaft held: twelve angles of an electrical turn
+// distinguish straight wires from all other wirings, for any first angle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,15 +49,15 @@ TEST(HeldShaft, TwelvePlacesSeparateStraightWires) {
     }
 }
 
-/// At six angles, each in the middle of a sector, a pair one sector early has the same torque everywhere: half of the torque with straight
-/// wires. Six angles therefore do not show the fault.
+/// At six angles, each in the middle of a sector, a pair that is one sector early has the same torque at each
+/// angle: half of the torque with straight wires. Six angles therefore do not reveal the fault.
 TEST(HeldShaft, SixPlacesDoNotShowAnEarlyPair) {
   const rig::Wiring early{.phases = rig::WireOrder::bac, .probes = rig::WireOrder::bac};
   ASSERT_TRUE(analysis::sectors_ahead(early));
   ASSERT_NE(analysis::sectors_ahead(early), 0);
   const auto [least, most] = pulls(early, trapezoid, 30, 6);
   EXPECT_NEAR(least, most, 1e-12);
-  EXPECT_NEAR(most, 1.0, 1e-12);  // straight wires have 2
+  EXPECT_NEAR(most, 1.0, 1e-12);  // with straight wires it is 2
 }
 
 }  // namespace SIXSTEP_TEST_FILE

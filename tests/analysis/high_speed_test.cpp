@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Warnings of a design about speeds far above that of its test: steps of the measured speed that reach a limit, and unreachable targets.
+// A design's warnings about speeds far above the speed of its test: steps of the measured speed that reach a
+// limit, and speeds that cannot be reached.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ const design::Warning* warning_of(const DesignStudy& s, Concern of) {
   return found == s.warnings.end() ? nullptr : &*found;
 }
 
-/// The mean speed at the end of the design's test with a step to `rad_s`.
+/// The mean speed at the end of the design's test run, with a step to `rad_s`.
 double held(const design::DriveDesign& d, DesignSubject subject, double rad_s) {
   const study::Scenario small = design_scenario(d, subject);
   subject.step = rad_s - small.reference.values.front();
@@ -46,9 +47,9 @@ double held(const design::DriveDesign& d, DesignSubject subject, double rad_s) {
   return outcome ? outcome->verdicts.front().measured : 0.0;
 }
 
-/// A jump of the measured speed by one timer tick makes the speed loop respond with d1. The torque limit clips this response where it
-/// exceeds the torque that the load leaves. The speed stays where both are equal, d1 w/(f T) = 1 - load/limit, with T one period to within
-/// a count.
+/// If the measured speed changes by one timer tick, the speed loop responds with d1. The torque limit clips
+/// this response if it exceeds the torque that the load leaves. The speed stays where both are equal: d1 w/(f
+/// T) = 1 - load/limit. T is one period to within a count.
 TEST(HighSpeed, StandsWhereATickIsWhatTheLoadLeavesOfTheLimit) {
   const DesignOrder order = on_encoder_board();
   const auto s = study_design(order);
@@ -73,7 +74,7 @@ TEST(HighSpeed, OfAFasterClockIsHeld) {
   EXPECT_NEAR(held(s->design, order.subject, s->design.high_speed_rad_s), s->design.high_speed_rad_s, 1.0);
 }
 
-/// A design with the timer clock that the advice names is usable.
+/// With the timer clock that the advice names, the design is usable.
 TEST(HighSpeed, IsAdvisedAClockThatHolds) {
   DesignOrder order = on_encoder_board();
   order.advises = true;
@@ -84,8 +85,8 @@ TEST(HighSpeed, IsAdvisedAClockThatHolds) {
       << s->warnings.front().cure;
 }
 
-/// The largest error of a speed from edges in whole timer ticks, found by counting. The edges are `edge_s` apart, and up to 2 % closer or
-/// farther.
+/// The largest error of a speed from edges counted in whole timer ticks, found by simulation. The edges are
+/// `edge_s` apart, or up to 2 % closer or farther.
 double counted_step(double edge_s, int edges, double f_Hz, double speed) {
   double most = 0.0;
   for (int near = -20; near <= 20; ++near) {
@@ -114,14 +115,15 @@ TEST(HighSpeed, StepsOfTheMeasuredSpeedAreThoseThatATimerMakes) {
   EXPECT_NEAR(step, counted_step(count, counts, f, speed), 0.15 * step);
 }
 
-/// Misplaced probes: a sector that is longer by s makes its speed wrong by the part s/(60 degrees). Over a whole turn the errors cancel.
+/// Misplaced probes: if a sector is longer by s, its measured speed is wrong by s/(60 degrees). Over a whole
+/// turn the errors cancel.
 TEST(HighSpeed, StepsOfProbesBesideTheirPlacesAreTheirs) {
   const double p = 4, speed = 300, stray = 5 * base::pi / 180;
   design::RotorSensing hall{.hall = true, .edges = 1, .stray_rad = stray};
   const double sector = base::pi / 3, longer = speed * sector / (sector - stray) - speed;
   EXPECT_NEAR(design::speed_step_rad_s(hall, p, speed, 500.0), longer, 0.1 * longer);
   hall.edges = 0;
-  EXPECT_EQ(design::speed_step_rad_s(hall, p, speed, 1.0), 0.0);  // a slow loop takes six edges
+  EXPECT_EQ(design::speed_step_rad_s(hall, p, speed, 1.0), 0.0);  // a slow loop uses six edges
 }
 
 DesignOrder on_hall(double step, double settle_s, control::Chopping chopping) {
@@ -135,7 +137,7 @@ DesignOrder on_hall(double step, double settle_s, control::Chopping chopping) {
   return order;
 }
 
-/// The speed at full duty with the same load is the highest that the drive reaches.
+/// The speed at full duty with the same load: the highest speed that the drive reaches.
 double full_on_speed(const study::Scenario& of) {
   study::Scenario s = of;
   s.control = {};
@@ -178,7 +180,7 @@ TEST(AskedStep, OutOfReachIsAdvisedASmallerOneThatHolds) {
   EXPECT_TRUE(next->usable());
 }
 
-/// A long acceleration at the torque limit: the run's final window lies after it.
+/// For a long acceleration at the torque limit, the run's final window is after the acceleration.
 TEST(AskedStep, IsRunUntilItHasArrived) {
   DesignOrder order = on_encoder_board(16e6);
   order.spec.voltage_V = 48;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor's design has the rotating motor's gains in other units, and prints its own units.
+// The design of a linear motor has the gains of the equivalent rotary motor in other units, and prints linear
+// units.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ DesignStudy studied(const DesignOrder& order) {
   return *study;
 }
 
-/// Both motors are on the same board, with equivalent torque limit, lowest speed and step.
+/// Designs of both motors for the same board, with equivalent torque limit, lowest speed and step.
 std::pair<DesignStudy, DesignStudy> both(Mode mode) {
   DesignOrder turning{.subject = {"m", maxon_sheet(), {}}, .spec = design::on_a_board()};
   turning.spec.mode = mode;
@@ -51,7 +52,8 @@ TEST(LinearDesign, HasTheTurningOnesGains) {
     const auto [turning, linear] = both(mode);
     for (std::size_t n = 0; n < turning.design.loops.size(); ++n) {
       const auto &a = turning.design.loops[n], &b = linear.design.loops[n];
-      // The speed's gain is in A per m/s instead of A per rad/s; the position's gain is 1/s apart from the degrees.
+      // The gain of the speed loop is in A per m/s instead of A per rad/s. The gain of the position loop is
+      // 1/s, apart from degrees.
       const double factor = a.name == "speed" ? 1 / r : 1.0;
       expect_part(b.gains.d1, a.gains.d1 * factor, a.name, a.name == "position" ? 2e-3 : 1e-11);
       expect_part(b.gains.d0, a.gains.d0 * factor, a.name);
@@ -97,7 +99,7 @@ TEST(LinearDesign, IsToldInMetres) {
   EXPECT_EQ(linear.scenario.reference.unit, "mm");
 }
 
-/// Two sectors of 54 and 66 degrees in place of 60: a tenth of the lowest speed.
+/// Sectors of 54 and 66 degrees instead of 60: an error of a tenth of the lowest speed.
 TEST(LinearDesign, ErrorsOfASpeedAreNamedAsTheSpeed) {
   DesignOrder order{.subject = {"m", unrolled(maxon_sheet()), {}}, .spec = design::on_a_board()};
   order.spec.mode = Mode::speed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load point: the speed without torque on the curve, and the final speed of a free rotor.
+// The no-load point is compared with the zero of the curve's torque and with the final speed of a free rotor.
 #include "sixstep/analysis/curve/no_load.hpp"
 
 #include <gtest/gtest.h>
@@ -21,16 +21,17 @@ NoLoad found(const Bench& b) {
   return n ? *n : NoLoad{};
 }
 
-/// The largest swing of a free rotor's speed within a sector: half the torque's ripple over half of the sector. The mean's error is at most
-/// this swing.
+/// The largest deviation of a free rotor's speed within a sector: half the torque's ripple over half of the
+/// sector. The error of the mean is at most this deviation.
 double swing_rad_s(const Bench& b, const NoLoad& n) {
   const double sector_s = base::sector_rad / (8 * std::fabs(n.point.speed_rad_s));
   return n.point.ripple_Nm / 2 * sector_s / 2 / b.motor.shaft.J_kg_m2;
 }
 
 TEST(NoLoad, OfThe251601IsThatOfTheIndependentSolver) {
-  // data/scenarios/thesis/7.2-no-load.toml gives 702.6128 rad/s and 0.15310 A. The speed may differ by half a last digit. The current may
-  // differ by 1e-4 of itself, and as much again because the window of its mean cuts a sector.
+  // data/scenarios/thesis/7.2-no-load.toml gives 702.6128 rad/s and 0.15310 A. Tolerance of the speed: half
+  // of the last digit. Tolerance of the current: 1e-4 of the current, and as much again because the averaging
+  // window cuts a sector.
   const NoLoad n = found(maxon_bench());
   EXPECT_NEAR(n.point.speed_rad_s, 702.6128, 5e-5);
   EXPECT_NEAR(n.point.winding_current_A, 0.15310, 3e-5);
@@ -54,7 +55,7 @@ TEST(NoLoad, AFreeRotorAgrees) {
     b.motor.shaft.coulomb_Nm = coulomb;
     const NoLoad n = found(b);
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, swing_rad_s(b, n));
-    // Friction differs by the same part as the speed.
+    // The relative difference of friction is equal to that of the speed.
     const double part = swing_rad_s(b, n) / n.point.speed_rad_s;
     EXPECT_NEAR(n.free_winding_current_A, n.point.winding_current_A, 4 * part * n.point.winding_current_A);
     EXPECT_NEAR(n.free_bus_current_A, n.point.bus_current_A, 4 * part * n.point.bus_current_A);
@@ -86,8 +87,8 @@ TEST(NoLoad, ChoppedAFreeRotorLiesWithinTheInterval) {
     b.chopping = chopping;
     const NoLoad n = found(b);
     EXPECT_GT(n.half_width_rad_s, 0.0);
-    // The search ends where the torque's interval contains zero. The speed found there has an error of up to one half width; the interval
-    // of the true speed adds another.
+    // The search ends when the interval of the torque contains zero. The resulting speed has an error of up
+    // to one half width, and the interval of the true speed adds another half width.
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, 2 * n.half_width_rad_s + swing_rad_s(b, n))
         << name_of(chopping);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values given to an analysis by a program instead of a file have the limits of the same table.
+// Values that a program passes to an analysis have the same limits as values from a file.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ std::string first(const base::Problems& problems) {
   return problems.empty() ? std::string() : to_string(problems.front());
 }
 
-/// Values within the table's limits give a drive or a refusal in words, never a defect.
+/// Values within the limits give a drive, or a refusal with a message, but never an invalid result.
 TEST(Numbers, ADesignAtTheEndsOfTheTableIsUsableOrRefused) {
   for (const double voltage_V : {1e-6, 1e-3, 100.0, 1e3, 1e5})
     for (const double period_s : {1e-9, 30e-6, 1e-3, 1.0})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steady state at a held speed against its laws and against independent runs.
+// The steady state at a constant speed is compared with physical laws and with independent runs.
 #include "sixstep/analysis/curve/operating_point.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ OperatingPoint at(const Bench& b, double speed) {
 
 const double speeds[] = {0.5, 20.0, 150.0, 400.0, 548.7, 702.6, 716.0, 900.0, 1500.0, -10.0, -300.0};
 
-/// Largest relative residual of a point's energies: the rounding of some hundred segments' integrals, a few eps each, and of their sums.
+/// Largest relative residual of a point's energies. It allows for the rounding of the integrals of some
+/// hundred segments, a few eps each, and of their sums.
 constexpr double balance = 1e-12;
 
 TEST(OperatingPoint, EnergyBalances) {
@@ -40,7 +41,8 @@ TEST(OperatingPoint, EnergyBalances) {
       SCOPED_TRACE(speed);
       EXPECT_LE(std::fabs(p.energy_residual), balance);
       const double left = p.supplied_W - p.copper_W - p.devices_W - p.friction_W - p.shaft_W;
-      // Torque is averaged separately from T_e w; the stored energy differs by the orbit's residual.
+      // The mean torque is computed separately from T_e w. The stored energy changes by the residual of the
+      // periodic orbit.
       EXPECT_NEAR(left, 0.0, balance * (p.copper_W + std::fabs(p.supplied_W) + std::fabs(p.shaft_W)));
       EXPECT_EQ(p.devices_W > 0, !ideal);
     }
@@ -65,14 +67,14 @@ TEST(OperatingPoint, RippleAndRmsAreOrderedAsTheyMustBe) {
     EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu's inequality
     EXPECT_LE(p.phase_rms_A, p.phase_peak_A);
     EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // triangle inequality
-    // The sum of the three currents is zero, so that half the sum of their magnitudes is the largest magnitude. The square of that is at
-    // most 2/3 of the sum of squares.
+    // The three currents sum to zero, so half the sum of their magnitudes is the largest magnitude. Its
+    // square is at most 2/3 of the sum of squares.
     EXPECT_LE(p.winding_current_A, std::sqrt(2.0) * p.phase_rms_A * (1 + 1e-12));
   }
 }
 
-/// A run of the whole product at a speed that an enormous flywheel holds: 1e9 kg m^2 let 0.8 N m change it
-/// by less than 1e-10 rad/s in 0.1 s.
+/// A run of the complete program at a speed that a large flywheel keeps constant: with 1e9 kg m^2, 0.8 N m
+/// changes the speed by less than 1e-10 rad/s in 0.1 s.
 study::Outcome long_run(const Bench& b, double speed, double from_s, double seconds) {
   study::Scenario s = maxon_scenario(control::Mode::duty, b.duty);
   s.duration_s = from_s + seconds;
@@ -106,8 +108,8 @@ TEST(OperatingPoint, IsTheTailOfALongRunTo1e9) {
       Bench b = maxon_bench();
       if (!ideal) b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
       const OperatingPoint p = at(b, speed);
-      // The window has whole electrical turns and begins after 60 time constants. Its ends are rounded to picoseconds: 1e-12 s of 40 A in
-      // 0.02 s and more.
+      // The window has whole electrical turns and begins after 60 time constants. Its ends are rounded to
+      // picoseconds: an error of 1e-12 s of 40 A in at least 0.02 s.
       const double turn_s = 2 * base::pi / (8 * std::fabs(speed));
       const study::Outcome run = long_run(b, speed, 0.035, std::ceil(0.02 / turn_s) * turn_s);
       const auto measured = [&](std::size_t n) { return run.comparisons[n].measured; };
@@ -130,8 +132,8 @@ TEST(OperatingPoint, WithoutInductanceIsTheIdealLine) {
     };
     const double coarse = missing(1e-3), fine = missing(0.5e-3);
     EXPECT_GT(coarse, 0.0) << speed;
-    // The torque lost to inductance is linear in L at first order. Its relative error of second order is the lost torque over the ideal
-    // one.
+    // To first order, the torque lost to inductance is linear in L. The relative error of second order is the
+    // ratio of lost torque to ideal torque.
     EXPECT_NEAR(fine / coarse, 0.5, 2 * coarse / ideal) << speed;
     EXPECT_NEAR(2 * fine - coarse, 0.0, 2 * coarse * coarse / ideal) << speed;
   }
@@ -141,7 +143,7 @@ TEST(OperatingPoint, InductanceBendsTheLineDownwards) {
   const Bench b = maxon_bench();
   for (const double speed : {50.0, 200.0, 400.0, 600.0, 702.6})
     EXPECT_LT(at(b, speed).torque_Nm, analysis::ideal_torque_Nm(b, speed)) << speed;
-  // No current flows at the ideal no-load speed, so that commutation has no effect.
+  // At the ideal no-load speed, no current flows, so commutation has no effect.
   const double axis = analysis::ideal_no_load_rad_s(b);
   EXPECT_NEAR(at(b, axis).torque_Nm, 0.0, 1e-14);
 }
@@ -162,7 +164,8 @@ TEST(OperatingPoint, MirroredItIsTheSame) {
   }
 }
 
-/// Mean over rotors held at many angles, by Gauss quadrature on each piece of the back-EMF's shape; it is exact where the shape is linear.
+/// Mean over rotors held at many angles, by Gauss quadrature on each piece of the back-EMF's shape. It is
+/// exact if the pieces are linear.
 struct HeldMeans {
   double torque = 0.0, square = 0.0, low = 1e9, high = -1e9;
 };
@@ -206,7 +209,7 @@ TEST(OperatingPoint, AtStandstillIsTheMeanOverHeldRotors) {
     const HeldMeans mean = held(c.bench, c.kinks_deg);
     EXPECT_EQ(p.orbit, Orbit::standstill);
     EXPECT_NEAR(p.torque_Nm, 0.0335 * 24 / 1.03, 4 * eps) << "K_t U/R";
-    EXPECT_NEAR(p.torque_Nm, mean.torque, 1e-12);  // the EMF shape's table in degrees and rad
+    EXPECT_NEAR(p.torque_Nm, mean.torque, 1e-12);  // the table of the back-EMF's shape is in degrees and rad
     EXPECT_NEAR(p.ripple_rms_Nm, std::sqrt(std::max(0.0, mean.square - mean.torque * mean.torque)), 2e-8);
     EXPECT_NEAR(p.ripple_Nm, mean.high - mean.low, 1e-8);
     EXPECT_NEAR(p.phase_rms_A, std::sqrt(2.0 / 3) * 24 / 1.03, 1e-13);
@@ -237,7 +240,7 @@ TEST(OperatingPoint, ALockedRotorLoadsTwoPhasesAndItsAngleDecides) {
 TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   for (const Bench& b : {maxon_bench(), shaped(design::BackEmfShape::sine, 120)}) {
     const OperatingPoint still = at(b, 0.0), slow = at(b, 0.01), slower = at(b, 0.005);
-    // The effects are of first order in the speed: back-EMF and the part of the time in commutations.
+    // The effects are of first order in the speed: the back-EMF, and the fraction of time in commutations.
     EXPECT_NEAR(2 * slower.torque_Nm - slow.torque_Nm, still.torque_Nm, 1e-9);
     EXPECT_LT(slow.torque_Nm, slower.torque_Nm);
     EXPECT_LT(slower.torque_Nm, still.torque_Nm);
@@ -245,7 +248,8 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   }
 }
 
-/// Dry friction stays constant as the rotor slows down. At speed 0 the friction is that of slow rotation, but at most the driving torque.
+/// Dry friction stays constant as the rotor slows down. At speed 0, the friction is that of slow rotation,
+/// but at most the driving torque.
 TEST(OperatingPoint, WhatJustTurnsHasTheFrictionOfSlowRotation) {
   Bench b = maxon_bench();
   b.motor.shaft.coulomb_Nm = 0.1;
@@ -281,7 +285,8 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // With random phases, 16 intervals of 99 % have more than one miss in one of 90 runs. The phases of this test are evenly spread.
+  // With random phases, 16 intervals of 99 % have more than one miss in one of 90 runs. The phases in this
+  // test are evenly spread.
   EXPECT_LE(missed, 1) << "seed " << seed;
 }
 
@@ -295,14 +300,15 @@ TEST(OperatingPoint, ChoppedAtNearlyFullDutyComesToFullDuty) {
 }
 
 TEST(OperatingPoint, HeldRotorUnderChoppingIsTheMeanVoltageOverTheResistance) {
-  // Current flows throughout with ideal devices: soft and complementary give d U, hard (2 d - 1) U on average.
+  // Current always flows with ideal devices. The mean voltage is d U for soft and complementary chopping, and
+  // (2 d - 1) U for hard chopping.
   for (const control::Chopping chopping :
        {control::Chopping::soft, control::Chopping::hard, control::Chopping::complementary}) {
     Bench b = maxon_bench();
     b.duty = 0.8;
     b.chopping = chopping;
     const OperatingPoint p = at(b, 0.0);
-    // The start from rest leaves exp(-20) after twenty time constants.
+    // After twenty time constants, exp(-20) of the initial deviation remains.
     EXPECT_NEAR(p.torque_Nm, 0.0335 * analysis::mean_voltage_V(b) / 1.03, std::exp(-20.0) * p.torque_Nm)
         << name_of(chopping);
     EXPECT_NEAR(p.energy_residual, 0.0, balance);

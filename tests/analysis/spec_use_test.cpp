@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each member of a spec has an effect. In each mode, method and kind of sensor, another value changes the design or its run, or is refused
-// by name.
+// Each member of a specification has an effect. In each mode, method and kind of sensor, a changed member
+// changes the design or its run, or is refused by name.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -41,7 +41,8 @@ const Member members[] = {
     {"lowest_speed_rad_s", [](DesignSpec& w) { w.lowest_speed_rad_s = 55.0; }},
 };
 
-/// Results of a spec without its requested values: gains and figures of each loop, the number of warnings, and the run's values.
+/// Results of a specification, without the values that it requests: gains and figures of each loop, the
+/// number of warnings, and the values of the run.
 std::vector<double> result_of(const DesignSpec& w) {
   const auto d = design::design_drive(*design::motor_model(subject.sheet), w);
   if (!d) return {};
@@ -87,7 +88,8 @@ TEST(SpecUse, EachMemberChangesTheDesignOrIsRefusedByName) {
         for (const bool bandwidth : {false, true}) {
           if (method == GainMethod::symmetrical_optimum && mode == Mode::current) continue;
           if (method == GainMethod::pole_placement && bandwidth) continue;
-          // A position loop contains the speed loop of the same method, so that the speed mode covers these methods.
+          // A position loop contains the speed loop of the same method, so the speed mode covers these
+          // methods.
           if (method != GainMethod::pole_placement && mode == Mode::position) continue;
           DesignSpec w = design::on_a_board();
           w.mode = mode;

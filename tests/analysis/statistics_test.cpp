@@ -34,7 +34,7 @@ TEST(Statistics, QuantilesAreValuesThatOccurred) {
   EXPECT_EQ(s.quantile(1.0), 40.0);
 }
 
-/// The median has equally many values above and below it.
+/// The number of values above the median is equal to the number of values below it.
 TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({30, 10, 40}).median(), 30.0);
   EXPECT_EQ(of({30, 10, 40, 20}).median(), 25.0);
@@ -47,7 +47,7 @@ TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({1, 2, never}).median(), 2.0);
   EXPECT_EQ(of({never, never}).median(), never);
   EXPECT_EQ(of({most, most}).median(), most);
-  // Mirrored values have the mirrored median. One of the two middle values alone would not have this symmetry.
+  // Mirrored values have the mirrored median. Either of the two middle values would not have this symmetry.
   EXPECT_EQ(*of({-30, -10, -40, -20}).median(), -*of({30, 10, 40, 20}).median());
 }
 

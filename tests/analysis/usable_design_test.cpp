@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conditions of a usable design, from its own figures, and the default current loop.
+// The conditions of a usable design, computed from its figures, and the default current loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,8 @@ double swing_of(const DesignStudy& study) {
   return 0.0;
 }
 
-/// A Hall step with one pole pair is 60 degrees, so that the rotor swings over a few such steps about its target.
+/// With one pole pair, a Hall step is 60 degrees, so the rotor oscillates by a few such steps around its
+/// target.
 TEST(UsableDesign, APositionOnHallProbesOfOnePolePairIsNone) {
   DesignOrder order = on_a_board(Mode::position);
   order.subject.sheet.pole_pairs = 1;
@@ -58,7 +59,8 @@ void holds_its_figures(const DesignStudy& study) {
   }
 }
 
-/// With every tolerance the overshoot is below the step, the start settles, and the rotor rests near its target.
+/// At each end of the tolerances, the overshoot is below the step, the start settles, and the rotor rests
+/// near its target.
 TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   int usable = 0;
   for (const Mode mode : {Mode::speed, Mode::position}) {
@@ -75,8 +77,8 @@ TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   EXPECT_GE(usable, 2);
 }
 
-/// A move of height h with torque T takes 2 sqrt(h J/T). Where the bus voltage ends the acceleration at the speed `top`, it takes h/top +
-/// top J/T.
+/// A move of height h with torque T takes 2 sqrt(h J/T). If the bus voltage ends the acceleration at the
+/// speed `top`, it takes h/top + top J/T.
 TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
   for (const double bus_V : {6.0, 24.0, 200.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -93,8 +95,8 @@ TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
   }
 }
 
-/// A move of two turns accelerates the rotor to 167 rad/s. With a largest speed of 130 rad/s in the sheet, the loop keeps the speed below
-/// that.
+/// A move of two turns accelerates the rotor to 167 rad/s. If the sheet limits the speed to 130 rad/s, the
+/// loop keeps the speed below this limit.
 TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   for (const double most_rad_s : {0.0, 130.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -113,7 +115,8 @@ TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   }
 }
 
-/// The requirements of a position's run are no overshoot and rest at the target; without them the design's export is refused.
+/// A position run is required to have no overshoot and to rest at the target. Without these requirements, the
+/// export of the design is refused.
 TEST(DesignedMove, IsRequiredToRest) {
   DesignOrder order = on_a_board(Mode::position);
   const auto d = design::design_drive(*design::motor_model(order.subject.sheet), order.spec);
@@ -133,7 +136,8 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
   EXPECT_EQ(study.problems().front().where, "lowest_speed_rad_s");
 }
 
-/// At full torque the step takes J w/T_max. With a flywheel, the default settling time and the run time are longer than that.
+/// At full torque, the step takes J w/T_max. With a flywheel, the default settling time and the run time are
+/// longer than this.
 TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   DesignOrder order = on_a_board(Mode::speed);
   order.spec.load_inertia_kg_m2 = 1e-3;
@@ -143,7 +147,8 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   const double soonest = 1.0135e-3 * 35.5 / 0.195;
   EXPECT_GT(*usual->design.spec.settle_s, soonest);
   for (const design::Warning& w : usual->warnings) EXPECT_NE(w.of, design::Concern::settling) << w.what;
-  // With a settling time that is too short, the run is still long enough to show the real one, and the advice is a slower loop.
+  // If the settling time is too short, the run is still long enough to show the actual settling time, and the
+  // advice is a slower loop.
   order.spec.settle_s = 0.037;
   order.advises = true;
   const auto hasty = study_design(order);
@@ -156,7 +161,8 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   EXPECT_NE(late->cure.find("settle_s = 0.28"), std::string::npos) << late->cure;
 }
 
-/// The test's speed falls to the lowest speed but not below it, for any lowest speed below the top.
+/// In the test, the speed falls to the lowest speed, but not below it, for any lowest speed below the top
+/// speed.
 TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
   for (const double lowest_rad_s : {71.0, 300.0, 420.0, 450.0}) {
     DesignOrder order = on_a_board(Mode::speed);
@@ -171,7 +177,7 @@ TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
   }
 }
 
-/// The converter's range contains the step and its overshoot, for any step.
+/// The converter's range contains the step and its overshoot, for any size of the step.
 TEST(DesignedCurrent, HasAConverterAsWideAsItsStep) {
   for (const double step_A : {1.0, 8.0, -8.0, 15.0}) {
     DesignOrder order = on_a_board(Mode::current);
@@ -205,7 +211,7 @@ TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
   EXPECT_GE(slower, 1);
 }
 
-/// Pole placement gives a positive d1 while 2 x 4.6/T_reg is above R/L.
+/// Pole placement gives a positive d1 as long as 2 x 4.6/T_reg is above R/L.
 TEST(UsualCurrentLoop, OfAnyWindingGainsPositively) {
   for (const double times : {1.0, 0.3, 0.1, 0.03}) {
     design::MotorModel motor = *design::motor_model(sixstep::testing::maxon_sheet());

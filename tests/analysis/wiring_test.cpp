@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The theory of the 36 ways to connect a motor, checked by independent tables and numerically integrated shapes. Renaming phases and probes
-// together must change nothing.
+// The theory of the 36 ways to connect a motor is checked by independent tables and by numerical integration
+// of the shapes. Renaming phases and probes together must not change a result.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const std::string words[] = {"abc", "bca", "cab", "acb", "cba", "bac"};
 constexpr int probes[6][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}};
 constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
 
-/// The phase at each leg and the probe at each pin, as one letter per place.
+/// The phase at each leg and the probe at each pin, one letter for each.
 struct Words {
   std::string phases, probes;
 };
@@ -58,7 +58,7 @@ double of_sines(double deg, const std::vector<plant::general::Harmonic>& all) {
   return sum;
 }
 
-/// A motor, and the torque per ampere of a pair of its phases by model.md 7.
+/// A motor, and the torque per ampere of a pair of its phases, computed according to model.md 7.
 struct Motor {
   const char* name;
   Machine machine;
@@ -111,8 +111,9 @@ std::vector<Motor> motors() {
 
 constexpr double current = 3.0;
 
-/// The midpoint rule with h = pi/18000 errs at a corner by h^2/8 times the change of slope. Six corners with a change of (180/pi)/30 K per
-/// line give 2e-8 K in all. A cosine's error, (h^2/24) f'', is smaller.
+/// At a corner, the midpoint rule with h = pi/18000 has an error of h^2/8 times the change of slope. Six
+/// corners with a change of (180/pi)/30 K per line give 2e-8 K together. The error for a cosine, (h^2/24)
+/// f'', is smaller.
 struct BruteForce {
   std::array<double, 6> sector{};
   double mean = 0, square = 0, first = 0, second = 0;
@@ -136,7 +137,7 @@ WiringDoes expected(const BruteForce& b, const BruteForce& straight) {
   if (*least <= 0 && *most >= 0) return WiringDoes::hums;
   const bool forward = *least > 0, well = std::fabs(b.mean) > 0.75 * straight.mean;
   if (well) return forward ? WiringDoes::forward : WiringDoes::backward;
-  // An early pair's torque rises during the sector.
+  // The torque of an early pair increases during the sector.
   const bool comes = forward ? b.second > b.first : std::fabs(b.first) > std::fabs(b.second);
   if (forward) return comes ? WiringDoes::forward_early : WiringDoes::forward_late;
   return comes ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -168,10 +169,12 @@ TEST(WiringTheory, IsTheTorqueIntegratedByBruteForce) {
   });
 }
 
-/// For each shape, three wirings run well forward and three backward, six are rough in each direction, and eighteen hum.
+/// For each shape, three wirings run well forward and three backward. Six run roughly in each direction, and
+/// eighteen hum.
 TEST(WiringTheory, CountsTheWays) {
   for (const Motor& m : motors()) {
-    // A large current makes a salient rotor turn almost as well one sector ahead, apart from the end of each sector.
+    // With a large current, a salient rotor turns almost as well with a pair one sector ahead, except at the
+    // end of each sector.
     for (const double amperes : {current, 5 * current}) {
       std::array<int, analysis::kinds_of_wiring> count{};
       const analysis::PairTorque torque(m.machine, amperes);
@@ -195,8 +198,8 @@ TEST(WiringTheory, OfAlikePhasesHasHalfTheTorqueASectorOff) {
   });
 }
 
-/// With flat tops, a pair one sector off has mean(g^2) = 4/3 K^2, where K is the mean of g. Without load the motor runs 1.5 times as fast
-/// as with straight wires and draws half of the stalled current.
+/// With flat tops, a pair that is one sector off has mean(g^2) = 4/3 K^2, where K is the mean of g. Without
+/// load the motor runs 1.5 times as fast as with straight wires and draws half of the stalled current.
 TEST(WiringTheory, KnowsWhatATrapezoidDrawsWithoutLoad) {
   const Motor m = motors()[0];
   const analysis::PairTorque torque(m.machine, current);
@@ -223,7 +226,7 @@ TEST(WiringTheory, HumsAboutAnglesToWhichItIsDrivenFromBothSides) {
   });
 }
 
-/// Phases and probes renamed together leave the motor the same.
+/// If phases and probes are renamed together, the motor is the same.
 TEST(WiringTheory, DoesNotSeeNamesThatMoveOnTogether) {
   const auto on = [](WireOrder order) {
     std::string word = words[static_cast<int>(order)];
@@ -247,7 +250,8 @@ TEST(WiringTheory, DoesNotSeeNamesThatMoveOnTogether) {
   });
 }
 
-/// Exchanged names of phases a and b and of probes 2 and 3, with the angle reversed, give the mirrored motor.
+/// If phases a and b, and probes 2 and 3, exchange their names and the angle is reversed, the result is the
+/// mirrored motor.
 TEST(WiringTheory, RunsTheMirroredMotorTheOtherWay) {
   const auto renamed = [](WireOrder order, char x, char y) {
     std::string word = words[static_cast<int>(order)];
@@ -267,7 +271,7 @@ TEST(WiringTheory, RunsTheMirroredMotorTheOtherWay) {
   });
 }
 
-/// The wires at three places after the moves: one letter each.
+/// The wires at the three terminals after the moves, one letter for each.
 std::string moved(const std::string& word, const analysis::Moves& moves) {
   std::string out(3, ' ');
   for (std::size_t n = 0; n < 3; ++n) out[moves[n]] = word[n];
@@ -335,7 +339,7 @@ TEST(Cures, StepByStepLeadFromEveryWiringForward) {
     int steps = 0;
     for (; does(w) != WiringDoes::forward && steps < 5; ++steps) {
       const WiringDoes before = does(w);
-      // Any swap of two phases gives a turning motor.
+      // Any swap of two phases makes a humming motor turn.
       if (before == WiringDoes::hums) {
         for (const analysis::Moves& swap : {analysis::Moves{1, 0, 2}, {0, 2, 1}, {2, 1, 0}})
           EXPECT_NE(does(analysis::cured(w, {.legs = swap})), WiringDoes::hums);

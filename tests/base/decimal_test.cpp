@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A printed decimal converted to another unit is the double of the decimal written in that unit.
+// A printed decimal that is converted to another unit is equal to the double of the decimal written in that
+// unit.
 #include "sixstep/base/decimal.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The claims of base/elementary.hpp: below 1 ulp, exact where it must be, special values, and the same bits
-// everywhere.
+// The guarantees of base/elementary.hpp: errors below 1 ulp, exact results where required, special values,
+// and the same bits everywhere.
 #include "sixstep/base/elementary.hpp"
 
 #include <gtest/gtest.h>
@@ -25,10 +25,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double max = std::numeric_limits<double>::max();
 constexpr double tiny = std::numeric_limits<double>::denorm_min();
 
-// The oracle needs about ten bits more than a double.
+// The reference must have about ten bits more than a double.
 constexpr bool has_oracle = std::numeric_limits<Wide>::digits >= 64;
 
-/// Distance in units of the last place of the double nearest to the true value.
+/// Distance between `got` and the true value, in units of the last place of the nearest double.
 double ulps(double got, Wide truth) {
   const double nearest = static_cast<double>(truth);
   if (std::isinf(nearest) || nearest == 0.0) return got == nearest ? 0.0 : inf;
@@ -36,7 +36,7 @@ double ulps(double got, Wide truth) {
   return static_cast<double>(std::abs(static_cast<Wide>(got) - truth) / std::ldexp(Wide(1), exponent - 52));
 }
 
-// The bounds below are the measured errors, rounded up; base/elementary.hpp claims 1 ulp.
+// The bounds below are the measured errors, rounded up. base/elementary.hpp guarantees 1 ulp.
 class Elementary : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -134,7 +134,7 @@ TEST(ElementaryHardCases, ExactResultsAreExact) {
   EXPECT_EQ(base::log(1.0), 0.0);
   EXPECT_EQ(base::cos(0.0), 1.0);
   EXPECT_EQ(base::exp(1.0), 2.7182818284590452353602874713527);
-  for (int n = 0; n <= 22; ++n) {  // powers of ten that doubles hold exactly
+  for (int n = 0; n <= 22; ++n) {  // powers of ten that a double represents exactly
     double expected = 1.0;
     for (int k = 0; k < n; ++k) expected *= 10.0;
     EXPECT_EQ(base::pow(10.0, n), expected);
@@ -199,7 +199,7 @@ TEST(ElementaryHardCases, SpecialValuesAreThoseOfTheStandard) {
 }
 
 TEST(ElementaryProperties, NeighboursNeverChangePlaces) {
-  // An error well below 1 ulp leaves monotone functions monotone over neighbouring doubles.
+  // If the error is well below 1 ulp, monotone functions stay monotone for neighbouring doubles.
   for (const double start : {-700.0, -2.0, -0.3466, -1e-9, 0.3465, 1.0395, 2.0, 500.0}) {
     double x = start, last = base::exp(x);
     for (int n = 0; n < 5000; ++n) {
@@ -234,7 +234,7 @@ TEST(ElementaryProperties, SymmetriesHoldToTheBit) {
   }
 }
 
-/// FNV-1a over the bits, least byte first, so that the order of bytes in memory does not count.
+/// FNV-1a over the bits, least significant byte first, so that the byte order in memory has no influence.
 struct Digest {
   std::uint64_t value = 0xcbf29ce484222325u;
   void add(double x) {
@@ -244,8 +244,9 @@ struct Digest {
 };
 
 TEST(ElementaryBits, AreTheSameOnEveryCompilerAndPlatform) {
-  // The arguments come from a 64-bit linear congruence and exact arithmetic only. A platform that fails here contracts a b + c or computes
-  // in more than double: check its compiler flags, never this number.
+  // The arguments come from a 64-bit linear congruence and exact arithmetic only. A platform that fails here
+  // contracts a b + c or computes in more than double precision. Check its compiler flags; never change this
+  // number.
   std::uint64_t state = 1;
   const auto next = [&state] {  // in [1, 2)
     state = state * 6364136223846793005u + 1442695040888963407u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Known answers from the generator's authors; moments within bounds from the sample's size.
+// Known results of the generator's authors, and moments within bounds that the sample's size determines.
 #include "sixstep/base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -41,14 +41,15 @@ double mean_of_power(const std::vector<double>& x, double centre, int power) {
   return sum / static_cast<double>(x.size());
 }
 
-/// The mean of n draws has the standard deviation sqrt(variance/n). One mean in 1.7 million is farther off than five of them.
+/// The mean of n draws has the standard deviation sqrt(variance/n). The error exceeds five standard
+/// deviations in one of 1.7 million means.
 double five_sigma(double variance) { return 5.0 * std::sqrt(variance / count); }
 
 TEST(Random, UniformHasItsMoments) {
   for (const std::uint64_t stream : {0u, 1u, 77u}) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", stream " + std::to_string(stream));
     const std::vector<double> x = draws(draw_uniform, stream);
-    // The variances: Var(x) = 1/12; of (x - 1/2)^2: 1/80 - 1/144 = 1/180; of its fourth power: 1/2304 - 1/6400.
+    // Variances: of x: 1/12; of (x - 1/2)^2: 1/80 - 1/144 = 1/180; of (x - 1/2)^4: 1/2304 - 1/6400.
     EXPECT_NEAR(mean_of_power(x, 0.0, 1), 0.5, five_sigma(1.0 / 12));
     EXPECT_NEAR(mean_of_power(x, 0.5, 2), 1.0 / 12, five_sigma(1.0 / 180));
     EXPECT_NEAR(mean_of_power(x, 0.5, 4), 1.0 / 80, five_sigma(1.0 / 2304 - 1.0 / 6400));
@@ -59,7 +60,7 @@ TEST(Random, NormalHasItsMoments) {
   for (const std::uint64_t stream : {0u, 1u, 77u}) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", stream " + std::to_string(stream));
     const std::vector<double> x = draws(normal, stream);
-    // The moments: E x^2k = (2k - 1)!!: Var(x^2) = 3 - 1, Var(x^3) = 15, Var(x^4) = 105 - 9.
+    // Moments E x^2k = (2k - 1)!!, so Var(x^2) = 3 - 1, Var(x^3) = 15, Var(x^4) = 105 - 9.
     EXPECT_NEAR(mean_of_power(x, 0.0, 1), 0.0, five_sigma(1.0));
     EXPECT_NEAR(mean_of_power(x, 0.0, 2), 1.0, five_sigma(2.0));
     EXPECT_NEAR(mean_of_power(x, 0.0, 3), 0.0, five_sigma(15.0));
@@ -117,7 +118,7 @@ TEST(Random, EveryBitOfThePlaceCounts) {
   }
 }
 
-/// The bits are equal on every platform: the normal's depend on base/elementary alone.
+/// The bits are equal on every platform: normal() depends only on base/elementary.
 TEST(Random, HasTheSameBitsEverywhere) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(uniform({1, 2, 3})), 0x3fd98fbfd3f7822eu);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(normal({1, 2, 3})), 0xbfb26ab5baedb393u);

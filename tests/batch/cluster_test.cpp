@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan on a cluster has the rows of one process, for any distribution of the runs. Threads with mailboxes replace the cluster's
-// processes.
+// A plan on a cluster gives the same rows as one process, for any distribution of the runs. Threads with
+// mailboxes replace the processes.
 #include "batch/cluster.hpp"
 
 #include <gmock/gmock.h>
@@ -71,7 +71,7 @@ struct Together {
   std::map<std::size_t, analysis::RunRecord> rows{};
   std::size_t twice = 0;
   std::map<unsigned, std::size_t> made{};
-  std::size_t begins_with = 1;  ///< number of ranks that wait for each other at their first run
+  std::size_t begins_with = 1;  ///< number of ranks that wait for each other in their first run
   std::condition_variable begun{};
   std::map<unsigned, int> exits{};
   std::stop_source stop{};
@@ -152,7 +152,7 @@ TEST(Cluster, HasTheRowsOfOneProcess) {
   }
 }
 
-/// No run ends before each process has begun one, so that a fast process cannot take all of them.
+/// No run ends before each process has begun a run, so a fast process cannot make all runs.
 TEST(Cluster, LetsEverybodyWork) {
   Together cluster;
   cluster.begins_with = 3;
@@ -232,7 +232,8 @@ TEST(Cluster, AnExceptionOfWhoTakesTheRowsComesOut) {
   }
 }
 
-/// The leader's disk is full while a run waits for its answer: no answer comes, and the follower must end nevertheless.
+/// The leader's disk is full while a run waits for its answer. No answer arrives, and the follower must end
+/// nevertheless.
 TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
   Together cluster;
   Cluster leader = cluster.post.of(0, 2);
@@ -250,7 +251,7 @@ TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
   EXPECT_EQ(cluster.exits.at(1), 4);
 }
 
-/// A row that does not fit the leader's columns, as from another build: the leader discards it.
+/// A row that does not fit the leader's columns, as from another build, is discarded by the leader.
 TEST(Cluster, RowsOfOtherColumnsAreNoRows) {
   Together cluster;
   cluster.plan.drives = 1'000'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers in comparison: physical laws judge the results, for any number of threads.
+// A comparison of controllers: its results obey physical laws, for any number of threads.
 #include "batch/contest.hpp"
 
 #include <gtest/gtest.h>
@@ -45,8 +45,8 @@ double gauge(const ContestRow& row, Gauge g) {
   return analysis::gauges_of(*row.nominal)[static_cast<std::size_t>(g)];
 }
 
-/// A sine machine with sine currents has T = 3/2 p psi I and a loss of 3/2 R I^2; ripple and PWM add to it. Six-step's loss is at least
-/// that of its best current, 2 R i^2 with T = K_t i.
+/// A sine machine with sine currents has T = 3/2 p psi I and a loss of 3/2 R I^2, to which ripple and PWM
+/// add. The loss of six-step control is at least the loss of its best current, 2 R i^2 with T = K_t i.
 TEST(Contest, CopperLossIsThatOfTheTorque) {
   const Contest c = compared("teknic-m2310p", 0, 2);
   const design::MotorModel& m = c.bench.design.motor;
@@ -57,12 +57,12 @@ TEST(Contest, CopperLossIsThatOfTheTorque) {
   EXPECT_GE(gauge(field, Gauge::copper), sine_W);
   const double thd = gauge(field, Gauge::distortion);
   EXPECT_LE(gauge(field, Gauge::copper),
-            1.01 * sine_W * (1 + thd * thd));  // harmonics only heat
+            1.01 * sine_W * (1 + thd * thd));  // harmonics cause heat but no mean torque
   const double pair_A = gauge(six, Gauge::mean_torque) / m.K_t_Nm_A;
   EXPECT_GE(gauge(six, Gauge::copper), 2 * m.machine.R_ohm * pair_A * pair_A);
 }
 
-/// Both controllers hold the same load against the same friction, whose sum is the mean torque.
+/// For both controllers, the mean torque is the sum of the same load and the same friction.
 TEST(Contest, TheMeanTorqueIsTheLoads) {
   const Contest c = compared("maxon-251601", 0, 2);
   const double load =
@@ -73,13 +73,13 @@ TEST(Contest, TheMeanTorqueIsTheLoads) {
   }
 }
 
-/// Freewheeling through a switch of 11 mohm avoids a diode's 0.8 V.
+/// Freewheeling through a switch of 11 mohm has lower losses than through a diode of 0.8 V.
 TEST(Contest, ComplementaryChoppingSparesTheDiode) {
   const Contest c = compared("maxon-251601", 0, 2);
   EXPECT_LT(gauge(c.rows[1], Gauge::conduction), 0.5 * gauge(c.rows[0], Gauge::conduction));
 }
 
-/// Each controller holds the course's low speed; a lower one is found by halving it.
+/// Each controller holds the course's low speed. The lowest speed is found by halving.
 TEST(Contest, TheLowestSpeedIsAHalvingOfTheCoursesLowOne) {
   const Contest c = compared("maxon-251601", 0, 2);
   const std::vector<double> speeds = analysis::slow_speeds(c.bench.course);
@@ -97,7 +97,9 @@ TEST(Contest, TheLowestSpeedIsThatDownToWhichAllAreHeld) {
   EXPECT_FALSE(analysis::lowest_speed_rad_s(course, verdicts));
   for (std::size_t n = 0; n < 6; ++n) verdicts[n].ok = true;
   EXPECT_EQ(analysis::lowest_speed_rad_s(course, verdicts), 32.0);
-  for (std::size_t n = 9; n < 18; ++n) verdicts[n].ok = true;  // 16 was not held: later speeds do not count
+  for (std::size_t n = 9; n < 18; ++n)
+    verdicts[n].ok = true;  // 16 rad/s was not held, so speeds tested
+                            // later are ignored
   EXPECT_EQ(analysis::lowest_speed_rad_s(course, verdicts), 32.0);
   for (study::Verdict& v : verdicts) v.ok = true;
   EXPECT_EQ(analysis::lowest_speed_rad_s(course, verdicts), 2.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the processes of a cluster: written ones are read back to the bit, and any other bytes are refused.
+// Messages between the processes of a cluster are read back to the bit. Any other bytes are refused.
 #include "batch/letters.hpp"
 
 #include <gmock/gmock.h>
@@ -127,7 +127,7 @@ TEST(Letters, WhatWasCutOrBrokenIsNone) {
   unknown[0] = 9;
   EXPECT_FALSE(read(unknown));
   std::string endless = whole;
-  endless[15] = '\x7F';  // claims 2^62 rows: the reader must reserve no memory for them
+  endless[15] = '\x7F';  // states 2^62 rows: the reader must not reserve memory for them
   EXPECT_FALSE(read(endless));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search finds the optimum of a locked rotor's law, I = U/R, and names the active limit.
+// The search finds the optimum of a locked rotor, I = U/R, and names the active limit.
 #include "batch/optimise.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ struct Held {
   std::optional<double> min, max;
   std::size_t drives = 0;
   double spread = 0.0;
-  bool tells_current = false;  ///< reports the current as a compared figure too
+  bool tells_current = false;  ///< reports the current also as a compared figure
 
   analysis::Plan plan() const {
     return {.axes = {{.key = "supply.voltage_V", .values = {}, .from = 6, .to = 24},
@@ -114,7 +114,8 @@ TEST(Optimise, WithoutRequirementsEndsInTheCornerOfTheLeastCurrent) {
   EXPECT_TRUE(found.best->limits[1].upper);
 }
 
-/// With enough points the search ends in the corner of the smallest current, I = 6 V/4 ohm. With too few it stops before and reports this.
+/// With enough points, the search ends at the smallest current, I = 6 V/4 ohm. With too few points it stops
+/// earlier and reports this.
 TEST(Optimise, SaysWhetherItEndedByItself) {
   const Found enough = search({}, 400), few = search({}, 4);
   ASSERT_TRUE(enough.best && few.best);
@@ -139,7 +140,7 @@ TEST(Optimise, StopsAtARequirementAndNamesIt) {
   EXPECT_FALSE(found.best->limits[0].upper);
 }
 
-/// Of the varied drives, the one with the largest resistance decides.
+/// Among the varied drives, the drive with the largest resistance determines the result.
 TEST(Optimise, IsRobustOverTheDrives) {
   const Held held{.min = 10.0, .drives = 6, .spread = 0.1};
   const Found found = search(held, 60, 2);

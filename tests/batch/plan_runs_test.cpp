@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's runs equal runs made singly, on any number of threads; they can be stopped and interrupted.
+// The runs of a plan are equal to runs made singly, on any number of threads. They can be stopped and
+// interrupted.
 #include "batch/plan_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -94,7 +95,8 @@ TEST(PlanRuns, GiveTheSpreadThatTheCircuitsLawGives) {
     expected.add(24.0 / R * (1.0 - std::exp(-s.duration_s / tau_s)));
     holds += R >= 1.03;
   }
-  // The engine's error here is 2e-15 of the current (README, R1), nine roundings; exp here adds its own.
+  // The engine's error here is 2e-15 of the current (README, R1), nine roundings. exp() in the expected value
+  // adds its rounding error.
   constexpr double bound = 16 * 0x1p-52 * 24.0 / 0.927;
   for (const double p : {0.0, 0.05, 0.5, 0.95, 1.0})
     EXPECT_NEAR(*current.statistics.quantile(p), *expected.quantile(p), bound) << p;
@@ -163,8 +165,8 @@ TEST(PlanRuns, CountWhatCouldNotStartAndGoOn) {
   EXPECT_EQ(series.figures[0].statistics.missing(), 3u);
 }
 
-/// As in a single run, the measured values fulfil the requirements although a fault stopped the run. The report names the fault beside
-/// them.
+/// As in a single run, the measured values fulfil the requirements although a fault stopped the run. The
+/// report names the fault as well.
 TEST(PlanRuns, AFaultIsToldBesideRequirementsThatTheValuesHold) {
   const Drives drives(stall(100.0), 2, 1);
   const base::Result<study::Outcome> whole = study::run(stall(100.0));

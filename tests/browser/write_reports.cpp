@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_reports FOLDER: the pages that the browser tests open.
+// write_reports FOLDER: writes the pages that the browser tests open.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -39,7 +39,8 @@ std::string page(const sixstep_tests::SyntheticRun& run) {
                          .scenario_text = scenario_text});
 }
 
-/// A grid of a synthetic run, which has no polynomials: each instant has the last row at or before it.
+/// A grid of a synthetic run, which has no polynomials: the row of an instant is the last row at or before
+/// it.
 sixstep::study::Trace sampled(const sixstep::study::Trace& trace) {
   sixstep::study::Trace grid{.columns = trace.columns, .values = {}, .every_event = false};
   grid.values.resize(trace.values.size());

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A second firmware on the layer of faces/c/example/esc: it commutates by the Hall lines, at a quarter of the duty. */
+/* A second firmware on the layer of faces/c/example/esc. It commutates by the Hall lines, at a quarter of the full
+   duty. */
 #include "hal.h"
 
 static esc_status is;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Prints the layout of the structs of sixstep.h, by which declarations in other languages are checked; strict C99. */
+/* Prints the layout of the structs of sixstep.h in strict C99. Declarations in other languages are compared with it. */
 #include <stdio.h>
 
 #include "faces/c/sixstep.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's peak memory does not grow with simulated time while rows stream to a file.
+// The program's peak memory does not grow with simulated time if rows are written to a file.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -55,8 +55,9 @@ class Memory : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// The growth of peak memory, in KiB, from one to ten times the run's duration. Pages of the program's files count too, and the kernel
-  /// maps a varying number of them. Growth with time appears in each of three tries.
+  /// The growth of peak memory, in KiB, from one to ten times the run's duration. Mapped pages of the
+  /// program's files are included, and the kernel maps a varying number of them. A growth with time appears
+  /// in each of three tries.
   long growth_KiB(const std::vector<std::string>& more) {
     long least = growth_in_one_try_KiB(more);
     for (int n = 1; n < 3 && least > bound_KiB; ++n) least = std::min(least, growth_in_one_try_KiB(more));
@@ -64,12 +65,13 @@ class Memory : public ::testing::Test {
   }
 
  private:
-  // The writer buffers 64 KiB of text; the rest are steps of an allocator. In memory 120'000 rows of seven columns would need 6.5 MiB more,
-  // and all columns of each event far more.
+  // The writer buffers 64 KiB of text; the rest of the bound is for steps of the allocator. In memory,
+  // 120'000 rows of seven columns would need 6.5 MiB more, and all columns of each event far more.
   long growth_in_one_try_KiB(const std::vector<std::string>& more) {
     const long once = peak_KiB("0.4", more), tenfold = peak_KiB("4", more);
     std::printf("peak %ld KiB for 0.4 s, %ld KiB for 4 s\n", once, tenfold);
-    // A child starts with its parent's pages from fork, as a trivial program shows: these must not hide the program's own.
+    // After fork, a child starts with its parent's pages, as a trivial program shows. The program's own
+    // memory must be larger.
     EXPECT_GT(once, peak_of_KiB({"/bin/true"}));
     return tenfold - once;
   }
@@ -103,7 +105,8 @@ TEST_F(Memory, DoesNotGrowWhileLogicSignalsStreamToAFile) {
   EXPECT_GT(std::filesystem::file_size(file("a.vcd")), 3u * 1024u * bound_KiB);
 }
 
-// A report keeps its events, 59 MB per simulated second: the measurement includes them, up to their bound.
+// A report keeps its events, 59 MB per simulated second. The measurement includes the events, up to their
+// bound.
 TEST_F(Memory, OfAReportHasABound) {
   const std::string report = file("report.html");
   const long some = peak_KiB("0.4", {"--html", report}), most = peak_KiB("20", {"--html", report});

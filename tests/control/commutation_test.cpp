@@ -53,15 +53,16 @@ TEST(Commutation, MotorCurrentIsHalfTheDifferenceOfThePair) {
 
 TEST(StayingPhase, IsTheOneThatBothPairsHave) {
   StayingPhase state;
-  Measurement<double> m{.i_a_A = 3, .i_b_A = -2, .i_c_A = -1};  // a and c hand over from b
-  EXPECT_EQ(staying_current(state, m, 0), 3.0);                 // a to b: none was before
+  Measurement<double> m{.i_a_A = 3, .i_b_A = -2, .i_c_A = -1};  // a and c carry the current of b
+  EXPECT_EQ(staying_current(state, m, 0), 3.0);                 // a to b: there was no earlier pair
   EXPECT_EQ(staying_current(state, m, 1), 3.0);                 // a to c: a stays
   m = {.i_a_A = 1, .i_b_A = 2, .i_c_A = -3};
-  EXPECT_EQ(staying_current(state, m, 2), 3.0);  // b to c: c stays, whose current decays
+  EXPECT_EQ(staying_current(state, m, 2), 3.0);  // b to c: c stays, and its current decays
   EXPECT_EQ(staying_current(state, m, 2), 3.0);
   EXPECT_EQ(staying_current(state, m, 1), 3.0);  // reversed, a to c: c stays
   m = {.i_a_A = -5, .i_b_A = 0, .i_c_A = 5};
-  EXPECT_EQ(staying_current(state, m, 4), 5.0);  // c to a, with no leg in common: the source's
+  EXPECT_EQ(staying_current(state, m, 4), 5.0);  // c to a has no leg in common with b to c: the source's
+                                                 // current
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A product's additions inside the loops, and the speed loop that sets the duty (thesis 6.2.2).
+// A product's additions within the loops, and the speed loop that sets the duty (thesis 6.2.2).
 #include "sixstep/control/drive_extras.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TYPED_TEST(Extras, TheWindowLimitsTheReferenceAndTheSpeedPi) {
   }
 }
 
-/// All gates are off above the speed limit; then the loop continues from its last output.
+/// Above the speed limit all gates are off. Afterwards the loop continues from its last output.
 TYPED_TEST(Extras, AtALimitTheLoopWaitsWithTheBridgeOff) {
   using S = TypeParam;
   Bench<S> b(Mode::current), free(Mode::current);
@@ -114,12 +114,14 @@ TYPED_TEST(Extras, BackEmfAndMeasuredBusEnterTheDuty) {
   Bench<S> b(Mode::current);
   b.config.extras.feed_forward.K_t_V_s = Gain<S>(0.5);
   b.measured.speed_rad_s = S(0.75);
-  // The voltage u = 0.125 + 0.375 is divided by the nominal 0.75, then by the measured bus.
+  // The voltage u = 0.125 + 0.375 is divided by the nominal bus voltage 0.75, then by the measured bus
+  // voltage.
   EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5 / 0.75, 3 * digit<S>());
   b.config.extras.bus.lowest_bus_V = S(0.5);
   b.measured.bus_V = S(1.0);
   EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5, 3 * digit<S>());
-  // The PI's limit also holds for the sum of its output and the feed-forward. The PI does not wind up against this limit.
+  // The PI's limit also applies to the sum of its output and the feed-forward. The PI does not wind up at
+  // this limit.
   for (int n = 0; n < 10; ++n) EXPECT_LE(b.tick(1.5).duty, S(0.75));
   EXPECT_EQ(b.tick(1.5).duty, S(0.75));
   b.tick(1.25);
@@ -157,7 +159,8 @@ TYPED_TEST(Extras, SmoothChoppingFollowsTheCurrentNotTheConfig) {
   EXPECT_EQ(b.tick(-0.5).chopping, Chopping::soft);
 }
 
-/// The lean drive with arbitrary bits in a fixed-point measurement: duties stay within 0..1, without overflow (sanitizers report one).
+/// The lean drive with arbitrary bits in a fixed-point measurement: duties stay within 0..1, without overflow
+/// (the sanitizers report overflow).
 TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
   using S = TypeParam;
   constexpr int seed = 1307;

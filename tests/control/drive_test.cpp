@@ -127,7 +127,7 @@ TEST(Drive, CascadeRunsOuterToInnerFromOneSample) {
   b.measured.speed_rad_s = 5.0;
   b.tick(20.0);
   EXPECT_EQ(b.telemetry.speed_reference_rad_s, 20.0);                      // 2 * (20 - 10)
-  EXPECT_EQ(b.telemetry.current_reference_A, 0.01 * (20.0 - 5.0) * 20.0);  // in the same tick
+  EXPECT_EQ(b.telemetry.current_reference_A, 0.01 * (20.0 - 5.0) * 20.0);  // computed in the same tick
   EXPECT_EQ(b.telemetry.duty, b.telemetry.current_reference_A / 24.0);
 }
 
@@ -201,7 +201,7 @@ TEST(Drive, FloatFollowsDouble) {
     d.measured.speed_rad_s = w;
     const float a = f.tick(r).duty;
     const double b = d.tick(r).duty;
-    // The terms are up to 24 V: each sample rounds a few times, and the integral keeps the errors.
+    // The terms are up to 24 V. Each sample rounds a few times, and the integral accumulates the errors.
     EXPECT_NEAR(a, b, (n + 1) * 8 * 0x1p-23) << n;
   }
 }

@@ -19,7 +19,8 @@ using namespace sixstep::control;
 static_assert(std::is_trivially_copyable_v<HallState> && std::is_trivially_copyable_v<HallSpeedState> &&
               std::is_trivially_copyable_v<HallPositionState>);
 
-/// Three probes by their definition: each is high over half a turn, and the next one lags by `apart` sectors.
+/// Three probes by their definition: each probe is high over half a turn, and the next probe lags by `apart`
+/// sectors.
 std::uint8_t pins(int sector, int apart) {
   const auto high = [&](int lag) { return (sector - lag + 18 + 1) % 6 < 3; };  // H1 over sectors 5, 0, 1
   return static_cast<std::uint8_t>(high(0) << 2 | high(apart) << 1 | int{high(2 * apart)});
@@ -82,8 +83,8 @@ TEST(Hall, GlitchesShorterThanTheFilterDoNotCount) {
   EXPECT_EQ(hall_step(config, state, pins(1, 2)).moved, 0) << "counted once";
 }
 
-/// A line breaks within a sector of a steadily turning rotor, read 20 times per sector: the impossible code comes within a turn and names
-/// that line.
+/// A line breaks within a sector of a steadily turning rotor, read 20 times per sector. The impossible code
+/// occurs within a turn, and the decoder names the line.
 TEST(Hall, ABrokenLineIsNamed) {
   int named = 0, untold = 0;
   for (const int apart : {2, 1})
@@ -106,21 +107,21 @@ TEST(Hall, ABrokenLineIsNamed) {
               hall_speed_edge(times, now, fault.moved);
             }
             ASSERT_NE(fault.fault, HallFault::none);
-            // A break at another line's edge may seem a jump, which names no line.
+            // A break at another line's edge may appear as a jump, for which no line is named.
             if (breaks_at % 20 == 0 && fault.fault == HallFault::jump) continue;
             ASSERT_EQ(fault.fault, HallFault::impossible_code);
             ++(fault.line == 0 ? untold : named);
             ASSERT_TRUE(fault.line == line || fault.line == 0)
                 << apart << ' ' << direction << ' ' << line << ' ' << level << ' ' << breaks_at;
           }
-  // A false edge between 3/4 and 8/9 of a sector is as early as that of a rotor whose speed changes by a quarter, so that no line is named.
-  // The next sectors differ too: one in six breaks makes an early false edge.
+  // A false edge between 3/4 and 8/9 of a sector is as early as an edge of a rotor whose speed changes by a
+  // quarter, so no line is named. The next sectors also differ: one in six breaks causes an early false edge.
   std::printf("named %d, not told %d\n", named, untold);
   EXPECT_LE(untold, named / 30);
 }
 
-/// A rotor at constant acceleration `a` sectors/s^2 from `w` sectors/s, which reverses at standstill; read 1000 times per second. A line
-/// breaks at `at_s`. The result is the named line, or 0.
+/// A rotor with constant acceleration `a` sectors/s^2 from the speed `w` sectors/s, which reverses at
+/// standstill. It is read 1000 times per second. A line breaks at `at_s`. Returns the named line, or 0.
 std::uint8_t named(double w, double a, double at_s, int line, int level) {
   HallState state;
   HallSpeedState times;
@@ -138,8 +139,8 @@ std::uint8_t named(double w, double a, double at_s, int line, int level) {
   return 0;
 }
 
-/// Where the rotor slows down, reverses or starts, times cannot distinguish the lines: the decoder then names no line, and never a wrong
-/// one.
+/// If the rotor slows down, reverses or starts, times cannot distinguish the lines. The decoder then names no
+/// line, and never a wrong line.
 TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
   int right = 0, wrong = 0, untold = 0;
   for (const double w : {0.0, 3.0, 8.0, 15.0, 30.0})
@@ -158,7 +159,7 @@ TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
 TEST(Hall, FromRestNoEdgeComesSoonerThanARotorBringsIt) {
   HallSpeedState times;
   std::uint32_t now = 0;
-  // The edges' intervals are sqrt(n + 1) - sqrt(n) at a constant torque.
+  // At a constant torque, the intervals of the edges are sqrt(n + 1) - sqrt(n).
   for (const std::uint32_t after : {1000u, 414u, 318u, 268u, 236u, 213u, 196u}) {
     EXPECT_NE(sector_time(times, 1, now + after), SectorTime::soon) << after;
     hall_speed_edge(times, now += after, 1);
@@ -172,7 +173,8 @@ template <class Scalar>
 class HallMotion : public ::testing::Test {};
 TYPED_TEST_SUITE(HallMotion, Scalars);
 
-/// The rotor has eight pole pairs, the timer 1 MHz; speeds are in units of 1000 rad/s so that every scalar holds them.
+/// The rotor has eight pole pairs, the timer 1 MHz. Speeds are in units of 1000 rad/s, so that every scalar
+/// can represent them.
 constexpr double sector_rad_s_ticks = 3.14159265358979323846 / 3 / 8 * 1e6 / 1000;
 
 template <class Scalar>
@@ -270,7 +272,8 @@ TYPED_TEST(HallMotion, PositionRunsOnThroughSectorsAndBackToWhereItWas) {
     const S fraction = sector_fraction(config, speed, now + since);
     return static_cast<double>(hall_position(position, count, speed.direction, fraction)) / sector;
   };
-  // A 16-bit gain has a relative error of 2^-15, here over 30 sectors. The roundings of sum and fraction add to it.
+  // A 16-bit gain has a relative error of 2^-15, here over 30 sectors. The rounding of sum and fraction adds
+  // to it.
   const double near = 3 * digit<S>() / sector + 30 * digit<S>();
   EXPECT_NEAR(at(0), 0.5, near) << "nothing known: the middle of the sector";
   for (int n = 1; n <= 30; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The jerk-limited profile: its limits at every tick, its end point and its duration.
+// The jerk-limited profile: the limits at every tick, the end point and the duration.
 #include "sixstep/control/jerk_profile.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ struct Mover {
   }
 };
 
-/// Largest used fractions of the limits in a tick.
+/// Largest fractions of the limits that a tick uses.
 template <class S>
 struct Shares {
   double speed = 0.0, acceleration = 0.0, jerk = 0.0, travel = 0.0, farthest = 0.0;
@@ -68,7 +68,7 @@ struct Shares {
     const JerkProfileLimits& l = m.limits;
     const double way = std::fabs(d(now.position_deg) - d(before.position_deg));
     farthest = std::fmax(farthest, std::fabs(d(m.state.target_deg)));
-    // A new target lies between two counts, and a position has the resolution of its digits.
+    // A new target is between two counts, and a position has the resolution of its digits.
     const double half = m.count_deg() / 2 + 2 * ulp<S> * (std::fabs(d(now.position_deg)) + 2 * farthest);
     speed = std::fmax(speed, std::fabs(d(now.speed_rad_s)) / l.speed_rad_s);
     acceleration = std::fmax(acceleration, std::fabs(d(now.acceleration_rad_s2)) / l.acceleration_rad_s2);
@@ -107,7 +107,8 @@ TYPED_TEST(JerkProfile, ALongMoveTakesTheClosedForm) {
   }
 }
 
-/// A move that reaches the acceleration but not the speed takes a/j + sqrt((a/j)^2 + 4 d/a) at the fastest.
+/// The fastest move that reaches the acceleration limit but not the speed limit takes a/j + sqrt((a/j)^2 + 4
+/// d/a).
 TYPED_TEST(JerkProfile, AShortMoveIsTheFastestOfItsJerk) {
   for (const double d_rad : {0.3, 0.8, 1.5}) {
     Mover<TypeParam> m({100.0, 5000.0, 3.2e-3}, 50e-6);
@@ -131,7 +132,8 @@ TYPED_TEST(JerkProfile, AMoveIsSymmetric) {
       speed.push_back(static_cast<double>(m.step(target).speed_rad_s));
     while (!speed.empty() && speed.back() == 0) speed.pop_back();
     const double one_count = 64.0 / jerk_profile_speed;
-    // A speed that is no multiple of the acceleration loses the remainder in the first stride of braking instead of the last.
+    // If the speed is no multiple of the acceleration, the remainder is lost in the first step of braking
+    // instead of the last.
     const double near = strides >= 200 ? 64 * one_count : 1.01 * 64.0 / 64;
     for (std::size_t n = 0; n < speed.size(); ++n)
       ASSERT_NEAR(speed[n], speed[speed.size() - 1 - n], near) << strides << " strides, tick " << n;
@@ -169,7 +171,7 @@ TYPED_TEST(JerkProfile, KeepsItsLimitsWhateverIsAskedAndLandsExactly) {
   }
 }
 
-/// A new target in each of a million ticks leaves no remainder in any sum.
+/// After a new target in each of a million ticks, no sum has a remainder.
 TYPED_TEST(JerkProfile, NothingDrifts) {
   Mover<TypeParam> m({200.0, 4000.0, 4e-3}, 50e-6);
   for (int n = 0; n < 1000000; ++n) m.step(300 * std::sin(n * 1e-3) + 1e-3 * n);
@@ -183,7 +185,8 @@ TYPED_TEST(JerkProfile, ATargetSetTooNearIsPassedAndReturnedTo) {
   for (int n = 0; n < 2000; ++n) m.step(10000.0);
   ASSERT_NEAR(static_cast<double>(m.state.now.speed_rad_s), 100.0, 1e-4);
   const double here = static_cast<double>(m.state.now.position_deg), target = here + 10.0;
-  // The braking distance is v^2/2a + v/2 a/j, minus the part already ahead, three strides at most.
+  // The braking distance is v^2/2a + v/2 a/j, minus the part already in progress, which is at most three
+  // steps.
   const double stops = (100.0 * 100.0 / 10000.0 + 50.0 * m.rises_s()) * degrees;
   double farthest = here;
   Shares<TypeParam> shares{.farthest = 10000.0};
@@ -223,7 +226,7 @@ TYPED_TEST(JerkProfile, SmallAndFarAndNothing) {
     const double target = counts * small.count_deg();
     EXPECT_LT(small.land(target), 5000) << counts;
   }
-  // The target lies beyond the range of the counts: the profile moves there at full speed, without a jump.
+  // The target is beyond the range of the counts. The profile moves there at full speed, without a jump.
   Mover<S> far({1e-3, 1.0, 1e-3}, 50e-6);
   for (int n = 0; n < 1000; ++n) far.step(1e9);
   EXPECT_NEAR(static_cast<double>(far.state.now.speed_rad_s), 1e-3, 1e-9);

@@ -41,7 +41,8 @@ TEST(Legs, EachStateAndKindOfPwmHasItsGates) {
   }
 }
 
-/// The choppings of model.md 3 for either switch, once as a pair and once as three legs.
+/// The choppings of model.md 3 for either switch: the command as a pair and the command as three legs have
+/// the same gates.
 TEST(Legs, SixStepAsLegsHasItsGates) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const ChoppedSwitch chopped : {ChoppedSwitch::upper, ChoppedSwitch::lower})
@@ -117,7 +118,7 @@ TYPED_TEST_SUITE(Modulation, Scalars);
 
 constexpr double bus = 0.75;  // relative to the base, for fixed point
 
-/// The rounding error of a duty: a few digits of the voltage over the bus.
+/// The rounding error of a duty: a few digits of the voltage, divided by the bus voltage.
 template <class S>
 constexpr double duty_digits = 8 * digit<S>();
 
@@ -151,7 +152,8 @@ TYPED_TEST(Modulation, BothReachTheVoltagesBetweenTheTerminalsWithinTheirRange) 
 
 TYPED_TEST(Modulation, ClampsBeyondItsRangeAndNotBefore) {
   using S = TypeParam;
-  // A vector along phase a points to a corner and leaves the hexagon last. A vector 30 degrees further leaves the hexagon at U_s/sqrt 3.
+  // A vector along phase a points to a corner of the hexagon and leaves the hexagon last. A vector 30 degrees
+  // further leaves the hexagon at U_s/sqrt 3.
   const double reach = bus / std::numbers::sqrt3, thirty = std::numbers::pi / 6;
   const auto within = [](const LegCommands<S>& legs) {
     bool free = true;

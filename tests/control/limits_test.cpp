@@ -42,7 +42,7 @@ TYPED_TEST(Limits, SpeedFoldsTheDrivingSideBackAndLeavesBraking) {
     const CurrentWindow<S> window = current_window(config, S(w), S{});
     const double high = std::fmin(0.75, std::fmax(0.0, 4 * (0.5 - w)));
     const double low = -std::fmin(0.75, std::fmax(0.0, 4 * (0.5 + w)));
-    // The error is that of the rounded speed times the gain, and the product's own rounding.
+    // The error is the error of the rounded speed times the gain, and the rounding of the product.
     EXPECT_NEAR(static_cast<double>(window.high), high, 3 * digit<S>()) << w;
     EXPECT_NEAR(static_cast<double>(window.low), low, 3 * digit<S>()) << w;
   }
@@ -63,7 +63,7 @@ TYPED_TEST(Limits, RegenerationTakesBrakingAwayAsTheBusRises) {
   EXPECT_TRUE(at(0.0, 1.5).low == S(-0.75)) << "at rest nothing comes back";
 }
 
-/// The whole braking current charges a capacitor, C dU/dt = i: the bus must stay below its limit.
+/// The whole braking current charges a capacitor, C dU/dt = i. The bus voltage must stay below its limit.
 TYPED_TEST(Limits, ABusThatCannotSinkStaysBelowItsLimit) {
   using S = TypeParam;
   LimitsConfig<S> config;
@@ -71,7 +71,7 @@ TYPED_TEST(Limits, ABusThatCannotSinkStaysBelowItsLimit) {
   config.limits_regeneration = true;
   config.bus_V = S(0.875);
   config.A_per_V = Gain<S>(6.0);
-  const double T_over_C = 0.02;  // g T/C = 0.12, well below 1
+  const double T_over_C = 0.02;  // the loop's gain per period, g T/C = 0.12, is well below 1
   double bus = 0.5;
   for (int n = 0; n < 500; ++n) {
     bus += T_over_C * -static_cast<double>(current_window(config, S(0.5), S(bus)).low);

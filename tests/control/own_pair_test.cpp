@@ -9,8 +9,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-/// Difference of the two driven phases' back-EMF shapes in the middle of a sector, which is the pair's torque per ampere. The source of the
-/// positive pair is at +1, its sink at -1 (docs/reference/model.md 3).
+/// Torque per ampere of a pair: the difference of the back-EMF shapes of its two phases in the middle of a
+/// sector. The source of the positive pair is at +1, its sink at -1 (docs/reference/model.md 3).
 double torque_per_ampere(std::uint8_t sector, const sixstep_answer& a) {
   const control::Pair positive = control::positive_pair(sector);
   const auto shape = [&](int leg) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive for its tests: gains of the reference motor per unit, and a simple motor model that supplies the registers.
+// The product's drive for the tests: per-unit gains of the reference motor, and a simple motor model that
+// supplies the registers.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -10,7 +11,8 @@
 
 namespace sixstep::control {
 
-// Bases: the physical values of 1.0. Signals end at 2, so that differences of full-scale signals still fit.
+// Bases: the physical values of 1.0. The range of signals is 2, so differences of full-scale signals still
+// fit.
 inline constexpr double base_A = 20, base_V = 25, base_rad_s = 500, base_deg = 2000;
 // maxon 251601 (model.md 6) at the terminals; the thesis's period; a timer of 1 MHz.
 inline constexpr double R = 1.03, L = 0.572e-3, K_t = 33.5e-3, J = 135e-7, T = 30e-6, U = 24;
@@ -41,7 +43,8 @@ ProtectedConfig<S> product() {
   return c;
 }
 
-/// One mean R-L circuit between the driven terminals with a flat back-EMF: sufficient to close the loops.
+/// A simple motor: an R-L circuit between the driven terminals with a constant back-EMF, sufficient to close
+/// the loops.
 struct Motor {
   double i = 0, w = 0, theta_e = 0.3, t = 0;  // theta_e in sectors
   int sector() const { return static_cast<int>(std::floor(theta_e)); }
@@ -50,7 +53,7 @@ struct Motor {
   template <class S>
   void run(const BridgeCommand<S>& c) {
     const Pair positive = positive_pair(sector_of_hall(pins()));
-    double u = K_t * w;  // bridge off: the terminals float without current
+    double u = K_t * w;  // bridge off: no current flows, and the terminals float
     if (c.enabled) {
       const bool forward = c.pair == positive, backward = c.pair == swapped(positive);
       u = (forward ? 1 : backward ? -1 : 0) * static_cast<double>(c.duty) * U;

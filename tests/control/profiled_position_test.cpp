@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop with a profile in the drives: its feed-forward, its start, and the effect of another configuration.
+// The position loop with a profile: its feed-forward, its start, and the effect of another configuration.
 #include "sixstep/control/profiled_position.hpp"
 
 #include <gtest/gtest.h>
@@ -62,14 +62,14 @@ TEST(ProfiledPosition, SpeedIsAddedToWhatThePositionLoopAsksFor) {
   EXPECT_EQ(with.now().speed_rad_s, 0.0);
 }
 
-/// A shaft that follows exactly needs no correction: the reference is the feed-forward torque alone.
+/// A shaft that follows exactly needs no correction: the reference is only the feed-forward torque.
 TEST(ProfiledPosition, TorqueIsAskedForBeforeAnErrorIsSeen) {
   Bench b{positioning()};
   double most = 0.0;
   b.tick(0.0);
   for (int n = 0; n < 4000; ++n) {
     b.measured.position_deg =
-        b.now().position_deg;  // of the previous tick; the profile's next value is unknown yet
+        b.now().position_deg;  // position of the previous tick; the profile's next value is not known yet
     DriveState<double> next = b.state;
     const ProfiledMotion<double> ahead =
         jerk_profile_step(b.config.extras.position.profile, next.extras.position.profile, 720.0);
@@ -130,7 +130,7 @@ TEST(ProfiledPosition, OtherLimitsInFlightMakeNoJump) {
   const double way = before.speed_rad_s * T * 180 / 3.14159265358979;
   EXPECT_NEAR(b.now().position_deg, before.position_deg + way, 1e-4);
   EXPECT_NEAR(b.now().speed_rad_s, before.speed_rad_s, 1e-3);
-  // A changed gain alone leaves the profile unchanged.
+  // If only a gain changes, the profile is unchanged.
   const JerkProfileState<double> kept = b.state.extras.position.profile;
   next.position_gain = 0.7;
   retune(b.config, b.state, next);

@@ -16,7 +16,7 @@ bool is_number(S x) {
   return x == x && static_cast<double>(x) - static_cast<double>(x) == 0;
 }
 
-/// Laws of every answer, for any register values.
+/// Laws of every command, for any register values.
 template <class S>
 ::testing::AssertionResult lawful(const ProtectedConfig<S>& config, const ProtectedState<S>& state,
                                   const ProtectedTelemetry<S>& t, const BridgeCommand<S>& c) {
@@ -40,7 +40,7 @@ template <class S>
   return ::testing::AssertionSuccess();
 }
 
-/// The codes of probes in an arrangement (model.md 3): each is high over half a turn.
+/// The code of three probes in an arrangement (model.md 3): each probe is high over half a turn.
 std::uint8_t pins_of(HallArrangement arrangement, int sector) {
   constexpr std::uint8_t degrees_60[6] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};
   return arrangement == HallArrangement::degrees_120 ? sixstep::plant::hall_code(sector) : degrees_60[sector];
@@ -79,7 +79,7 @@ void configure(ProtectedConfig<S>& c, std::uint64_t bits) {
                static_cast<S>(0.125 * static_cast<double>(1 + bits / 8388608 % 7))};
   c.align.ticks = bits / 524288 % 2 ? 20 : 0;
   c.align.current_A = static_cast<S>(0.1);
-  if (bits / 1048576 % 2) {  // high thresholds accept nearly everything, to reach deeper states
+  if (bits / 1048576 % 2) {  // high thresholds accept nearly all values, so that deeper states are reached
     const S most = is_fixed<S> ? static_cast<S>(1.99) : static_cast<S>(1e6);
     c.faults = {most, most, -most, most, most, 0xffffffffu, 255};
   }
@@ -129,7 +129,7 @@ TYPED_TEST(ProductFuzz, RandomRegistersNeverLeadToAnUnlawfulCommand) {
       faulty += telemetry.faults != 0;
     }
   }
-  // The test is useful only if it reaches both states.
+  // The test is useful only if both kinds of ticks occur.
   EXPECT_GT(enabled, 10000) << "seed " << seed;
   EXPECT_GT(faulty, 10000) << "seed " << seed;
   std::printf("seed %llu: %ld ticks with the bridge on, %ld with a fault\n",

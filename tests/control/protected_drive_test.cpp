@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive with register inputs: a simple motor model takes it through its activities.
+// The product's drive with register inputs. A simple motor model lets it pass through all its activities.
 #include "sixstep/control/protected_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -46,9 +46,10 @@ TYPED_TEST(Product, CalibratesRunsBrakesAndLetsGo) {
   p.ticks(18);
   EXPECT_EQ(p.telemetry.activity, Activity::run);
   EXPECT_EQ(p.state.current_adc[1].offset_eighths, 8 * 2055);
-  // The integral makes the estimate's mean equal to the setpoint. The estimate resolves a sector's time of 654 us to 1 us, 0.31 rad/s of
-  // 200. Its update once a sector makes the speed vary by some rad/s (dw), and a mean of 1/time differs from that of speed by dw^2/w: 0.1
-  // rad/s for 4.
+  // The integral makes the mean of the estimate equal to the setpoint. The estimate resolves a sector's time
+  // of 654 us to 1 us, that is 0.31 rad/s of 200 rad/s. It is updated once per sector, so the speed varies by
+  // some rad/s (dw). The mean of 1/time differs from the mean of the speed by dw^2/w: 0.1 rad/s for dw = 4
+  // rad/s.
   const auto mean_speed = [&p] {
     p.ticks(8000);
     double sum = 0;
@@ -66,7 +67,7 @@ TYPED_TEST(Product, CalibratesRunsBrakesAndLetsGo) {
   for (int n = 0; n < 20000 && p.telemetry.activity == Activity::brake; ++n) p.tick();
   EXPECT_EQ(p.telemetry.activity, Activity::off);
   EXPECT_FALSE(p.command.enabled);
-  // The brake ends where the estimate is 5 rad/s; between edges the estimate is only an upper bound.
+  // The brake ends when the estimate is 5 rad/s. Between edges, the estimate is only an upper bound.
   EXPECT_LE(std::fabs(p.motor.w), 5.0);
 }
 
@@ -94,7 +95,7 @@ TYPED_TEST(Product, AHallFaultStopsTheBridgeWithinATickAndNamesTheLine) {
       EXPECT_EQ(p.telemetry.activity, Activity::fault);
       EXPECT_TRUE(p.telemetry.hall_line == line || p.telemetry.hall_line == 0);
       named += p.telemetry.hall_line == line;
-      // The recovery: the line is repaired, the fault cleared, run released and requested again.
+      // The recovery: the line is repaired, the fault is cleared, and run is released and requested again.
       p.stuck_low = p.stuck_high = 0;
       p.ticks(3);
       p.request = {.run = true, .clear = true};
@@ -153,7 +154,8 @@ TYPED_TEST(Product, RunsOnOneShunt) {
   }
   EXPECT_EQ(p.telemetry.faults, 0);
   EXPECT_NEAR(speed, 200, 0.41) << "as with phase currents";
-  // The error is half a count of 9.8 mA in the sample, a sixteenth in the offset, and two roundings of the scalar.
+  // The error is half a count of 9.8 mA in the sample, 1/16 of a count in the offset, and two roundings of
+  // the scalar.
   EXPECT_LE(worst, 40.0 / 4096 * (0.5 + 0.0625) + 2 * digit<S>() * base_A);
 }
 
@@ -168,11 +170,12 @@ TYPED_TEST(Product, AdvanceCommutatesBeforeTheEdge) {
   for (int n = 0; n < 500; ++n) {
     const int s = p.motor.sector();
     const double way = p.motor.theta_e - s;
-    p.motor.w = 200;  // constant, as with a large inertia: the last sector's time holds for the present one
+    p.motor.w = 200;  // constant, as with a large inertia: the last sector's time is valid for the present
+                      // sector
     p.tick();
     if (!p.command.enabled || p.motor.sector() != s) continue;
     const Pair pair = p.state.drive.reversed ? swapped(p.command.pair) : p.command.pair;
-    // A tick is 5 % of a sector, and this plant resolves an edge's time to the tick's end.
+    // A tick is 5 % of a sector, and this motor model rounds an edge's time to the tick's end.
     if (way > 0.8 && way < 0.95) {
       EXPECT_EQ(pair, positive_pair(static_cast<std::uint8_t>((s + 1) % 6)));
       ++early;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chopped switch of the pair, against the patterns' definition: by the 120 degrees in which each switch carries current.
+// The chopped switch of the pair is compared with the definition of the patterns, by the 120 degrees in which
+// each switch carries current.
 #include "sixstep/control/pwm_pattern.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ using namespace sixstep::control;
 constexpr PwmPattern all[] = {PwmPattern::upper, PwmPattern::lower, PwmPattern::pwm_on, PwmPattern::on_pwm,
                               PwmPattern::pwm_on_pwm};
 
-/// A rotor that turns in one direction and is driven in it.
+/// A rotor that turns in one direction and is driven in the same direction.
 struct Turning {
   bool backward = false;
   std::uint8_t sector(int n) const { return static_cast<std::uint8_t>(backward ? 5 - n % 6 : n % 6); }
@@ -24,7 +25,7 @@ struct Turning {
   }
 };
 
-/// The definition: a switch carries current in the sectors n and n + 1, and `begun` is true in the second.
+/// The definition: a switch carries current in the sectors n and n + 1. `begun` is true in sector n + 1.
 bool chops(PwmPattern pattern, bool upper, bool begun, bool second_half) {
   switch (pattern) {
     case PwmPattern::upper:
@@ -38,7 +39,7 @@ bool chops(PwmPattern pattern, bool upper, bool begun, bool second_half) {
     case PwmPattern::pwm_on_pwm:
       break;
   }
-  return begun == second_half;  // the first 30 degrees of the switch's 120, and the last
+  return begun == second_half;  // the first and the last 30 degrees of the switch's 120 degrees
 }
 
 template <class Scalar>
@@ -57,7 +58,8 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
         for (int k = 0; k <= ticks; ++k) {
           if (k > 0) move_in_sector(config, state, rotor.sector(n), backward ? S(-0.5) : S(0.5));
           const ChoppedSwitch chopped = chopped_switch(config, state, rotor.sector(n), rotor.pair(n));
-          const bool begun = rotor.pair(n - 1).source == rotor.pair(n).source;  // in the first sector too
+          const bool begun = rotor.pair(n - 1).source == rotor.pair(n).source;  // also true in the first
+                                                                                // sector
           if (pattern == PwmPattern::pwm_on_pwm && is_fixed<S> && k == ticks / 2)
             continue;  // rounding of S decides on which side of the middle this tick lies
           EXPECT_EQ(chopped == ChoppedSwitch::upper, chops(pattern, true, begun, k >= ticks / 2))
@@ -67,7 +69,8 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
     }
 }
 
-/// A braked motor is driven against its rotation: the pair's roles swap, and the staying leg remains the same.
+/// A braked motor is driven against its rotation: the pair's source and sink swap, and the staying leg
+/// remains the same.
 TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   const PwmPatternConfig<double> config{PwmPattern::on_pwm, 0.0};
   PwmPatternState<double> state;
@@ -80,7 +83,8 @@ TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   }
 }
 
-/// With these patterns every switch is chopped for the same time over a turn. Only the patterns upper and lower heat some switches more.
+/// With these patterns, every switch is chopped for the same time over a turn. Only the patterns `upper` and
+/// `lower` heat some switches more.
 TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
     const Turning rotor;
@@ -98,7 +102,7 @@ TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   }
 }
 
-/// The Hall interrupt starts the sector's first half; a fixed pattern leaves the command unchanged.
+/// The Hall interrupt starts the first half of the sector. A fixed pattern leaves the command unchanged.
 TEST(PwmPattern, TheDriveHasItAtTicksAndInTheInterrupt) {
   DriveConfig<double> config{.mode = Mode::duty};
   config.extras.on = true;

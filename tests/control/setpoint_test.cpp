@@ -42,7 +42,7 @@ TYPED_TEST(SetpointShaping, SlewKeepsStepsBelowTheLastBit) {
   }
 }
 
-/// The profile in whole digits is computed by hand: a = 1, limit 3, distance 12.
+/// A profile in whole digits, computed by hand: acceleration a = 1, speed limit 3, distance 12.
 TYPED_TEST(SetpointShaping, ProfileIsTheFastestThatCanStop) {
   using S = TypeParam;
   const double unit = is_fixed<S> ? digit<S>() : 1.0;
@@ -73,7 +73,7 @@ TYPED_TEST(SetpointShaping, ProfileKeepsItsLimitsAndStandsOnTheTarget) {
     const double near = is_fixed<S> ? 0.0 : 8 * digit<S>();
     for (int leg = 0; leg < 3; ++leg) {
       const auto target = static_cast<S>(any(random));
-      // The second leg is cut short: a new target comes during the motion.
+      // The second leg is interrupted: a new target arrives during the motion.
       const int ticks = leg == 1 ? 20 : 100000;
       const double start = static_cast<double>(state.position), v0 = static_cast<double>(state.velocity);
       int n = 0;
@@ -87,7 +87,8 @@ TYPED_TEST(SetpointShaping, ProfileKeepsItsLimitsAndStandsOnTheTarget) {
       }
       if (leg == 1) continue;
       ASSERT_EQ(state.position, target) << "seed " << seed << " run " << run;
-      // The time is at most that of the continuous profile, plus the reversal of v0 and the ticks of rounding.
+      // The time is at most that of the continuous profile, plus the reversal of v0 and a few ticks of
+      // rounding.
       const double way = std::fabs(static_cast<double>(target) - start) + v0 * v0 / a;
       const double best = way > w * w / a ? way / w + w / a : 2 * std::sqrt(way / a);
       ASSERT_LE(n, best + 2 * std::fabs(v0) / a + 4) << "seed " << seed << " run " << run;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The iron's drag, separate from the bearings' friction, and the rotor's inertia from its dimensions.
+// The drag of the iron, separate from bearing friction, and the rotor's inertia computed from its dimensions.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole drives: each loop with its inner loops against an explicit simulation, the placed poles, and required and absent warnings.
+// Complete drives: each loop with its inner loops is compared with an explicit simulation; the placed poles
+// are checked, and warnings that must or must not be given.
 #include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/base/angle.hpp"
 
@@ -49,18 +50,19 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
         (z - 1.0) * (z + loop.placed->plant.a0) + loop.placed->plant.b0 * (loop.gains.d1 * z + loop.gains.d0);
     EXPECT_LE(std::abs(value), 1e-12);
   }
-  // The current loop has placed poles, so its closed denominator is the wanted polynomial.
+  // The current loop has placed poles, so its closed-loop denominator is the required polynomial.
   const Polynomial den = closed(d.loop("current").loop).den;
   const PolePlacement& p = *d.loop("current").placed;
   EXPECT_NEAR(den[1], 2 - 2 * p.z_re, 1e-12);  // (z - z1)(z - z2) in powers of z - 1
   EXPECT_NEAR(den[0], (1 - p.z_re) * (1 - p.z_re) + p.z_im * p.z_im, 1e-12);
 }
 
-/// The cascade as a program, with Runge-Kutta in 50 steps a period for the motor's current and speed. Its error is far below the tolerance.
+/// The cascade as a program, with 50 Runge-Kutta steps per period for the motor's current and speed. Its
+/// error is far below the tolerance.
 std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
   const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.spec.period_s;
   double i = 0, w = 0, theta = 0, e1 = 0, y = 0, e2 = 0;
-  double asked[3] = {0, 0, 0};  // volts: of this sample and of the two before
+  double asked[3] = {0, 0, 0};  // volts: for this sample and for the two before
   std::vector<double> out;
   for (std::size_t k = 0; k < count; ++k) {
     out.push_back(position_gain > 0 ? theta * 180 / 3.14159265358979324 : w);
@@ -76,7 +78,7 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
     constexpr int steps = 50;
     for (int n = 0; n < steps; ++n) {
       const double h = T / steps;
-      // A sample lies in the middle of a period: until the period's end the previous voltage acts.
+      // A sample is in the middle of a period: until the period's end, the previous voltage acts.
       const bool before = d.spec.sampled_in_middle && n < steps / 2;
       const double u = asked[d.spec.delay_periods + (before ? 1 : 0)];
       const auto di = [&](double ii, double ww) { return (u - R * ii - K * ww) / L; };
@@ -103,7 +105,8 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
                                          300 * d.spec.period_s),
                        theta = step_response(closed(d.loop("position").loop), d.spec.period_s,
                                              300 * d.spec.period_s);
-    // The error of Runge-Kutta is (h R/L)^4, 1e-12 a period; it adds over 300 periods and in the angle's sum.
+    // The error of Runge-Kutta is (h R/L)^4, 1e-12 per period. It accumulates over 300 periods and in the sum
+    // of the angle.
     for (std::size_t k = 0; k < 300; ++k) {
       ASSERT_NEAR(w.samples[k], speed[k], 1e-9) << k;
       ASSERT_NEAR(theta.samples[k], position[k], 1e-9) << k;
@@ -111,9 +114,9 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
   }
 }
 
-/// Overshoot, A, of a step of 2 A by the recurrence i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a period. The rotor is
-/// locked, with 1.03 ohm and 0.572 mH at 30 us. The voltage of a sample in the middle of a period acts in the second half of the interval
-/// to the next sample.
+/// Overshoot, A, of a step of 2 A by the recurrence i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h
+/// over half a period. The rotor is locked; 1.03 ohm, 0.572 mH, 30 us. The voltage of a sample in the middle
+/// of a period acts in the second half of the interval to the next sample.
 double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
   const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
   double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
@@ -146,8 +149,8 @@ TEST(DriveDesign, ASampleInTheMiddleMakesTheLoopHalfAPeriodLater) {
   }
 }
 
-/// At the crossover w a delay costs w times the delay in phase, and w hardly changes. Half a period therefore costs half as much as a
-/// period.
+/// At the crossover frequency w, a delay reduces the phase by w times the delay, and w hardly changes. Half a
+/// period therefore reduces it by half as much as a period.
 TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   const DriveDesign start = designed({.mode = Mode::current, .delay_periods = 1});
   const DriveDesign middle = designed({.mode = Mode::current, .delay_periods = 1, .sampled_in_middle = true});
@@ -157,7 +160,8 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
   EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
   EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
-  // The reported longest period leaves 45 degrees of phase, for samples in the middle of a period as for samples at its start.
+  // The reported longest period leaves a phase margin of 45 degrees, both for samples in the middle of a
+  // period and for samples at its start.
   const DriveDesign longest = designed({.mode = Mode::current,
                                         .period_s = middle.longest_period_s,
                                         .delay_periods = 1,
@@ -166,7 +170,8 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_LT(middle.longest_period_s, start.longest_period_s);
 }
 
-/// A duty of hard chopping changes the voltage twice as much: half the gains give the same loops, for each rule.
+/// With hard chopping, a change of the duty changes the voltage twice as much. Half the gains then give the
+/// same loops, for each rule.
 TEST(DriveDesign, HardChoppingTakesHalfTheGains) {
   for (const GainMethod method :
        {GainMethod::pole_placement, GainMethod::cancellation, GainMethod::symmetrical_optimum}) {
@@ -217,7 +222,7 @@ TEST(DriveDesign, EachMethodGivesAStableDrive) {
     }
   }
   const DriveDesign d = designed({.mode = Mode::current, .method = GainMethod::cancellation});
-  EXPECT_LE(d.loop("current").step.overshoot, 1e-12);  // one pole
+  EXPECT_LE(d.loop("current").step.overshoot, 1e-12);  // a single pole
 }
 
 bool warns(const DriveDesign& d, const std::string& of) {
@@ -226,8 +231,8 @@ bool warns(const DriveDesign& d, const std::string& of) {
   return false;
 }
 
-/// A loop with little phase is not usable: |1 + L| at the crossover is 2 sin(phase/2), so that at 20 degrees it amplifies disturbances 2.9
-/// times.
+/// A loop with a small phase margin is not usable. At the crossover, |1 + L| is 2 sin(phase/2): at 20
+/// degrees, the loop amplifies disturbances 2.9 times.
 TEST(DriveDesign, LittlePhaseIsGrave) {
   int usable = 0, unusable = 0;
   for (double settle_s = 0.15e-3; settle_s < 0.5e-3; settle_s *= 1.03) {
@@ -259,7 +264,8 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "is to settle within"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
-  // A ripple above the nominal current is grave, and the named chokes reduce it to a fifth, for any short L/R.
+  // A ripple above the nominal current causes a grave warning, and the proposed chokes reduce the ripple to a
+  // fifth, for any short L/R.
   for (const double period_s : {10e-6, 1e-3}) {
     MotorModel bare = thesis_motor();
     bare.machine.L_H /= 40;
@@ -285,11 +291,12 @@ TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 2.5 * 2.33);
-  // Without a printed nominal current the design takes a tenth of the stall current, 24/1.03/10 A, and is marked so.
+  // If the sheet has no nominal current, the design uses a tenth of the stall current, 24/1.03/10 A, and is
+  // marked accordingly.
   const auto silent = design_drive(thesis_motor(), {.mode = Mode::speed});
   EXPECT_FALSE(silent->nominal_printed);
   EXPECT_DOUBLE_EQ(silent->current_at_full_torque_A, 2.5 * 24 / 1.03 / 10);
-  // The current at full torque is at most that of the whole bus through the held rotor.
+  // The current at full torque is at most the current of the whole bus voltage through the locked rotor.
   motor.nominal_current_A = 20.0;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 24 / 1.03);
 }
@@ -308,8 +315,8 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   const DriveDesign slow = designed(open);
   open.rotor.edges = 1;
   const DriveDesign quick = designed(open);
-  // The delay at 100 rad/s is 3.5 sectors of 1.309 ms with six edges and one sector with one edge. The settling times have that ratio,
-  // apart from the current loop's part.
+  // At 100 rad/s, the delay is 3.5 sectors of 1.309 ms with six edges, and one sector with one edge. The
+  // settling times have the same ratio, apart from the effect of the current loop.
   EXPECT_NEAR(slow.lag.delay_s(), 3.5 * base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(quick.lag.delay_s(), base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(*slow.spec.settle_s / *quick.spec.settle_s, 3.5, 0.35);
@@ -323,7 +330,7 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   EXPECT_FALSE(warns(designed({.mode = Mode::speed}), "Hall"));
 }
 
-/// The overshoot of a loop that its sensor makes unstable is infinite and is not printed.
+/// If the sensor makes a loop unstable, the overshoot is infinite and is not printed.
 TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   DesignSpec spec = on_hall_probes(1, 10e-3);
   spec.settle_s.reset();
@@ -334,8 +341,8 @@ TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
 }
 
-/// At best, T_max changes the speed of J by half the lowest speed within J w_low/(2 T_max). The default settling time is 1.5 times that.
-/// With a small inertia it stays at the thesis's 10 ms.
+/// At best, T_max changes the speed of J by half the lowest speed in J w_low/(2 T_max). The default settling
+/// time is 1.5 times this time. With a small inertia, it stays at the thesis's 10 ms.
 TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
   for (const double load_kg_m2 : {0.0, 1e-4, 1e-3, 1e-2}) {
     const DriveDesign d = designed({.mode = Mode::speed, .load_inertia_kg_m2 = load_kg_m2});
@@ -349,8 +356,8 @@ TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
       << "what somebody asks for stays";
 }
 
-/// 1.2 times the lowest speed must lie below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi). I is half the current of the torque limit, or half the
-/// nominal current, plus the current of friction.
+/// 1.2 times the lowest speed must be below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi). I is half the current of
+/// the torque limit, or half the nominal current, plus the current of friction.
 TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
@@ -380,7 +387,7 @@ TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {
       EXPECT_LT(*d.limits[n].settle_s, *d.limits[n - 1].settle_s);  // faster at a higher speed
     }
     if (n >= 3 && n < 6) {
-      EXPECT_GT(*d.limits[n].settle_s, *d.limits[n - 3].settle_s);  // six edges instead of one
+      EXPECT_GT(*d.limits[n].settle_s, *d.limits[n - 3].settle_s);  // six edges instead of one edge
     }
   }
 }

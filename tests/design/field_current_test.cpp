@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive's current loops against the closed form of their plant.
+// The current loops of the field-oriented drive are compared with the closed form for their plant.
 #include "sixstep/design/loops/field_current.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace sixstep::design;
 
 constexpr double R = 0.515, L_H = 0.286e-3, T = 50e-6;
 
-/// The errors of a step with i[n+1] = -a0 i[n] + b0 v[n - delay] and the chip's own PI; e[0] = 1.
+/// The errors of a step, with i[n+1] = -a0 i[n] + b0 v[n - delay] and the PI of the chip; e[0] = 1.
 std::vector<double> errors_of_step(const FieldAxis& axis, int delay_periods, std::size_t samples) {
   const ZohPlant plant = current_plant(R, L_H, T);
   control::PiConfig<double> config{axis.gains.d1, axis.gains.d0, 1e9};
@@ -42,7 +42,8 @@ TEST(FieldAxis, WithoutDelayTheErrorFallsByThePoleClaimed) {
   }
 }
 
-/// The recurrence e[n+1] = e[n] - k e[n-1] has the roots z and 1 - z; the start e = 1, 1 gives their weights.
+/// The recurrence e[n+1] = e[n] - k e[n-1] has the roots z and 1 - z. The start values e = 1, 1 determine
+/// their weights.
 TEST(FieldAxis, WithADelayTheErrorIsThatOfBothPolesClaimed) {
   for (const double bandwidth : {500.0, 6283.0, 0.6 / T}) {
     const auto axis = field_axis(R, L_H, {bandwidth, T, 1});
@@ -98,7 +99,8 @@ TEST(FieldMachine, TorquePerAmpereIsTheOptimumOfItsTorque) {
   sheet.q_axis_inductance_mH = base::Quantity{0.34, "", ""};
   const FieldMachine m = field_machine(sine_motor(), sheet);
   const control::TorquePerAmpereConfig<double> config{torque_per_ampere_gain(m)};
-  // The flux is psi = K_e/p; the torque's gradient along the circle is 0: psi i_d + (L_d - L_q)(i_d^2 - i_q^2) = 0.
+  // The flux linkage is psi = K_e/p. The torque's gradient along the circle is 0: psi i_d + (L_d - L_q)(i_d^2
+  // - i_q^2) = 0.
   const double psi = 0.01675 / 8, i_q = 12.0, i_d = least_current_d(config, i_q);
   EXPECT_LT(i_d, -1.0);
   EXPECT_NEAR(psi * i_d - 0.1e-3 * (i_d * i_d - i_q * i_q), 0.0, 1e-15);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The design values of the estimator of the magnet's angle, against the bounds of its header.
+// The design values of the estimator of the magnet's angle are compared with the bounds in its header.
 #include "sixstep/design/loops/field_estimate.hpp"
 
 #include <gmock/gmock.h>
@@ -57,8 +57,8 @@ TEST(FieldEstimate, TheTrackingLoopStaysBetweenAHundredthAndATwentiethOfTheContr
   }
 }
 
-/// The pulse is within a quarter of the voltage circle and a fifth of the current. The current of the polarity test keeps the sign of the
-/// saliency.
+/// The pulse uses at most a quarter of the voltage circle and a fifth of the current. The current of the
+/// polarity test does not change the sign of the saliency.
 TEST(FieldEstimate, ThePulseIsNoLargerThanWhatIsThere) {
   for (const double I : {0.5, 4.0, 30.0})
     for (const bool along : {false, true}) {
@@ -89,14 +89,15 @@ TEST(FieldEstimate, TheFluxIsFollowedWhereTheBackEmfIsATenthOfTheCircle) {
   EXPECT_NEAR(c.low_rad_s, c.high_rad_s / 2, 1e-12);
   EXPECT_NEAR(c.flux.pull, 1 - std::exp(-4 * c.high_rad_s * T), 1e-12);
   EXPECT_NEAR(c.flux.magnet_Vs, 0.01675 / 8, 1e-15);
-  // The start accelerates by an eighth of what the full current gives, and ends at the upper speed.
+  // The start accelerates with an eighth of the acceleration at full current, and ends at the upper speed.
   const double unit = 8 * T / (2 * std::numbers::pi) * std::ldexp(1.0, 48);
   EXPECT_NEAR(static_cast<double>(c.start.step), 0.125 * 1.5 * 0.01675 * 4 / 135e-7 * T * unit, 1.0);
   EXPECT_NEAR(static_cast<double>(c.start.enough), c.high_rad_s * unit, 1.0);
 }
 
-/// A rotor behind a field axis that accelerates by x of the largest torque, against a friction of y of the largest torque: a pendulum
-/// without damping. True if the rotor still follows after 20 turns of the axis. Angles are in units of the pendulum's time.
+/// A rotor that follows a field axis: a pendulum without damping. The axis accelerates by x of the largest
+/// torque, against a friction of y of the largest torque. Returns whether the rotor still follows after 20
+/// turns of the axis. Angles are in units of the pendulum's time.
 bool is_taken_along(double x, double y, double before) {
   double behind = -before, axis = 0.0, rotor = 0.0;  // speeds
   constexpr double dt = 1e-3;
@@ -110,7 +111,7 @@ bool is_taken_along(double x, double y, double before) {
   return true;
 }
 
-/// The promised load is below the limit of the equal-area criterion, above which a rotor loses synchronism.
+/// The stated load is below the limit of the equal-area criterion, above which a rotor loses synchronism.
 TEST(FieldEstimate, TheGreatestLoadThatItStartsAgainstIsToldWithRoomToSpare) {
   const auto out = field_estimate(salient, 0, spec(false, true));
   ASSERT_TRUE(out);

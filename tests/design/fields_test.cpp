@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of a configuration's fields name every existing member.
+// The lists of a configuration's fields contain every member.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -42,7 +42,8 @@ void fill(Config& config) {
   std::memset(static_cast<void*>(&config), 0xff, sizeof config);
   __builtin_clear_padding(&config);
 }
-/// Fills each member separately: after an array of structs GCC 12 clears a region of the array's length too early.
+/// Fills each member separately: after an array of structs, GCC 12 clears a region of the array's length at a
+/// wrong address.
 template <class Scalar>
 void fill(FieldDriveConfig<Scalar>& config) {
   std::memset(static_cast<void*>(&config), 0, sizeof config);
@@ -91,7 +92,7 @@ TEST(Fields, AreEveryMemberOfAConfiguration) {
 
 #endif
 
-/// Values of loops that no mode runs stay as they are; the flags of extras have no effect.
+/// Values of loops that the mode does not use are unchanged. The flags of the extras have no effect.
 TEST(Fields, AsFloatTakesThemAll) {
   DriveConfig<double> d;
   d.mode = Mode::speed;

@@ -42,7 +42,7 @@ TEST(Cancellation, IsTheFirmwaresRuleForShortPeriods) {
 TEST(SymmetricalOptimum, HasItsKnownPhaseMargin) {
   EXPECT_NEAR(symmetrical_optimum_phase_rad(2.0) * 180.0 / 3.14159265358979, 36.8698976458440, 1e-12);
   EXPECT_NEAR(symmetrical_optimum_phase_rad(1.0 + std::sqrt(2.0)), 3.14159265358979 / 4, 1e-14);
-  // The intended plant is an integrator with one lag, sampled so fast that the hold is negligible.
+  // The plant that the rule assumes: an integrator with one lag, sampled so fast that the hold is negligible.
   const double J = 1.35e-5, T_max = 0.78, lag = 1e-4, T = lag / 1000;
   for (const double a : {1.5, 2.0, 2.8, 5.0}) {
     const auto rule = symmetrical_optimum(J, T_max, lag, a, T);
@@ -55,7 +55,7 @@ TEST(SymmetricalOptimum, HasItsKnownPhaseMargin) {
         series({{rule->gains.d1 + rule->gains.d0, rule->gains.d1}, {0.0, 1.0}}, sampled(plant, 1, T));
     const LoopFigures f = loop_figures(loop, T);
     ASSERT_TRUE(f.stable && f.phase_rad);
-    // Hold and Euler's integral change the phase by at most w_c T/2 each: w_c T = 1e-3/a.
+    // Hold and Euler integration change the phase by at most w_c T/2 each: w_c T = 1e-3/a.
     EXPECT_NEAR(*f.phase_rad, symmetrical_optimum_phase_rad(a), 1e-3 / a);
     EXPECT_NEAR(*f.crossover_rad_s * a * lag, 1.0, 1e-3);
   }
@@ -66,7 +66,7 @@ TEST(SymmetricalOptimum, TheLagOfALoopIsItsRampError) {
   const PiGains gains = place_poles(plant, 1e-3, 0.9, period_s)->gains;
   const Transfer whole =
       closed(series({{gains.d1 + gains.d0, gains.d1}, {0.0, 1.0}}, {{plant.b0}, {1.0 + plant.a0, 1.0}}));
-  // The sum of 1 - step response is the delay of a ramp, in periods.
+  // The sum of (1 - step response) is the delay for a ramp, in periods.
   const StepResponse r = step_response(whole, period_s, 0.02);
   double lag = 0.0;
   for (const double y : r.samples) lag += (1.0 - y) * period_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive's shape vector, against closed forms for a trapezoid, harmonics, a table and a delta.
+// The drive's shape vector is compared with closed forms for a trapezoid, harmonics, a table and a delta.
 #include "sixstep/design/loops/harmonic_current.hpp"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,9 @@ general::Machine machine_of(general::Shape shape, double K_e = 0.02) {
           .shape = std::move(shape)};
 }
 
-/// The trapezoid's shape vector moves along a hexagon. In the middle of a sector it lies along q with the inradius, 2/sqrt 3; at the
-/// sector's end it is at a corner, 4/3. At d rad from the middle it has moved 4/pi d along the side.
+/// The trapezoid's shape vector moves along a hexagon. In the middle of a sector it is along q with the
+/// length of the inradius, 2/sqrt 3. At the sector's end it is at a corner, 4/3. At d rad from the middle, it
+/// has moved by 4/pi d along the side.
 TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   const double f1 = 4 / pi * 0.5 / (pi / 6);
   const auto c = harmonic_shape(machine_of({.flat_deg = 120}), 0.02 * f1);
@@ -34,7 +35,7 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   for (int n = 0; n < control::shape_points; ++n) {
     const double d = n <= 16 ? n * pi / 96 : (n - 32) * pi / 96;
     const double inradius = 2 / std::numbers::sqrt3, along = 4 / pi * d;
-    // The q axis has turned by d: the part along the side is d behind it.
+    // The q axis has turned by d, so the part along the side is d behind it.
     EXPECT_NEAR(c.shape[n].q * f1, inradius * std::cos(d) + along * std::sin(d), 1e-12) << n;
     EXPECT_NEAR(c.shape[n].d * f1, inradius * std::sin(d) - along * std::cos(d), 1e-12) << n;
   }
@@ -43,8 +44,9 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   EXPECT_NEAR(f.copper, f1 * f1 * std::numbers::sqrt3 * pi / 8, 2e-4);
 }
 
-/// The fundamental cos(theta - 60) gives the constant vector (0, 1). A fifth harmonic of size c rotates backwards in the magnet's frame,
-/// six times a turn. A seventh rotates forwards, six times a turn. A third vanishes.
+/// The fundamental cos(theta - 60) gives the constant vector (0, 1). In the magnet's frame, a fifth harmonic
+/// of amplitude c rotates backwards, six times per turn, a seventh harmonic forwards, six times per turn. A
+/// third harmonic vanishes.
 TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   const auto sine = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {3, 0.3}}}), 0.02);
   EXPECT_TRUE(is_sine(sine));
@@ -64,8 +66,8 @@ TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   }
 }
 
-/// A table of the trapezoid's corners gives the trapezoid's vector. Phases that deviate from the trapezoid to both sides give that of their
-/// mean.
+/// A table with the corners of the trapezoid gives the trapezoid's vector. Phases that deviate from the
+/// trapezoid to both sides give the vector of their mean.
 TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   const auto trapezoid = harmonic_shape(machine_of({.flat_deg = 120}), 0.02);
   const auto table =
@@ -81,7 +83,8 @@ TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   }
 }
 
-/// Sines in three branches are in phase with those of the star with the same terminals, which are smaller by sqrt 3.
+/// Sine voltages in the three branches of a delta give the vector of the equivalent star, whose voltages are
+/// smaller by sqrt 3.
 TEST(HarmonicShape, OfADeltaIsThatOfItsStar) {
   general::Machine m = machine_of({.harmonics = {{1, 1.0}}});
   m.winding = general::Winding::delta;

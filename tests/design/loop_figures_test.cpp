@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scanned figures against the closed form of margins.hpp, against numerical search by the definitions, and against a margin's meaning:
-// with the margin used up, the closed loop is at the stability limit.
+// Figures found by a scan are compared with the closed form of margins.hpp, with numerical search by the
+// definitions, and with the meaning of a margin: when the margin is used up, the closed loop is at the
+// stability limit.
 #include "sixstep/design/loops/loop_figures.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,8 @@ TEST(LoopFigures, AreThoseOfTheClosedForm) {
       const auto exact = margins(plant, gains, period_s, periods == 1);
       const LoopFigures f = loop_figures(open_loop(plant, gains, periods), period_s);
       ASSERT_TRUE(exact && f.crossover_rad_s && f.phase_rad);
-      // |L| is flat in w T where the loop is slow against the sampling: the tolerance is its rounding over its slope.
+      // If the loop is slow compared with the sampling, |L| is flat in w T. The tolerance is the rounding of
+      // |L|, divided by its slope.
       EXPECT_NEAR(*f.crossover_rad_s / exact->crossover_rad_s, 1.0, 1e-9);
       EXPECT_NEAR(*f.phase_rad, exact->phase_rad, 1e-9);
       EXPECT_NEAR(*f.delay_s, std::max(0.0, exact->delay_s), 1e-9 * std::fabs(exact->delay_s));
@@ -69,7 +71,7 @@ TEST(LoopFigures, BandwidthAndSensitivityByBruteForce) {
       peak = std::max(peak, std::abs(1.0 / (1.0 + L)));
       if (bandwidth == 0.0 && std::abs(L / (1.0 + L)) < std::numbers::sqrt2 / 2) bandwidth = turn / period_s;
     }
-    // A peak is flat: an error of half a grid step, 0.15 % of its frequency, enters squared.
+    // A peak is flat: the square of an error of half a grid step, 0.15 % of its frequency, enters.
     EXPECT_NEAR(f.sensitivity_peak / peak, 1.0, 1e-4);
     ASSERT_TRUE(f.bandwidth_rad_s);
     EXPECT_NEAR(*f.bandwidth_rad_s, bandwidth, std::numbers::pi / points / period_s);
@@ -85,7 +87,7 @@ TEST(LoopFigures, AMarginUsedUpIsTheEdgeOfStability) {
       const PiGains scaled{gains.d1 * *f.gain * factor, gains.d0 * *f.gain * factor};
       EXPECT_EQ(is_stable(closed(open_loop(plant, scaled, 1)).den), factor < 1.0);
     }
-    // The delay margin lies between two whole numbers of periods.
+    // The delay margin is between two whole numbers of periods.
     const int fits = static_cast<int>(*f.delay_s / period_s);
     if (fits > 8) continue;  // a polynomial of such a high degree has its own rounding errors
     EXPECT_TRUE(is_stable(closed(open_loop(plant, gains, 1 + fits)).den));
@@ -110,7 +112,7 @@ TEST(StepResponses, AreTheControllersOwnRecursion) {
     ASSERT_NEAR(r.samples[k], i, 1e-12) << k;
     i = -current.a0 * i + current.b0 * sixstep::control::pi_step(pi, state, 1.0 - i);
   }
-  // The exact design settles in about 0.99 ms by model.md 13.
+  // According to model.md 13, the exact design settles in about 0.99 ms.
   EXPECT_NEAR(r.settling_s, 0.99e-3, period_s);
   EXPECT_GT(r.overshoot, 0.0);
 }

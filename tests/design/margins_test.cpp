@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Margins against their definitions: |L| = 1 at the crossover, the closed loop on the unit circle with a margin used up, and a numerical
-// Nyquist scan.
+// Margins are compared with their definitions: |L| = 1 at the crossover, a closed-loop pole on the unit
+// circle when the margin is used up, and a numerical Nyquist scan.
 #include "sixstep/design/loops/margins.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Margins, GainMarginIsWhereTheScannedCurveMeetsTheNegativeRealAxis) {
     for (const bool delayed : {false, true}) {
       const auto m = margins(plant, gains, period_s, delayed);
       ASSERT_TRUE(m);
-      double largest = 0.0;  // crossing of the negative real axis inside the unit circle
+      double largest = 0.0;  // crossing of the negative real axis within the unit circle
       Complex last = open_loop(plant, gains, delayed, 1e-4);
       constexpr int points = 200000;
       for (int n = 1; n <= points; ++n) {

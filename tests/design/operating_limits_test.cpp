@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits and ripple against closed forms. (tests/analysis/design_study_test.cpp compares the ripple with the exact simulation.)
+// Limits and ripple are compared with closed forms. (tests/analysis/design_study_test.cpp compares the ripple
+// with the exact simulation.)
 #include "sixstep/design/loops/operating_limits.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ TEST(Ripple, IsTheSteadyStateOfTwoExponentials) {
       EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, d), highest - lowest, 1e-12);
     }
   }
-  // The ripple is 0.21 A at 5 A by model.md 13, with d = 5 R/24 and the rotor held.
+  // According to model.md 13, the ripple is 0.21 A at 5 A, with d = 5 R/24 and the rotor locked.
   EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, 5 * R / 24), 0.21, 0.005);
 }
 
@@ -50,15 +51,15 @@ TEST(Ripple, IsWorstAtHalfDutyAndTwiceAsLargeInHardChopping) {
   EXPECT_TRUE(std::isinf(period_for_ripple_s(m, 24.0, control::Chopping::soft, 24.0)));
 }
 
-/// A leg's terminal voltage over the bus voltage. With both switches off a diode conducts: the lower one of the source leg, the upper one
-/// of the sink leg.
+/// A leg's terminal voltage, divided by the bus voltage. With both switches off a diode conducts: the lower
+/// diode of the source leg, or the upper diode of the sink leg.
 double terminal(control::LegSide side, bool source) {
   if (side == control::LegSide::high) return 1.0;
   if (side == control::LegSide::low) return 0.0;
   return source ? 0.0 : 1.0;
 }
 
-/// Mean of the pair's voltage over a period, from the timer's control of its legs, while the current flows.
+/// Mean of the pair's voltage over a period while current flows, from the timer's control of its legs.
 double mean_voltage(control::Chopping chopping, control::ChoppedSwitch chopped, double duty) {
   const auto mean = [&](const control::LegCommand<double>& leg, bool source) {
     const control::LegSides sides = control::sides_of(leg);
@@ -88,8 +89,9 @@ TEST(Headroom, EndsWhereTheBusIsUsedUp) {
   EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
 }
 
-/// At the limit the whole bus just holds the staying phase's current. The star's equations with the plant's own shapes are L di/dt = v_k -
-/// e_k - R i_k - v_star. The leaving leg is at the rail of the staying one.
+/// At the limit, the whole bus voltage just keeps the staying phase's current constant. The star's equations
+/// with the plant's shapes are L di/dt = v_k - e_k - R i_k - v_star. The leaving leg is at the rail of the
+/// staying leg.
 TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
   const auto rate = [](const MotorModel& m, double bus_V, double i, double w) {
     const plant::Machine& x = m.machine;
@@ -98,7 +100,8 @@ TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
     const auto& shape = table[1].piece[0].alpha;  // sector 1 begins in the middle of phase a's top
     double e[3], mean = 0.0;
     for (int k = 0; k < 3; ++k) mean += (e[k] = x.K_e_V_s * w * shape[k]) / 3;
-    const double star = (2 * bus_V + 0.0) / 3 - mean;  // staying and leaving leg at the bus, entering at 0
+    const double star = (2 * bus_V + 0.0) / 3 - mean;  // staying and leaving leg are at the bus voltage, the
+                                                       // entering leg at 0
     return bus_V - e[0] - x.R_ohm * i - star;
   };
   for (const double flat_deg : {0.0, 60.0, 100.0, 120.0, 150.0}) {
@@ -111,7 +114,7 @@ TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
       EXPECT_GT(rate(m, 24.0, i, 0.99 * w), 0.0);
       EXPECT_LT(rate(m, 24.0, i, 1.01 * w), 0.0);
     }
-    EXPECT_EQ(commutation_limit_rad_s(m, 24.0, 16.0), 0.0);  // 3 R i alone is above the bus
+    EXPECT_EQ(commutation_limit_rad_s(m, 24.0, 16.0), 0.0);  // 3 R i alone exceeds the bus voltage
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data sheet to model: the reference motor's numbers to the bit, the shapes' sector means, and refused sheets.
+// Data sheet to model: the reference motor's numbers to the bit, the sector means of the shapes, and refused
+// sheets.
 #include "sixstep/design/sheet/parameters.hpp"
 
 #include <gtest/gtest.h>
@@ -78,8 +79,8 @@ TEST(MotorModel, PhaseFrameIsTakenAsItIs) {
 }
 
 TEST(MotorModel, TorquePerAmpereIsTheSectorMeanOfTheShape) {
-  // Check by the shape itself: the midpoint rule over the first sector, with the pair a, b. It integrates piecewise linear shapes with
-  // ramps ending on the grid exactly, others to h^2/24 f''.
+  // A check with the shape itself: the midpoint rule over the first sector, with the pair a, b. It is exact
+  // for piecewise linear shapes whose ramps end on the grid, and has an error of h^2/24 f'' for other shapes.
   for (const double flat : {10.0, 60.0, 90.0, 119.0, 120.0, 121.0, 150.0, 179.0}) {
     Sheet s = maxon();
     s.flat_deg = flat;
@@ -139,7 +140,7 @@ TEST(MotorModel, BothConstantsMustBeOneFact) {
             "the two\n");
 }
 
-/// The numbers are in SI units under keys in mH and gcm2: a run of such a motor would not end.
+/// The values are in SI units under keys in mH and gcm2. A run of such a motor would not end.
 TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   Sheet henry = maxon();
   henry.inductance_mH->value = 0.572e-3;

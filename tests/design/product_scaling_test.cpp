@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::control;
 
-/// The product of docs/reference/fixed-point.md, in double.
+/// The product drive of docs/reference/fixed-point.md, in double.
 ProtectedConfig<double> product() {
   ProtectedConfig<double> c;
   c.drive.mode = Mode::speed;
@@ -48,7 +48,7 @@ TYPED_TEST(ProductScaling, CountsAndEdgesReadTheSameAsInDouble) {
     const auto n = static_cast<std::uint16_t>(counts);
     const double i = adc_value(exact.current_adc[0], AdcState{}, n),
                  u = adc_value(exact.bus_adc, AdcState{}, n);
-    // The tolerance is the gain's rounding times the value, plus half a digit.
+    // The tolerance is the relative rounding of the gain times the value, plus half a digit.
     EXPECT_NEAR(static_cast<double>(adc_value(c.current_adc[0], AdcState{}, n)) * b.current_A, i,
                 gains * std::fabs(i) + digit / 2 * b.current_A * 1.0001);
     EXPECT_NEAR(static_cast<double>(adc_value(c.bus_adc, AdcState{}, n)) * b.voltage_V, u,
@@ -82,14 +82,14 @@ TYPED_TEST(ProductScaling, WhatCannotWorkIsNamed) {
     EXPECT_TRUE(names(scaled.problems(), where)) << where;
   };
   ProtectedConfig<double> p = product();
-  p.faults.over_current_A = 31;  // limits of bases_for: 20.1 A and a reference of 10 A
+  p.faults.over_current_A = 31;  // the limits of bases_for() are 20.1 A and a reference of 10 A
   expect("faults.over_current_A", p, range, 12);
   p = product();
   p.bus_adc.per_eighth *= 2;  // reads up to 80 V
   expect("bus_adc", p, range, 12);
   if (sizeof(S) == 2) {
     p = product();
-    expect("current_adc a", p, range, 16);  // 16 bits in eighths do not fit
+    expect("current_adc a", p, range, 16);  // 16 bits in eighths exceed the range
     p.speed.sector_rad_s_ticks *= 1000;     // a timer of 1 GHz
     expect("speed.sector_rad_s_ticks", p, range, 12);
   }

@@ -11,7 +11,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-// The smallest c^2 + s^2 over the whole turn is twice the lower limit, and the largest four fifths of the upper one.
+// The smallest c^2 + s^2 over the whole turn is twice the lower limit; the largest is four fifths of the
+// upper limit.
 TEST(ResolverWatch, LimitsAreThoseOfTheWholeTurn) {
   for (const design::ResolverShows& x : {design::ResolverShows{},
                                          {.k_1 = 0.9, .k_2 = 1.3, .quadrature_rad = 0.0},
@@ -32,8 +33,8 @@ TEST(ResolverWatch, LimitsAreThoseOfTheWholeTurn) {
   }
 }
 
-// Equal windings have the upper limit as the nearer one, sqrt(5)/2 - 1 away. Results without common samples exceed it more rarely than
-// exp(-z^2/2)/2.
+// For equal windings, the upper limit is closer, at a distance of sqrt(5)/2 - 1. Results without common
+// samples exceed it more rarely than exp(-z^2/2)/2.
 TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
   const double room = std::sqrt(5.0) / 2 - 1;
   int before = 1;
@@ -50,7 +51,8 @@ TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
       const double c = 1 + room / z * base::normal({1, 2, n}), s = room / z * base::normal({1, 3, n});
       beyond += c * c + s * s > limits.greatest_square;
     }
-    // The noise across the radius adds twice its square to the squared amplitude, half of which enters the amplitude.
+    // The noise perpendicular to the radius adds twice its square to the squared amplitude. Half of this
+    // enters the amplitude.
     if (z >= 3) {
       EXPECT_LE(beyond, results * rare + 5 * std::sqrt(results * rare) + 5);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of the back-EMF observers against the closed forms of sensorless_observer.hpp.
+// The back-EMF observers' values are compared with the closed forms of sensorless_observer.hpp.
 #include "sixstep/design/loops/sensorless_observer.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(SensorlessObserver, PlacesBothPolesOfLuenbergersWhereTheLagAsks) {
   const auto& c = o->chip.luenberger;
   EXPECT_NEAR(c.decay, std::exp(-0.515 * 30e-6 / 0.286e-3), 1e-15);
   EXPECT_NEAR(c.drive, (1 - c.decay) / 0.515, 1e-15);
-  // The error's matrix: current and back-EMF after a period.
+  // The matrix of the error: current and back-EMF after a period.
   const double m[2][2] = {{(1 - c.current) * c.decay, -(1 - c.current) * c.drive},
                           {c.emf * c.decay, 1 - c.emf * c.drive}};
   EXPECT_NEAR(m[0][0] + m[1][1], 2 * p, 1e-14) << "trace";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stated delays of an encoder's and a resolver's speed, against the decoders themselves on an oscillating rotor.
+// The stated delays of the speed from an encoder and from a resolver are compared with the decoders on an
+// oscillating rotor.
 #include "sixstep/design/loops/shaft_sensing.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,8 @@ struct Swing {
   double angle_rad(double t) const { return w * (t + part / v * (1 - std::cos(v * t))); }
 };
 
-/// The delay of a measured speed: the phase of its component at v, over whole oscillations after the first ones.
+/// The delay of a measured speed: the phase of its component at v, over whole oscillations after the first
+/// few.
 double found_delay_s(const Swing& shaft, const std::function<double(double)>& told_at) {
   const int swings = 60, skipped = 10;
   const int per_swing = static_cast<int>(std::floor(2 * base::pi / shaft.v / T_s + 0.5));
@@ -41,7 +43,7 @@ double found_delay_s(const Swing& shaft, const std::function<double(double)>& to
 /// A frequency near v rad/s with whole control ticks per oscillation.
 double v_near(double v) { return 2 * base::pi / (T_s * std::floor(2 * base::pi / v / T_s)); }
 
-// The tick reads the last edge, which is half a count old on average.
+// At a tick, the last edge is on average half a count old.
 TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
   for (const double w : {100.0, 5.0}) {  // 1024 lines: a count in 15 us, and in 307 us
     ShaftSensing sensing{.kind = ShaftSensorKind::encoder,
@@ -69,8 +71,9 @@ TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
       return control::pulse_speed(config, state, static_cast<std::uint32_t>(t * 1e8));
     });
     const ShaftSpeedAge age = speed_age(sensing, w);
-    // A tick sees a count that passed before it: counts longer than ticks add half a tick, which is the sampling of the loop itself. An
-    // oscillation by a fifth changes the counts' length by the same part.
+    // A tick uses a count that passed before it. If counts are longer than ticks, half a tick is added, which
+    // is the sampling of the loop itself. An oscillation by a fifth changes the duration of the counts by a
+    // fifth.
     EXPECT_NEAR(found, (age.mean_s + age.hold_s) / 2, 0.2 * age.mean_s + T_s / 2) << w;
     EXPECT_GT(age.mean_s, w > 50 ? 0.99 * T_s : 9 * T_s);
   }
@@ -115,7 +118,8 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     control::tracking_follow(config, state, binary(2 * shaft.angle_rad(t) / (2 * base::pi)));
     return control::tracking_speed(state) * told_unit;
   });
-  // The step itself adds half a tick; the phase of w_n^2/(...) at w_n/12 equals that of its delay to (1/12)^2.
+  // Sampling adds half a tick. At w_n/12, the phase of w_n^2/(...) is equal to that of its delay, to
+  // (1/12)^2.
   EXPECT_NEAR(found, speed_age(sensing, 100).late_s, T_s + 0.01 * speed_age(sensing, 100).late_s);
 
   control::TrackingState noisy{};
@@ -127,12 +131,13 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     const double told = control::tracking_speed(noisy) * told_unit;
     if (n >= skipped) squares += told * told / (steps - skipped);
   }
-  // Sampling changes the loop's time scale by w_n T_s = 6 %. The noise's variance goes with the cube of w_n, so that its rms changes by 1.5
-  // times that. The random sample is accurate to 2 %.
+  // Sampling changes the loop's time scale by w_n T_s = 6 %. The variance of the noise is proportional to
+  // w_n^3, so its rms changes by 1.5 times 6 %. The random sample is accurate to 2 %.
   EXPECT_NEAR(std::sqrt(squares) / speed_jitter_rad_s(sensing, 0), 1, 1.5 * loop->natural_rad_s * T_s + 0.02);
 }
 
-// The speed loop includes its sensor's delay, at its crossover to a degree; the design names the sensor and its effect.
+// The speed loop includes the delay of its sensor, to a degree at its crossover. The design names the sensor
+// and its effect.
 TEST(DriveDesign, KnowsWhatItsEncoderOrResolverCosts) {
   MotorModel motor;
   motor.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relations of a sheet: the 251601's numbers hold, every mistake is found, and valid rounding is accepted.
+// The relations of a sheet: the values of the 251601 are consistent, every error is found, and rounded values
+// are accepted.
 #include "sixstep/design/sheet/sheet_check.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ Relation relation(const SheetCheck& check, const std::string& name) {
   return {};
 }
 
-/// The torque's margin with friction subtracted equals the effect of the roundings of I and I_0.
+/// The tolerance of the torque, with friction subtracted, is equal to the effect of the rounding of I and
+/// I_0.
 TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   const double K = 54.1, I = 2.05, I_0 = 0.092, I_half = 0.005, I_0_half = 0.5e-3, K_half = 0.05;
   Sheet s = printed_251601();
@@ -41,13 +43,14 @@ TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   s.no_load_current_mA = {1e3 * I_0, "", ""};
   s.nominal_torque_mNm = {108, "", ""};
   const Relation r = relation(checked(s), "nominal torque");
-  // The largest ratio is K I as printed over the true K (I - I_0), with the printed torque half a digit below the true one.
+  // The largest ratio is the printed K I, divided by the true K (I - I_0), with a printed torque that is half
+  // a digit below the true torque.
   const double largest = K * I / ((K - K_half) * (I - I_half - I_0 - I_0_half)) * 108 / 107.5 - 1;
   EXPECT_NEAR(r.highest, largest, 0.03 * largest);
   EXPECT_NEAR(r.lowest, -(I_half / I + K_half / K + 0.5 / 108), 1e-9);
 }
 
-/// Only maxon numbers the lines of a sheet.
+/// Only maxon numbers the lines of its sheets.
 TEST(SheetCheck, ANumberedLineOfAnotherMakerIsDoubted) {
   Sheet s = printed_251601();
   EXPECT_TRUE(checked(s).doubts.empty());
@@ -87,8 +90,8 @@ TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
   EXPECT_NEAR(*check.electrical_time_constant_s, 0.286e-3 / 0.515, 1e-18);
 }
 
-/// A no-load speed of 55000 rpm with mechanics for 15000 rpm is a misread line; a winding for 1.5 times the mechanics' speed is valid.
-/// Of U/R, the stall current and the stall torque each single slip is found by the other two: 780 mNm = k_M 24/1.03.
+/// Among U/R, the stall current and the stall torque, a single error is found by the other two: 780 mNm = k_M
+/// 24/1.03.
 TEST(SheetCheck, OneBadValueOfTheStallPointBreaksItsOwnRelationAlone) {
   Sheet s = printed_251601();
   s.stall_current_A->value = 46.6;
@@ -100,12 +103,12 @@ TEST(SheetCheck, OneBadValueOfTheStallPointBreaksItsOwnRelationAlone) {
   s.known_deviation = {"stall current", "nominal torque"};
   EXPECT_TRUE(checked(s).consistent);
   s = printed_251601();
-  s.stall_torque_mNm->value *= 2;  // the two others agree
+  s.stall_torque_mNm->value *= 2;  // the two other values agree
   EXPECT_EQ(relation(checked(s), "stall current").verdict, RelationVerdict::holds);
   EXPECT_EQ(relation(checked(s), "stall torque").remark, "a factor 2: terminal against phase?");
 }
 
-/// 0.572 mH/1.03 ohm = 0.555 ms in either frame, if both have the same.
+/// 0.572 mH/1.03 ohm = 0.555 ms in either frame, if both values have the same frame.
 TEST(SheetCheck, AnElectricalTimeConstantIsLOverR) {
   Sheet s = printed_251601();
   s.electrical_time_constant_ms = Quantity{0.555, "", ""};
@@ -125,7 +128,7 @@ TEST(SheetCheck, ALineKeepsTheValueOfItsOwnKey) {
     }
 }
 
-/// Commutation may take 3 p L_s i/(pi K_t) of the speed that is left, if the current is smooth.
+/// Commutation may reduce the remaining speed by the fraction 3 p L_s i/(pi K_t), if the current is smooth.
 TEST(SheetCheck, ANominalSpeedOnTheIdealLineSaysWhatCommutationTakes) {
   Sheet s = printed_251601();
   s.nominal_speed_rpm = Quantity{5980, "", ""};
@@ -137,6 +140,8 @@ TEST(SheetCheck, ANominalSpeedOnTheIdealLineSaysWhatCommutationTakes) {
       << remark;
 }
 
+/// A no-load speed of 55000 rpm with mechanics for 15000 rpm is a misread line. A winding for 1.5 times the
+/// speed of the mechanics is valid.
 TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   Sheet sheet = printed_251601();
   sheet.max_speed_rpm = Quantity{.value = 6710 / 1.5};
@@ -147,23 +152,23 @@ TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   const SheetCheck check = checked(sheet);
   EXPECT_EQ(relation(check, "maximum speed").verdict, RelationVerdict::broken);
   EXPECT_NEAR(relation(check, "maximum speed").deviation, 2.7, 0.01);
-  sheet.no_load_speed_rpm.reset();  // then the speed follows from U and k_M
+  sheet.no_load_speed_rpm.reset();  // the speed is then computed from U and k_M
   EXPECT_NEAR(relation(checked(sheet), "maximum speed").deviation,
               24 / 33.5e-3 * 30 / base::pi / 6710 * 3.7 - 1, 0.02);
 }
 
 TEST(SheetCheck, ToleranceIsTheRoundingOfWhatIsPrinted) {
-  // The printed 1.03 means 1.025 to 1.035 and 23.3 means 23.25 to 23.35; the voltage is exact.
+  // A printed 1.03 means 1.025 to 1.035, and 23.3 means 23.25 to 23.35; the voltage is exact.
   const Relation r = relation(checked(printed_251601()), "stall current");
   EXPECT_NEAR(r.highest, 0.005 / 1.03 + 0.05 / 23.3, 1e-15);
   EXPECT_EQ(r.lowest, -r.highest);
   Sheet s = printed_251601();
-  s.stall_current_A->last_digit = 0.001;  // as for 23.300 in the file
+  s.stall_current_A->last_digit = 0.001;  // as if 23.300 were printed
   EXPECT_NEAR(relation(checked(s), "stall current").highest, 0.005 / 1.03 + 0.0005 / 23.3, 1e-15);
 }
 
 TEST(SheetCheck, ASheetRoundedToThreeDigitsIsNeverCalledInconsistent) {
-  // True values of a whole grid of motors, each printed to three digits, as in sheets.
+  // True values of a grid of motors, each printed with three digits, as in sheets.
   const auto three = [](double x) {
     const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
     return Quantity{std::strtod(std::to_string(std::round(x / unit) * unit).c_str(), nullptr), "", ""};
@@ -203,14 +208,15 @@ TEST(SheetCheck, EverySlipOfALineThatIsPrintedTwiceIsNoticed) {
         &Sheet::mechanical_time_constant_ms, &Sheet::nominal_voltage_V})
     for (const double slip : {0.5, 0.9, 1.1, 2.0}) {
       Sheet s = printed_251601();
-      s.nominal_torque_mNm.reset();  // this line deviates by more than the print's rounding already
+      s.nominal_torque_mNm.reset();  // this line already deviates by more than its rounding
       (s.*line)->value *= slip;
       if (s.max_efficiency_percent->value >= 100) continue;
       EXPECT_FALSE(checked(s).consistent) << (s.*line)->value;
     }
 }
 
-/// Friction is a torque, equal in the terminal and phase frames: a half current indicates no other frame.
+/// Friction is a torque, which is equal in the terminal frame and the phase frame. Half the current does not
+/// indicate another frame.
 TEST(SheetCheck, FrictionThatLacksHalfTheCurrentIsNoFactorOfAFrame) {
   Sheet s = printed_251601();
   const double w = s.no_load_speed_rpm->value * base::pi / 30.0;
@@ -246,7 +252,8 @@ TEST(SheetCheck, AWellKnownFactorIsNamed) {
 }
 
 TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
-  // Check by the motor's own equations: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, maximised over i.
+  // A check by the motor's equations: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, maximised over
+  // i. I_f: current of friction.
   const double U = 24, R = 1.03, K = 0.0335, I_0 = 0.185, stall = U / R, w_0 = (U - R * I_0) / K;
   double coulomb = 0.0, viscous = 0.0;
   for (double i = I_0; i < stall; i += 1e-4) {
@@ -255,7 +262,7 @@ TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
     viscous = std::max(viscous, w * K * (i - I_0 * w / w_0) / (U * i));
   }
   const double x = std::sqrt(I_0 / stall);
-  EXPECT_NEAR(coulomb, (1 - x) * (1 - x), 1e-8);  // flat to second order in the step at the maximum
+  EXPECT_NEAR(coulomb, (1 - x) * (1 - x), 1e-8);  // at the maximum, the error is of second order in the step
   EXPECT_NEAR(viscous, (1 - x) / (1 + x), 1e-8);
   Sheet s = printed_251601();
   s.max_efficiency_percent->last_digit = 1e-3;
@@ -281,7 +288,8 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
             "known_deviation = \"stall\" names no relation of this sheet; it has: stall");
 }
 
-/// In a sheet with few values, units that are too large by a thousand break no relation. The values are then doubted for their size.
+/// In a sheet with few values, units that are too large by a thousand violate no relation. The values are
+/// then doubted because of their size.
 TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   const auto doubts = [](const Sheet& sheet) {
     std::vector<std::string> out;
@@ -306,7 +314,7 @@ TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   EXPECT_EQ(doubts(s)[0].substr(0, 64), "inertia_kgm2 = 48 makes R J/K_t^2 4.41e+04 s, and next to no mot");
 }
 
-/// A value printed next to a key of the file is in that key's unit.
+/// A value printed beside a key of the file is in the unit of this key.
 TEST(SheetCheck, MessagesNameValuesAsTheFileWritesThem) {
   Sheet s = printed_251601();
   s.with_brake = true;

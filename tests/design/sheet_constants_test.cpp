@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every printed form of a constant gives the same machine, and a bad sheet gives one message with its cure.
+// Every printed form of a constant gives the same machine. A wrong sheet gives one message with its cure.
 #include "sixstep/design/sheet/sheet_constants.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using base::Quantity;
 
 constexpr double eps = 0x1p-52;
 
-/// A sine machine of the 251601's size without a torque constant.
+/// A sine machine of the 251601's size, without a torque constant in its sheet.
 Sheet without_constant() {
   Sheet s = printed_251601();
   s.torque_constant_mNm_A.reset();
@@ -41,7 +41,7 @@ TEST(SheetConstants, EachWayIsTheTableOfConstantsForASine) {
   s = without_constant();
   s.speed_constant_rpm_V = Quantity{300, "line-peak", ""};
   EXPECT_NEAR(K_e(s), 9.549296585513721 / (300 * std::sqrt(3.0)), 4 * eps);
-  s.speed_constant_rpm_V->frame = "six-step";  // from K_t = 9549/KV
+  s.speed_constant_rpm_V->frame = "six-step";  // computed from K_t = 9549/KV
   EXPECT_NEAR(K_e(s), 9.549296585513721 / 300 / 1.6539866862653762, 4 * eps);
   s = without_constant();
   s.torque_constant_Nm_A = Quantity{0.03, "peak", ""};
@@ -129,7 +129,7 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
       "phase, 3.295 A peak, a nominal torque of 100.7 mNm; write frame = \"terminal\" or \"rms\"");
 }
 
-/// The message names the current of a sheet without a torque constant, whose torque is unknown.
+/// For a sheet without a torque constant, the torque is unknown, and the message names the current instead.
 TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
   Sheet s = without_constant();
   s.nominal_current_A = Quantity{10, "", ""};
@@ -138,7 +138,8 @@ TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
                                    "another; \"rms\" means a sine of 10 A rms in each phase, 14.14 A peak;"));
 }
 
-/// Faulhaber prints k_M = 40.2 mNm/A and k_E = k_M/9.5493 = 4.21 mV/min-1: the mean between the driven pair.
+/// Faulhaber prints k_M = 40.2 mNm/A and k_E = k_M/9.5493 = 4.21 mV/min-1: the mean over a sector between the
+/// driven pair.
 TEST(SheetConstants, ABackEmfOverASectorIsTheTorqueConstant) {
   for (const BackEmfShape shape : {BackEmfShape::sine, BackEmfShape::trapezoid}) {
     Sheet s = without_constant();
@@ -228,7 +229,7 @@ TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
   EXPECT_NEAR(*one.all_viscous_Nm_s, loss / w0, 4 * eps * loss / w0);
   EXPECT_NEAR(*one.all_coulomb_Nm, loss, 4 * eps * loss);
   EXPECT_EQ(one.B_Nm_s, *one.all_viscous_Nm_s);  // by default all friction is viscous
-  // A motor with T = 3e-6 w + 2e-3, and its currents at two speeds.
+  // A motor with T = 3e-6 w + 2e-3, and its no-load currents at two speeds.
   const double B = 3e-6, T_c = 2e-3, w[] = {200.0, 700.0};
   s.no_load_speed_rpm = Quantity{w[1] * 30 / base::pi, "", ""};
   s.no_load_current_mA = Quantity{(B * w[1] + T_c) / 0.0335 * 1e3, "", ""};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load points of a sheet against n_0 = (U - R I_0)/k_M and k_M I_0 = T_c + B w_0: by the formula, by a printed sheet, and with every
-// mistake found for each form of friction.
+// The no-load points of a sheet: n_0 = (U - R I_0)/k_M and k_M I_0 = T_c + B w_0. Checked with the formula,
+// with a printed sheet, and with every error for each form of friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,7 +75,8 @@ Sheet sheet_of(const Motor& m) {
 }
 
 TEST(SheetNoLoad, ASheetsOwnFrictionMakesItsNoLoadCurrent) {
-  // The sheet of Faulhaber 3564 B as printed, with its four windings: k_M mNm/A, I_0 A, n_0 rpm, U V, R ohm, C_0 and C_V of all.
+  // The sheet of Faulhaber 3564 B as printed, with its four windings: k_M mNm/A, I_0 A, n_0 rpm, U V, R ohm.
+  // C_0 and C_V are equal for all windings.
   const double C_0 = 1.10, C_V = 2.4e-4;
   const struct {
     double U, R, n_0, I_0, k_M;
@@ -117,7 +118,7 @@ TEST(SheetNoLoad, TheSpeedIsHeldWhicheverWayFrictionIsGiven) {
   for (const std::vector<Member>& lines : silent) {
     Sheet s = sheet_of(m);
     for (const Member line : lines) (s.*line).reset();
-    // Friction that the sheet does not print is no part of the computed side.
+    // Friction that the sheet does not print is not part of the computed value.
     const double dry = s.coulomb_friction_mNm ? m.T_c : 0.0, viscous = s.viscous_friction_Nm_s ? m.B : 0.0;
     const double w = (m.U - m.R * dry / m.K) / (m.K + m.R * viscous / m.K);
     const double I = s.no_load_current_mA ? m.I() : (dry + viscous * w) / m.K;
@@ -160,7 +161,7 @@ TEST(SheetNoLoad, TheCurrentIsHeldAgainstTheFrictionByTheFormula) {
     EXPECT_NEAR(r.deviation, 1.0 / slip - 1.0, 1e-12);
     EXPECT_EQ(r.verdict, RelationVerdict::broken) << slip;
   }
-  Sheet without_friction = good;  // a motor without stated friction that draws a current
+  Sheet without_friction = good;  // a motor without printed friction that draws a no-load current
   without_friction.viscous_friction_Nm_s->value = 0.0;
   without_friction.coulomb_friction_mNm.reset();
   EXPECT_EQ(relation(without_friction, "no-load current").deviation, -1.0);
@@ -201,7 +202,7 @@ TEST(SheetNoLoad, ASecondPointIsHeldAsTheFirst) {
   s.second_no_load_current_mA = fine(m.I(U) * 1e3);
   EXPECT_NEAR(relation(s, "second no-load speed").deviation, 0.0, 1e-12);
   EXPECT_NEAR(relation(s, "second no-load current").deviation, 0.0, 1e-12);
-  Sheet dry_given = s;  // B then follows from the first point, and the second may contradict it
+  Sheet dry_given = s;  // B is computed from the first point, and the second point may contradict it
   dry_given.viscous_friction_Nm_s.reset();
   EXPECT_FALSE(found(dry_given, "no-load current"));
   EXPECT_NEAR(relation(dry_given, "second no-load current").deviation, 0.0, 1e-12);
@@ -237,7 +238,8 @@ TEST(SheetNoLoad, AnotherMotorsFrictionIsAllowedToDiffer) {
   EXPECT_EQ(measured.verdict, RelationVerdict::holds);
   EXPECT_FALSE(measured.remark.empty());
   s.viscous_friction_Nm_s->kind = Trust::unstated;
-  s.no_load_current_mA->range = base::Interval{m.I() * 1e3, 1.25e3 * m.I()};  // the file: sources differ
+  s.no_load_current_mA->range = base::Interval{m.I() * 1e3, 1.25e3 * m.I()};  // in the file, the sources
+                                                                              // differ
   const Relation ranged = relation(s, "no-load current");
   EXPECT_EQ(ranged.verdict, RelationVerdict::holds);
   EXPECT_NEAR(ranged.lowest, -0.2, 1e-8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets for tests, and the messages about a wrong one.
+// Sheets for tests, and the messages about wrong sheets.
 #pragma once
 #include <string>
 

@@ -32,7 +32,7 @@ double step_of(const SpeedLawDesign& d, const std::string& symbol) {
   return 0.0;
 }
 
-/// The stated gain is the minimum of a weighted sum: the Riccati equation, iterated from zero, gives the same gain.
+/// The designed gain minimises a weighted sum: the Riccati equation, iterated from zero, gives the same gain.
 TEST(SpeedLawDesign, StateFeedbackIsTheLinearQuadraticRegulatorOfItsWeight) {
   for (const double settle : {2e-3, 20e-3, 0.5}) {
     SpeedLawSpec spec = maxon();
@@ -50,7 +50,8 @@ TEST(SpeedLawDesign, StateFeedbackIsTheLinearQuadraticRegulatorOfItsWeight) {
   }
 }
 
-/// The friction term equals the friction over a sample, and the observer's matrix has the trace and the determinant of its double pole.
+/// The friction term is equal to the friction over a sample. The trace and the determinant of the observer's
+/// matrix are those of its double pole.
 TEST(SpeedLawDesign, ObserverAndFrictionAreWhatTheyClaim) {
   for (const auto& d : {design::state_feedback(maxon()), design::disturbance_rejection(maxon())}) {
     ASSERT_TRUE(d);
@@ -85,7 +86,7 @@ TEST(SpeedLawDesign, TheBoundaryLayerFollowsFromItsPole) {
   EXPECT_NEAR(step_of(*d, "t_r"), 1.35e-5 / 0.1, 1e-15);
 }
 
-/// The lag is the sum of the samples' errors of a current step on a winding, with and without a period of delay.
+/// The lag is the sum of the errors of a current step on a winding, with and without a delay of one period.
 TEST(SpeedLawDesign, ACurrentLoopIsLateByResistanceOverIntegralGain) {
   const double R = 1.03, L = 0.572e-3, T = 30e-6;
   const auto placed = design::place_poles(design::current_plant(R, L, T), 1e-3, 0.9, T);
@@ -118,7 +119,7 @@ double applied(const design::Polynomial& p, std::vector<double> x, std::size_t n
   return sum;
 }
 
-/// q u = r setpoint - y speed holds for arbitrary signals: the block's own outputs for noise.
+/// Checks q u = r setpoint - y speed for arbitrary signals: the outputs of the block itself for noise.
 template <class Step>
 void expect_linear(const design::LinearLaw& law, Step step) {
   std::mt19937 random{20261126};
@@ -175,7 +176,7 @@ TEST(SpeedLawDesign, LinearLawsAreWhatTheBlocksCompute) {
                 });
 }
 
-/// A PI as a linear law equals the PI's loop, from its setpoint and at its output.
+/// A PI written as a linear law is equal to the PI's loop, from its setpoint and at its output.
 TEST(SpeedLawDesign, APiAsALinearLawIsItsLoop) {
   design::DriveLoops loops;
   loops.motor.machine.R_ohm = 0.515;

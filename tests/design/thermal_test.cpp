@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two-body thermal model against its differential equations, integrated numerically, and against the textbook's two exponentials.
+// The two-body thermal model is compared with a numerical integration of its differential equations and with
+// the textbook's two exponentials.
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ using design::ThermalModel;
 
 constexpr ThermalModel flat{4.5, 4.25, 16.6, 212.0, 125.0};
 
-/// Fourth-order Runge-Kutta on the equations as the header states them.
+/// Fourth-order Runge-Kutta on the equations in the header.
 Temperatures integrated(const ThermalModel& m, const Heating& h, Temperatures at, double seconds, int steps) {
   const double C_w = m.winding_s / m.winding_housing_K_W, C_h = m.motor_s / m.housing_ambient_K_W;
   using Pair = std::array<double, 2>;
@@ -49,7 +50,8 @@ TEST(Thermal, ClosedFormIsTheEquationsSolution) {
       const Heating h{copper_W, 1.5, 30.0};
       const Temperatures start{55.0, 40.0};
       const Temperatures exact = design::temperatures_after(flat, h, start, seconds);
-      // The error is of fourth order, with steps of at most 1/40 of the fastest time constant: (1/40)^4/120 of the change.
+      // The error is of fourth order. With steps of at most 1/40 of the fastest time constant, it is
+      // (1/40)^4/120 of the change.
       const int steps = 200 + static_cast<int>(seconds * 40 * (1 + copper_W / 100) / 8.0);
       const Temperatures rk4 = integrated(flat, h, start, seconds, steps);
       const double change = std::fabs(exact.winding_degC - 55) + std::fabs(exact.housing_degC - 40) + 1;
@@ -75,7 +77,7 @@ design::Sheet ranged_sheet() {
   return s;
 }
 
-/// Each end is tested alone: none heats the winding more than the ends called worse.
+/// Each end is tested separately: no end heats the winding more than the ends that are called worse.
 TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
   const design::Sheet sheet = ranged_sheet();
   const auto worse = design::at_worse_ends(sheet);
@@ -97,7 +99,7 @@ TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
     }
 }
 
-/// No corner of the ranges ends sooner than the worse ends, and the values themselves end later.
+/// No corner of the ranges reaches the limit sooner than the worse ends. The middle values reach it later.
 TEST(ThermalRanges, NoCornerEndsSoonerThanTheWorseEnds) {
   const design::Sheet sheet = ranged_sheet();
   for (const double copper_W : {12.0, 35.0, 560.0}) {
@@ -143,8 +145,8 @@ TEST(ThermalRanges, ARangeWithoutAWorseEndIsNone) {
   EXPECT_FALSE(design::at_worse_ends(sheet));
 }
 
-/// The network has k times the resistances and 1/k times the capacities: the same time constants, and k times the rise for the same
-/// constant loss.
+/// A network with k times the resistances and 1/k times the capacities has the same time constants, and k
+/// times the temperature rise for the same constant loss.
 TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
   const ThermalModel scaled{4.5 * 1.3, 4.25 * 1.3, 16.6, 212, 125};
   EXPECT_NEAR(design::greater_rise(flat, scaled), 1.3, 1e-12);
@@ -152,7 +154,7 @@ TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
 }
 
 TEST(Thermal, CoolingIsTheTextbooksTwoExponentials) {
-  // The two rates without loss are the roots of s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w T_h) = 0.
+  // Without losses, the two rates are the roots of s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w T_h) = 0.
   const long double T_w = 16.6L, T_h = 212.0L, ratio = (16.6L / 4.5L) / (212.0L / 4.25L);
   const long double sum = 1 / T_w + 1 / T_h + ratio / T_w, product = 1 / (T_w * T_h);
   const long double fast = sum / 2 + std::sqrt(sum * sum / 4 - product), slow = product / fast;
@@ -171,7 +173,7 @@ TEST(Thermal, RestIsWhereNothingChanges) {
   const Temperatures later = design::temperatures_after(flat, h, rest, 100.0);
   EXPECT_NEAR(later.winding_degC, rest.winding_degC, 1e-11);
   EXPECT_NEAR(later.housing_degC, rest.housing_degC, 1e-11);
-  // All heat leaves through the housing: (P hot + P_f) R_ha.
+  // All heat leaves through the housing: its temperature rise is (P hot + P_f) R_ha.
   const double hot = 8.0 * (1 + 0.00393 * (rest.winding_degC - 25));
   EXPECT_NEAR(rest.housing_degC, 25 + (hot + 2) * 4.25, 1e-11);
   EXPECT_NEAR(rest.winding_degC, rest.housing_degC + hot * 4.5, 1e-11);
@@ -188,7 +190,7 @@ TEST(Thermal, ContinuousLossTakesTheWindingToItsLimit) {
     const double copper = design::continuous_copper_W(flat, 1.0, ambient);
     EXPECT_NEAR(design::steady_temperatures(flat, {copper, 1.0, ambient})->winding_degC, 125.0, 1e-11);
   }
-  // The loss satisfies maxon's own formula: I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
+  // The loss satisfies maxon's formula: I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
   EXPECT_NEAR(design::continuous_copper_W(flat, 0.0, 25.0), 100 / (4.5 + 4.25) / (1 + 0.393), 1e-13);
   EXPECT_EQ(design::continuous_copper_W(flat, 0.0, 125.0), 0.0);
   EXPECT_EQ(design::continuous_copper_W(flat, 50.0, 25.0), 0.0) << "50 W of friction alone are too much";
@@ -203,8 +205,8 @@ TEST(Thermal, ShortTimeLossReachesTheLimitJustThen) {
     EXPECT_GT(copper, design::continuous_copper_W(flat, 1.0, 40.0));
     before = copper;
   }
-  // A very short time involves only the winding's own heat capacity: P t/C_w, with ln(1 + a dT)/a instead of dT, because the copper's
-  // resistance rises meanwhile.
+  // In a very short time, only the winding's heat capacity matters: P t/C_w, with ln(1 + a dT)/a instead of
+  // dT, because the resistance of the copper increases meanwhile.
   const double C_w = 16.6 / 4.5, t = 1e-3;
   EXPECT_NEAR(design::short_time_copper_W(flat, 0.0, 25.0, t) * t / C_w, std::log1p(0.00393 * 100) / 0.00393,
               0.01);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's chapter 6 with its own rounding, number by number, and the same rule evaluated exactly.
+// The numbers of the thesis's chapter 6 with its rounding, and the same rule evaluated exactly.
 #include "sixstep/design/thesis/thesis_figures.hpp"
 
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
     const ZohPlant plant{printed(loop, "a0"), printed(loop, "b0")};
     const double re = printed(loop, "Re z"), im = printed(loop, "Im z");
     const PiGains gains = gains_for_poles(plant, re, im);
-    // The printed z is rounded to 0.5e-4, a0 and b0 to half of their last digit: the tolerance is their effect on d1 and d0, plus the
-    // digits of those.
+    // The printed z has an error of 0.5e-4; a0 and b0 have errors of half of their last digit. The tolerance
+    // is the effect of these errors on d1 and d0, plus half of the last digit of d1 and d0.
     const bool is_speed = loop == std::string_view("speed");
     const double z = 0.5e-4, a0 = is_speed ? 0.5e-5 : 0.5e-4, b0 = (is_speed ? 0.5e-3 : 0.5e-4) / plant.b0;
     EXPECT_NEAR(gains.d1, printed(loop, "d1"), (2 * z + a0) / plant.b0 + std::fabs(gains.d1) * b0 + half_d1);
@@ -41,8 +41,8 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
 }
 
 TEST(ThesisFigures, ItsGainsBelongToAFasterPole) {
-  // The gains 4.5 and -4.04 place w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms (model.md 13). The test goes back from the closed polynomial
-  // z^2 + c1 z + c0 to s = log(z)/T.
+  // The gains 4.5 and -4.04 place w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms (model.md 13). The test
+  // computes back from the closed-loop polynomial z^2 + c1 z + c0 to s = log(z)/T.
   const double a0 = printed("current", "a0"), b0 = printed("current", "b0");
   const double c1 = b0 * 4.5 + a0 - 1.0, c0 = b0 * -4.04 - a0;
   const std::complex<double> z{-c1 / 2, std::sqrt(c0 - c1 * c1 / 4)}, s = std::log(z) / period_s;
@@ -55,7 +55,7 @@ TEST(ThesisFigures, ItsGainsBelongToAFasterPole) {
 TEST(ThesisFigures, StandOnlyBesideTheThesissOwnDesign) {
   EXPECT_EQ(thesis_figure("current", current, "d1"), 4.5);
   EXPECT_EQ(thesis_figure("speed", speed, "K_i"), 0.000155);
-  EXPECT_FALSE(thesis_figure("current", current, "w0"));  // not printed
+  EXPECT_FALSE(thesis_figure("current", current, "w0"));  // the thesis does not print it
   const auto slower = place_poles(current.plant, 2e-3, 0.9, period_s);
   EXPECT_FALSE(thesis_figure("current", *slower, "d1"));
   const auto other = place_poles(current_plant(0.5, 0.2e-3, period_s), 1e-3, 0.9, period_s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's matrices against the explicit equations of model.md 1, against each other, and against the energy balance. The printed signs
-// (model.md 13) violate that balance.
+// The thesis's matrices are compared with the explicit equations of model.md 1, with each other, and with the
+// energy balance. The signs as printed in the thesis (model.md 13) violate the balance.
 #include "sixstep/design/thesis/thesis_models.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ struct State {
   double K() const { return machine.K_e_V_s; }
 };
 
-/// A random state of a star with random pole voltages; every fourth machine is a sine, every third has another flat width.
+/// A random state of a star with random pole voltages. Every fourth machine has a sine shape, every third
+/// another flat width.
 State random_state(std::mt19937_64& random, int n) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   State s;
@@ -90,7 +91,8 @@ TEST(ThesisModels, TerminalVoltageFormIsTheSameMachine) {
   }
 }
 
-/// Rate of stored energy, (L/2) sum i^2 + (J/2) w^2, plus the losses, minus the input power: zero for a machine.
+/// Rate of the stored energy, (L/2) sum i^2 + (J/2) w^2, plus the losses, minus the input power. It is zero
+/// for a real machine.
 double unbalanced_W(const StateSpace<5, 4>& model, const State& s) {
   const double u_n = star_voltage(s);
   const auto r = model.derivative({s.i_a, s.i_b, s.i_c, s.w, s.theta_m},
@@ -129,8 +131,9 @@ TEST(ThesisModels, PowerBalancesAndThePrintedSignsDoNot) {
 }
 
 TEST(ThesisModels, EigenvaluesAreTheTimeConstantsOfTheMachine) {
-  // The eigenvalues at a fixed angle are -R/L for every current pattern without torque, and for the pattern f the two roots of lambda^2 +
-  // (R/L + B/J) lambda + (R B + K_e^2 |f|^2)/(L J) = 0, with eigenvector (f, 0) and w = -(L lambda + R)/K_e.
+  // At a fixed angle, the eigenvalues are -R/L for every current pattern without torque. For the pattern f,
+  // they are the roots of lambda^2 + (R/L + B/J) lambda + (R B + K_e^2 |f|^2)/(L J) = 0, with the eigenvector
+  // (f, 0) and w = -(L lambda + R)/K_e.
   const State s;
   const auto& m = s.machine;
   for (const double theta_m : {0.0, 0.02, 0.1, 0.3, 0.77}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampled systems against closed forms of first and second order, stability against known roots.
+// Sampled systems are compared with closed forms of first and second order, and stability with known roots.
 #include "sixstep/design/loops/transfer.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ TEST(Sampled, FirstOrderIsTheZohPlant) {
     rl.B[0] = 1.0 / 0.572e-3;
     const Transfer t = sampled(rl, 0, period_s);
     const ZohPlant exact = current_plant(R, 0.572e-3, period_s);
-    // The exponent's rounding makes the difference: R T/L (up to 2.6) times eps, and a dozen terms.
+    // The difference is caused by the rounding of the exponent, R T/L (up to 2.6) times eps, and of a dozen
+    // terms.
     EXPECT_NEAR(t.den[0] / (1.0 + exact.a0), 1.0, 16 * eps + 2 * eps / (1.0 + exact.a0));
     EXPECT_NEAR(t.num[0] / exact.b0, 1.0, 16 * eps);
   }
@@ -34,7 +35,7 @@ TEST(Sampled, DoubleIntegratorHasHalfTheSquareOfThePeriod) {
   Linear body{.states = 2, .A = {}, .B = {}};
   body.A[1][0] = 1.0;
   body.B[0] = 1.0;
-  const Transfer t = sampled(body, 1, 0.5);  // T^2/2 (delta + 2)/delta^2, all exact in binary
+  const Transfer t = sampled(body, 1, 0.5);  // T^2/2 (delta + 2)/delta^2; all numbers are exact in binary
   EXPECT_EQ(t.num, (Polynomial{0.25, 0.125}));
   EXPECT_EQ(t.den, (Polynomial{0.0, 0.0, 1.0}));
 }
@@ -70,7 +71,7 @@ TEST(Stable, IsWhereAllRootsAreInside) {
     }
     if (std::fabs(largest - 1.0) < 1e-6) continue;
     EXPECT_EQ(is_stable(p), largest < 1.0) << largest;
-    // Two close pairs of roots lose half of the digits.
+    // For two close pairs of roots, half of the digits are lost.
     EXPECT_NEAR(1.0 - slowest_decay(p), largest, 1e-4 * largest);
   }
 }
@@ -80,7 +81,8 @@ TEST(Stable, TheSlowestDecayIsThatOfTheSlowestRootHoweverSlow) {
     EXPECT_NEAR(slowest_decay({decay, 1.0}), decay, 4 * eps * std::fabs(decay));
     EXPECT_NEAR(slowest_decay({-decay, -1.0}), decay, 4 * eps * std::fabs(decay));
   }
-  // The four roots are about 1e-5 from z = 1: in powers of z their product would be 1e-20 of the coefficients.
+  // The four roots are about 1e-5 from z = 1. In powers of z, their product would be 1e-20 of the
+  // coefficients.
   const Polynomial slow = product(product({1e-5, 1.0}, {2e-5, 1.0}), product({3e-5, 1.0}, {5e-5, 1.0}));
   EXPECT_TRUE(is_stable(slow));
   EXPECT_NEAR(slowest_decay(slow), 1e-5, 1e-12);

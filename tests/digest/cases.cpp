@@ -11,9 +11,9 @@ using namespace study;
 using control::Chopping;
 using control::Mode;
 
-constexpr double thesis_d1 = 0.017225, thesis_d0 = -0.01707;  // of the speed loop
+constexpr double thesis_d1 = 0.017225, thesis_d0 = -0.01707;  // gains of the speed loop
 
-/// Figures that need roots, integrals and square roots of the trajectory.
+/// Adds figures that need roots, integrals and square roots of the trajectory.
 Scenario judged(Scenario s) {
   for (const MetricKind kind :
        {MetricKind::final_value, MetricKind::mean, MetricKind::rms, MetricKind::maximum, MetricKind::minimum})
@@ -107,7 +107,7 @@ Scenario rectifier() {
 
 Scenario with_sine(Scenario s) {
   s.sheet.back_emf = design::BackEmfShape::sine;
-  s.sheet.torque_constant_mNm_A = std::nullopt;  // a sine shape would give another K_e
+  s.sheet.torque_constant_mNm_A = std::nullopt;  // with a sine shape, it would give another K_e
   s.sheet.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
   return s;
 }
@@ -136,7 +136,8 @@ Scenario friction_and_load() {
   return s;
 }
 
-/// A small chip's timing: centred, edges on timer counts, commutation at the sample, one period late.
+/// The timing of a small chip: centre-aligned, edges on timer counts, commutation at the sample, one period
+/// of delay.
 Scenario small_chip(Scenario s) {
   s.pwm.alignment = Alignment::centre;
   s.pwm.timer_Hz = 16e6;
@@ -158,7 +159,8 @@ Scenario narrow_flat() {
   return s;
 }
 
-/// A drive of a [[spread]]. The normally distributed R and L depend on the random generator's bits, log, cos and sqrt.
+/// A drive of a [[spread]]. The normally distributed R and L depend on the bits of the random generator, log,
+/// cos and sqrt.
 Scenario series_drive() {
   Scenario s = current_square();
   for (const char* key : {"motor_override.resistance_ohm", "motor_override.inductance_mH"}) {
@@ -184,7 +186,7 @@ Scenario one_shunt_q15() {
   return s;
 }
 
-/// The firmware as flashed: calibration, alignment, speed from Hall edges, and a broken line.
+/// The firmware as on a chip: calibration, alignment, speed from Hall edges, and a broken line.
 Scenario product(Arithmetic arithmetic) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.3;
@@ -243,7 +245,7 @@ Scenario igbts_and_chopper() {
   s.supply.brake_off_V = 28;
   return s;
 }
-/// Wires mirrored from the start and corrected in the middle, with an amplifier that drifts.
+/// Wires that are mirrored at the start and corrected in the middle, and an amplifier that drifts.
 Scenario crossed_wires() {
   Scenario s = small_chip(current_square());
   s.bridge.phases = rig::WireOrder::bac;
@@ -259,7 +261,8 @@ Scenario crossed_wires() {
   return s;
 }
 
-/// Each case is made by its own function: forty literals in one need a megabyte of stack, which is all of WebAssembly's.
+/// Each case has a separate function: forty literals in one function need a megabyte of stack, the whole
+/// stack of WebAssembly.
 struct Row {
   const char* name;
   Scenario (*scenario)();

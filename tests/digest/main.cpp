@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints name, digest of the trajectory, digest of the figures and number of segments of each case. It needs only the library, so that any
-// compiler and target can print its bits.
+// Prints for each case: name, digest of the trajectory, digest of the figures and number of segments. The
+// program needs only the library, so any compiler and target can print its bits.
 #include <cstdio>
 
 #include "sixstep/base/hash.hpp"

@@ -9,7 +9,7 @@ namespace {
 using namespace study;
 using control::Mode;
 
-/// A refused change alters the digest.
+/// Applies a change. A refused change would change the digest.
 void tell(Session& session, double at_s, const At& at) {
   session.advance(at_s);
   (void)session.change(at);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions of the digest table: opened, changed during the run and closed; and the run of the scenario that they wrote.
+// Sessions of the digest table: opened, changed during the run and closed. Also the runs of the scenarios
+// that the sessions write.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +12,8 @@ namespace sixstep::testing {
 struct LivedCase {
   std::string name;
   base::Result<study::Outcome> outcome;
-  study::Scenario written;  ///< the scenario that the session wrote; its run has the session's digest
+  study::Scenario written;  ///< the scenario that the session wrote; a run of it has the same digest as the
+                            ///< session
 };
 
 std::vector<LivedCase> lived_cases();

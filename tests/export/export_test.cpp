@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmware and simulation use the same bits: the exported headers' definitions are compared with the run's values.
+// Firmware and simulation use the same bits: the definitions in exported headers are compared with the values
+// of the run.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -104,7 +105,7 @@ TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
   EXPECT_EQ(bits_of(exported_position_float::drive), bits_of(study::in_arithmetic<float>(position)));
 }
 
-/// Drive and bases equal those of design::scaled over the header's range.
+/// Checks that drive and bases are equal to those of design::scaled() over the header's range.
 template <class S>
 void expect_scaled(const DriveConfig<S>& drive, const Units<S>& units, const char* name,
                    std::optional<design::OperatingRange> stated = {}) {
@@ -180,7 +181,8 @@ study::Scenario salient() {
   return s;
 }
 
-/// The constants and the responses step by step equal the run's, for any input of the chip.
+/// Checks that the constants and each step's results are equal to those of the run, for any input of the
+/// chip.
 template <class S>
 void expect_field(const FieldDriveConfig<S>& header, const study::Scenario& s) {
   const auto run = study::field_in<S>(compiled(s));
@@ -272,7 +274,7 @@ TEST(ExportHeader, ExtrasComeAlong) {
   EXPECT_EQ(bits_of(extras_q31()), bits_of(design::scaled<Q31>(extras::drive(), extras::range)->config));
 }
 
-// Constants converted with the header's units equal those that scaled_product proves.
+// Constants converted with the header's units are equal to the constants that scaled_product proves.
 TEST(ExportHeader, UnitsGiveTheBitsOfTheProductsScaling) {
   constexpr auto u = exported_speed_stated::units;
   ProtectedConfig<double> product;
@@ -332,7 +334,7 @@ TEST(ExportHeader, WhatDoesNotFitIsNamed) {
   EXPECT_TRUE(header_of(s, study::Arithmetic::float64));
 }
 
-// A PI that cancels the plant's pole keeps that pole, -a0, and adds one at 1 - b0 d1.
+// A PI that cancels the plant's pole leaves this pole, -a0, and adds a pole at 1 - b0 d1.
 TEST(ExportHeader, GivenGainsAreToldWithTheirOwnPoles) {
   study::Scenario s = shipped("current-square");
   const design::ZohPlant plant = design::current_plant(1.03, 0.572e-3, s.pwm.period_s);
@@ -359,7 +361,8 @@ TEST(ExportHeader, NamespacesAreNames) {
     EXPECT_FALSE(header_of(s, study::Arithmetic::float64, bad)) << bad;
 }
 
-// A title must not reach the compiler: the comment has no line end, no continuation and no reordering characters.
+// A title must not reach the compiler: the comment has no line end, no line continuation and no reordering
+// characters.
 TEST(ExportHeader, TextsStayInTheirComment) {
   study::Scenario s = shipped("thesis/7.5-position");
   s.title = "a\nint b;\r*/ \u202e\u2066 gr\u00fcn \\";

@@ -4,7 +4,7 @@
 
 namespace extras {
 
-/// A speed drive with every extra function and no two equal numbers.
+/// A speed drive with every extra function; all its numbers differ.
 inline sixstep::control::DriveConfig<double> drive() {
   using namespace sixstep::control;
   DriveConfig<double> d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The headers exported by the build.
+// The headers that the build exports.
 #pragma once
 #include "current.hpp"
 #include "current_q15.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers from shared objects: those of data/ run in scenarios with their documented behaviour, and other files are refused with the
-// reason.
+// Controllers from shared objects: those of data/ behave in scenarios as documented. Other files are refused
+// with the reason.
 #include "files/controller_file.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,8 @@ double final_of(const study::Scenario& given, study::MetricKind metric, study::S
   return out ? out->comparisons[0].measured : NAN;
 }
 
-/// The drive holds a current and a speed to the integers' steps, mA, and half the PWM's ripple, which a sample does not show.
+/// The drive controls current and speed to within the steps of the integers, mA, and half the PWM ripple,
+/// which a sample does not contain.
 TEST(ControllerFile, IntegersHoldCurrentAndSpeed) {
   for (const double wanted : {3.0, -2.0}) {
     const auto current = read("pi_in_integers.so",
@@ -86,8 +87,8 @@ TEST(ControllerFile, IntegersHoldCurrentAndSpeed) {
   EXPECT_NEAR(final_of(*speed, study::MetricKind::mean, study::Signal::speed, 0.015), 100.0, 0.5);
 }
 
-/// A rotor locked at angle 0 leaves the winding alone: the current across the magnet is half the bus times the duty over R. The magnet is
-/// 150 degrees behind phase a's axis.
+/// With a rotor locked at angle 0, only the winding matters: the current across the magnet is half the bus
+/// voltage times the duty, divided by R. The magnet is 150 degrees behind phase a's axis.
 TEST(ControllerFile, ThreeLegsMakeAVectorAcrossTheMagnet) {
   const auto s =
       read("sine_voltage.so",
@@ -120,7 +121,7 @@ TEST(ControllerFile, ScenariosTellWhatTheyCannotHave) {
       "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario or the controller's numbers");
 }
 
-/// The controller's bytes count as read: a store detects a recompiled controller.
+/// The digest of the inputs includes the controller's bytes, so a store detects a recompiled controller.
 TEST(ControllerFile, ItsBytesCountAsRead) {
   const auto digest = [](const std::string& controller) {
     files::ReadLog log;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A damaged store is reported for any damage: it never returns a row that was not written.
+// Any damage of a store is reported. A damaged store never returns a row that was not written.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class DamagedStore : public Store {
 
 using Random = std::mt19937_64;
 
-/// The damage is one bit, twenty bits, forty bytes, a sector of zeros or a missing end.
+/// The damage is one changed bit, twenty bits, forty bytes, a sector of zeros or a missing end.
 std::string damaged(std::string bytes, Random& random) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const auto flip = [&] { bytes[below(bytes.size())] ^= static_cast<char>(1 << below(8)); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files appear whole or not at all, and numbers in them are read back exactly.
+// Files appear completely or not at all, and the numbers in them are read back exactly.
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -21,7 +21,7 @@ namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
-/// The first line of a file that may be overwritten.
+/// The first line of a file that may be overwritten without --force.
 constexpr const char* ours = "# sixstep 0.1.0\n";
 
 class Files : public ::testing::Test {
@@ -142,7 +142,7 @@ TEST_F(Files, CsvStartsWithItsColumnsAndNumbersComeBackBitForBit) {
 
 TEST_F(Files, AColumnTooLongForMat5EndsTheTraceAndNamesTheCure) {
   const std::vector<study::Column> columns{{"t_s", "s", "", ""}, {"x", "", "", ""}};
-  constexpr std::size_t most = 2 * ColumnSpool::block_rows + 1;  // a third block would exceed it
+  constexpr std::size_t most = 2 * ColumnSpool::block_rows + 1;  // a third block would exceed the limit
   base::Result<MatWriter> mat = MatWriter::create(at("a.mat"), columns, MatVersion::v5, {}, most);
   ASSERT_TRUE(mat);
   std::size_t rows = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An output's effect on an existing file: owner, permissions, links, names, pipes.
+// The effect of an output on an existing file: owner, permissions, links, names, pipes.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
@@ -121,7 +121,8 @@ TEST_F(ReplacedFiles, WhatAKilledProgramLeftIsInNobodysWay) {
     ASSERT_TRUE(first && second);
     EXPECT_NE(first->temporary(), second->temporary()) << "nor do two at once share a name";
   }
-  // Every program in a container has the same process number, so that a killed program's file has the next one's name.
+  // In a container, every program has the same process number, so the file of a killed program may have the
+  // name of the next program's file.
   for (int count = 0; count < 64; ++count)
     with(".a.csv.tmp" + std::to_string(::getpid()) + "-" + std::to_string(count), "");
   EXPECT_EQ(told_writing(at("a.csv"), ours), "");
@@ -189,7 +190,7 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const ::pthread_t here = ::pthread_self();
   const auto signalled = [&](const auto& work) {
-    // repeated, because one signal may come before the call blocks
+    // repeated, because a signal may arrive before the call blocks
     const std::jthread caller([&](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -206,7 +207,7 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   base::Result<AtomicFile> file = AtomicFile::create(pipe);
   ASSERT_TRUE(file);
-  // The write exceeds the pipe's capacity: without a reader it blocks.
+  // The text exceeds the pipe's capacity: without a reader, the write blocks.
   signalled([&] { file->write(std::string(1 << 20, 'x')); });
   EXPECT_TRUE(file->failed());
   EXPECT_TRUE(file->commit().empty()) << "whoever asked to end needs no complaint";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The examples' output on a serial line, and the commands that they accept.
+// The output of the examples on a serial line, and the commands that they accept.
 #include "faces/firmware/example/log.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ std::string written(const firmware::Instant& t) {
   return out;
 }
 
-/// A time of 2^31 us (36 minutes) or 2^32 counts of 72 MHz (one minute) is not the end.
+/// The time does not wrap at 2^31 us (36 minutes), or at 2^32 counts of 72 MHz (one minute).
 TEST(Log, AnInstantIsItsMicrosecondsHoweverLate) {
   EXPECT_EQ(written(firmware::Instant{}), "0");
   EXPECT_EQ(written({.seconds = 0, .microseconds = 999'999}), "999999");
@@ -119,7 +119,7 @@ TEST(Commands, ASetpointInThousandths) {
   }
 }
 
-/// The message appears at once and at Enter; the next line is valid again.
+/// The message appears at the invalid character and at Enter. The next line is valid again.
 TEST(Commands, WhatIsNoNumberIsDroppedAsAWhole) {
   using Kind = firmware::Command::Kind;
   for (const std::string typed : {"1,5",
@@ -171,8 +171,8 @@ TEST(Commands, AStopCountsAnywhereAndNothingElseInASpoiledLine) {
   }
 }
 
-/// The commands that the main loop reads after the interrupt has put all of `typed` into the ring. The line has lost the characters in
-/// `missing`.
+/// The commands that the main loop reads after the interrupt has stored all of `typed` in the ring. The
+/// characters in `missing` are lost on the line.
 std::vector<firmware::Command> obeyed(const std::string& typed, const std::string& missing = "") {
   firmware::Ring<16> ring;
   firmware::Commands commands;
@@ -231,7 +231,7 @@ TEST(Commands, ARingThatIsFullLosesTheRestAndSaysSo) {
   ring.put('a');
   EXPECT_EQ(ring.take().kind, firmware::Ring<4>::Kind::gap);
   EXPECT_EQ(ring.take().character, 'a');
-  for (int n = 0; n < 1000; ++n) {  // its indices wrap
+  for (int n = 0; n < 1000; ++n) {  // its indices wrap around
     ring.put(static_cast<char>('a' + n % 26));
     ASSERT_EQ(ring.take().character, static_cast<char>('a' + n % 26));
   }

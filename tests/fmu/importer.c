@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* importer BINARY RESOURCES GUID STOP: a plain importer of FMI 2.0 in C. It steps a unit to STOP, goes back once to a saved
- * state, and prints the digest. */
+/* importer BINARY RESOURCES GUID STOP: a simple importer of FMI 2.0 in C. It steps a unit to STOP, returns once to a
+ * saved state, and prints the digest. */
 #include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -87,5 +87,5 @@ int main(int count, char** words) {
   check(GetString_of(c, &digest, 1, &text), "fmi2GetString");
   puts(text);
   FreeInstance_of(c);
-  return 0; /* the library stays open, so that a memory checker can name its functions */
+  return 0; /* the library stays open, so that a memory checker can print the names of its functions */
 }

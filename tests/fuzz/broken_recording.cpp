@@ -19,7 +19,7 @@ namespace {
 
 using Table = std::vector<std::vector<std::string>>;
 
-/// Entries that instruments write instead of a number, in addition to hostile_literals.hpp.
+/// Texts that instruments write instead of a number, in addition to hostile_literals.hpp.
 constexpr const char* cells[] = {"",       "---",    "OL",       "#DIV/0!", "1,5",      "1.2.3",
                                  "+5",     ".5",     "1e",       "0x1",     "12:30:01", "1e12",
                                  "1.1e12", "1e-300", "-1e-12",   "3.3 V",   "-0",       "7",
@@ -29,8 +29,8 @@ constexpr const char* headings[] = {"time [s]", "time", "t_ms",      "hall",    
                                     "u_c",      "CH1",  "",          "time [V]",    "hall1 [s]", "[s]",
                                     "s",        "V",    "\x1b[31m",  "\xe2\x80\xae"};
 
-/// A motor turned at a steady speed, six to forty rows per sector: Hall lines, a code or voltages, with or without a heading. The table is
-/// valid; other functions damage it.
+/// A recording of a motor turned at constant speed, six to forty rows per sector: Hall lines, a code or
+/// voltages, with or without a heading. The table is valid; other functions damage it.
 Table drawn_table(Draw& draw) {
   const int kind = draw.one_of(5), rows = 12 * (20 + draw.one_of(60));
   const double row_deg = draw.decades(1.5, 10.0), row_s = draw.decades(1e-6, 1e-2),
@@ -46,7 +46,7 @@ Table drawn_table(Draw& draw) {
     std::vector<std::string> line{fmt::format("{:.9g}", row_s * row)};
     const int code = codes[static_cast<int>(deg / 60.0) % 6];
     for (int bit = 2; hall && bit >= 0; --bit) line.push_back(std::to_string(code >> bit & 1));
-    for (int k = 0; volts && k < 3; ++k)  // u_ab leads e_a, whose middle is at 60 degrees, by 30
+    for (int k = 0; volts && k < 3; ++k)  // u_ab leads e_a, whose middle is at 60 degrees, by 30 degrees
       line.push_back(
           fmt::format("{:.4g}", peak_V * (std::cos((deg - 30.0 - 120.0 * k) * std::numbers::pi / 180.0) +
                                           0.01 * draw.between(-1.0, 1.0))));
@@ -167,7 +167,7 @@ class RecordingBreaker {
     return "a column in another unit";
   }
 
-  /// A burst: the rows of a stretch alternate.
+  /// A burst: the rows of a range alternate.
   const char* bounce() {
     const std::size_t from = at(table_.size()), length = std::min(table_.size() - from, at(60));
     const std::vector<std::string> other = line();

@@ -7,7 +7,7 @@
 namespace sixstep::testing {
 
 struct BrokenRecording {
-  const char* kind;  ///< of the last damage
+  const char* kind;  ///< kind of the last damage
   std::string text;
 };
 

@@ -18,7 +18,7 @@
 namespace sixstep::testing {
 namespace {
 
-/// s of a thread's CPU time, which a busy machine does not lengthen. No valid case takes that long.
+/// CPU time of a thread, s. It does not depend on the load of the machine. No valid case takes so long.
 constexpr double hung_s = 60.0;
 constexpr std::size_t most_broken = 200;
 
@@ -48,9 +48,9 @@ const char* campaign_at_hand = "";
 }
 
 #if defined(__SANITIZE_ADDRESS__)
-void catch_crashes() {}  // the sanitizer prints more
+void catch_crashes() {}  // the sanitizer prints more than this handler
 #else
-/// The handler has its own stack, because an overflown stack has no space left.
+/// The handler has a separate stack, because an overflowed stack has no space for it.
 void catch_crashes() {
   static thread_local std::unique_ptr<char[]> stack(new char[1 << 16]);
   const stack_t own{.ss_sp = stack.get(), .ss_flags = 0, .ss_size = 1 << 16};
@@ -79,7 +79,8 @@ void work(const Campaign& c, std::atomic<std::uint64_t>& next, Worker& own) {
   own.done = true;
 }
 
-/// The caller joins the workers afterwards: until then each thread's clock exists.
+/// Watches the workers for a case that takes too long. The caller joins the workers afterwards, so each
+/// thread's clock exists until then.
 void watch(const Campaign& c, std::vector<Worker>& workers) {
   for (bool busy = true; busy;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many cases on many threads, and their results.
+// Runs many cases on many threads and collects the results.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -41,10 +41,10 @@ struct CampaignResult {
   void add(const CampaignResult& other);
 };
 
-/// A case of minutes or a crash ends the program and prints the seed.
+/// Runs the cases. A crash, or a case of minutes, ends the program and prints the seed.
 CampaignResult carry_out(const Campaign& campaign);
 
-/// Markdown tables of counts, kinds, and the used part of each law.
+/// The results as Markdown tables: counts, kinds, and the used fraction of each law's tolerance.
 std::string as_markdown(const Campaign& campaign, const CampaignResult& result);
 
 }  // namespace sixstep::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers of one drawn case, determined by a seed alone.
+// Random numbers of one drawn case. Only the seed determines them.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace sixstep::testing {
 
-/// The mappings onto intervals are the project's own: distributions of standard libraries differ, and a seed must not.
+/// The mapping to intervals is the project's code: the distributions of standard libraries differ, but a seed
+/// must always give the same numbers.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
@@ -30,7 +31,7 @@ inline std::uint64_t environment(const char* name, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// The seeds of a test: SIXSTEP_FUZZ_SEED=n selects exactly that one, SIXSTEP_FUZZ_COUNT the number of seeds.
+/// The seeds of a test: SIXSTEP_FUZZ_SEED=n selects only seed n, SIXSTEP_FUZZ_COUNT sets the number of seeds.
 struct Seeds {
   std::uint64_t first, count;
 };

@@ -11,7 +11,8 @@ using control::Mode;
 
 namespace {
 
-/// Gains in one of three forms: settling time with damping, d1 with d0, k_p with k_i. `natural` is a proportional gain of ordinary size.
+/// Draws gains in one of three forms: settling time with damping, d1 with d0, k_p with k_i. `natural` is a
+/// proportional gain of ordinary size.
 template <class Loop>
 void draw_gains(Draw& draw, Loop& loop, double natural, double period_s, double slowest_periods) {
   const double d1 = natural * draw.decades(0.1, 1.5), ratio = draw.between(-1.0, -0.6);
@@ -56,7 +57,8 @@ void draw_limits(Draw& draw, Scenario& s, const Scales& of) {
     s.control.regeneration.limit_V = draw.between(1.05, 1.5) * of.U_V;
 }
 
-/// The speed loop's full output is a torque; a natural gain reaches it at a tenth of the top speed.
+/// The full output of the speed loop is a torque. A natural gain reaches it for an error of a tenth of the
+/// top speed.
 void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   SpeedLoop& loop = s.control.speed;
   if (draw.chance(0.2)) loop.output = SpeedOutput::duty;
@@ -69,7 +71,7 @@ void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   if (loop.derivative_s && draw.chance(0.5)) loop.derivative_filter_s = *loop.derivative_s * draw.unit();
 }
 
-/// A sensorless start and the run after it, with or without Hall probes.
+/// A sensorless start and the following run, with or without Hall probes.
 void draw_sensorless(Draw& draw, Scenario& s) {
   s.control.drive = FirmwareKind::sensorless;
   s.pwm.alignment = Alignment::centre;
@@ -162,7 +164,7 @@ void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
                           static_cast<Level01>(draw.one_of(2))};
 }
 
-/// Thresholds that ordinary running does not reach, and that lie within the converters' range.
+/// Thresholds that are within the converters' range and that normal operation does not reach.
 void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   Protection& p = s.protection;
   const bool loop = s.control.mode != Mode::off && s.control.mode != Mode::duty &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole drive drawn at random: machine, devices, supply, load, board, controller, start. Parameters are drawn as ratios to the machine's
-// scales (stall current, no-load speed, PWM period), so that they span decades and most drives still run.
+// A random drive: machine, devices, supply, load, board, controller, start. Parameters are drawn as ratios to
+// the machine's scales (stall current, no-load speed, PWM period), so that they span decades and most drives
+// still run.
 #pragma once
 #include <algorithm>
 #include <sstream>
@@ -39,7 +40,7 @@ struct DrawnDrive : Board {
     machine.pole_pairs = 1 + draw.one_of(std::min(21, static_cast<int>(2e4 / top)));
     if (draw.chance(0.3)) machine.back_emf = plant::BackEmf::sine;
     if (draw.chance(0.5)) machine.flat_deg = draw.between(5.0, 178.0);
-    if (draw.chance(0.1)) machine.flat_deg = 60.0;  // a kink on every sector edge, none inside
+    if (draw.chance(0.1)) machine.flat_deg = 60.0;  // a kink at every sector edge, and none within a sector
     const double K_t = 2 * machine.K_e_V_s;
     shaft.J_kg_m2 = draw.decades(1e-3, 10.0) * K_t * K_t / R_tt();  // mechanical time constant
     shaft.B_Nm_s = draw.chance(0.3) ? 0.0 : draw.decades(1e-6, 0.3) * stall_Nm() / top;
@@ -58,7 +59,7 @@ struct DrawnDrive : Board {
                  draw.chance(0.7) ? draw.decades(1e-3, 0.3) * machine.R_ohm : 0.0};
     start.bus_V = supply.V_0_V;
     if (!draw.chance(0.4)) return;
-    // C is at least L/R^2, so that the winding's stall current cannot discharge the capacitor below 0 V.
+    // C is at least L/R^2, so that the stall current of the winding cannot discharge the capacitor below 0 V.
     const double least = machine.L_H / (machine.R_ohm * machine.R_ohm);
     supply.R_b_ohm = draw.decades(1e-2, 0.5) * machine.R_ohm;
     supply.C_F = draw.decades(1.0, 300.0) * least;
@@ -155,7 +156,7 @@ struct DrawnDrive : Board {
   }
 };
 
-/// The message of a failure: the command that repeats it, and the drawn values.
+/// The message of a failure: the command that repeats the case, and the drawn values.
 inline std::string reproduce(std::uint64_t seed, const DrawnDrive& d) {
   const rig::ModulatorConfig& m = d.board.modulator;
   std::ostringstream s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// References of every shape, events during the run, and its figures.
+// Draws references of every shape, events during the run, and figures.
 #include <algorithm>
 
 #include "sixstep/study/scenario/measure_choices.hpp"
@@ -34,7 +34,7 @@ void draw_levels(Draw& draw, Reference& r, const Scenario& s, const Scales& of, 
   }
 }
 
-/// An instant on a tick, in the middle of a period, a picosecond next to a tick, or anywhere.
+/// An instant at a tick, in the middle of a period, a picosecond after a tick, or anywhere.
 double instant(Draw& draw, const Scenario& s) {
   const double period = s.pwm.period_s, any = draw.between(0.0, 0.95) * s.duration_s;
   const double tick = static_cast<double>(static_cast<int>(any / period)) * period;
@@ -128,7 +128,7 @@ void draw_events(Draw& draw, Scenario& s, const Scales& of) {
   }
 }
 
-/// Figures of every kind; the check's tests cover those that belong to another signal or mode.
+/// Draws figures of every kind. Figures of another signal or mode are covered by the tests of the check.
 void draw_measures(Draw& draw, Scenario& s) {
   for (int n = draw.one_of(4); n > 0; --n) {
     static constexpr MetricKind kinds[] = {MetricKind::final_value,  MetricKind::mean,

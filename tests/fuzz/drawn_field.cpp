@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive: some lean drives become one, without the keys of six-step. Its keys are drawn last, so that a seed's other
-// values stay the same.
+// Makes some lean drives field-oriented, without the keys of six-step. The keys are drawn last, so that the
+// other values of a seed do not change.
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
@@ -12,7 +12,7 @@ using control::Mode;
 
 namespace {
 
-/// Three legs centred in the period, and loops that control currents.
+/// Sets three legs, centred in the period, and loops that control currents.
 void leave_six_step(Draw& draw, Scenario& s, const Scales& of) {
   Control& c = s.control;
   c.arithmetic = draw.chance(0.5) ? Arithmetic::float64 : Arithmetic::float32;
@@ -52,8 +52,8 @@ void draw_keys(Draw& draw, Scenario& s, const design::MotorModel& motor) {
         draw.between(0.05, 0.99) * design::most_weakening_A(design::field_machine(motor, s.sheet));
 }
 
-/// A drive without a rotor sensor: pulses find the angle of a salient rotor that saturates, other rotors are turned until the observer
-/// follows them.
+/// A drive without a rotor sensor. For a salient rotor that saturates, pulses find the angle. Other rotors
+/// are started open-loop until the observer follows them.
 void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (s.sensors.rotor != RotorSensing::ideal || s.control.mode == Mode::position || !draw.chance(0.3)) return;
   Field& f = s.control.field;
@@ -69,8 +69,8 @@ void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (draw.chance(0.2)) f.angle_bandwidth_Hz = draw.decades(2e-3, 0.05) / s.pwm.period_s;
 }
 
-/// Harmonic currents and the selection of the legs' states. They are drawn after the keys above, so that a seed keeps the values of those
-/// keys.
+/// Harmonic currents and the selection of the legs' states. They are drawn after the keys above, so that the
+/// values of these keys do not change for a seed.
 void draw_more_keys(Draw& draw, Scenario& s) {
   Field& f = s.control.field;
   if (!design::is_salient(s.sheet) && draw.chance(0.4)) f.harmonic_current = true;
@@ -89,7 +89,7 @@ void draw_more_keys(Draw& draw, Scenario& s) {
   if (draw.chance(0.2)) f.delay_compensation = false;
 }
 
-/// Sensors that give an angle and three currents.
+/// Sets sensors that measure an angle and three currents.
 void keep_angles(Draw& draw, Scenario& s) {
   Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link) x.currents = rig::CurrentMeasurement::phases;
@@ -99,7 +99,7 @@ void keep_angles(Draw& draw, Scenario& s) {
   x.shaft = SensorShaft::motor;
 }
 
-/// Some figures use the axes' signals.
+/// Uses the signals of the axes in some figures.
 void ask_of_axes(Draw& draw, Scenario& s) {
   static constexpr Signal signals[] = {Signal::direct_current,
                                        Signal::quadrature_current,
@@ -124,7 +124,7 @@ void draw_field(Draw& draw, Scenario& s, const Scales& of) {
   leave_six_step(draw, s, of);
   keep_angles(draw, s);
   if (s.sheet.back_emf == design::BackEmfShape::sine && s.sheet.inductance_mH && draw.chance(0.4)) {
-    const double L_mH = s.sheet.inductance_mH->value / 2;  // of a phase
+    const double L_mH = s.sheet.inductance_mH->value / 2;  // inductance of a phase
     s.sheet.inductance_mH.reset();
     s.sheet.d_axis_inductance_mH = base::Quantity{L_mH * draw.between(0.5, 1.0), "", ""};
     s.sheet.q_axis_inductance_mH = base::Quantity{L_mH * draw.between(1.0, 1.8), "", ""};

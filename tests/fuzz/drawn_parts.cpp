@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Supply, bridge, modulation, load and start.
+// Draws supply, bridge, modulation, load and start.
 #include "tests/fuzz/drawn_parts.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 void draw_supply(Draw& draw, Scenario& s, const design::MotorModel& motor) {
   s.supply.voltage_V = motor.nominal_voltage_V * draw.decades(0.4, 1.5);
   if (!draw.chance(0.35)) return;
-  // C is at least L/R^2, so that the winding's stall current cannot discharge the capacitor below 0 V.
+  // C is at least L/R^2, so that the stall current of the winding cannot discharge the capacitor below 0 V.
   const double R = motor.machine.R_ohm, least = motor.machine.L_H / (R * R);
   s.supply.resistance_ohm = draw.decades(1e-2, 0.5) * R;
   s.supply.capacitance_F = draw.decades(1.0, 300.0) * least;
@@ -102,7 +102,7 @@ void draw_parts(Draw& draw, Scenario& s) {
   draw_pwm(draw, s, of);
   draw_bridge(draw, s, motor->machine.R_ohm);
   draw_control(draw, s, of);
-  const bool product = s.control.drive == FirmwareKind::product;  // the first 64 periods measure its offsets
+  const bool product = s.control.drive == FirmwareKind::product;  // the first 64 periods measure the offsets
   s.duration_s = s.pwm.period_s * (product ? draw.between(90.0, 400.0) : draw.between(10.0, 150.0));
   draw_load(draw, s, of);
   draw_start(draw, s, of);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a drawn scenario, on the scales of motor and supply.
+// The parts of a random scenario, scaled to the motor and the supply.
 #pragma once
 #include "sixstep/study/scenario/scenario.hpp"
 #include "tests/fuzz/draw.hpp"
 
 namespace sixstep::testing {
 
-/// Fills everything except title, motor and sheet, which are already set.
+/// Draws all values except title, motor and sheet, which are already set.
 void draw_parts(Draw& draw, study::Scenario& s);
 
 /// The natural scales of this motor at this supply.
@@ -22,13 +22,13 @@ void draw_protection(Draw& draw, study::Scenario& s, const Scales& of);
 study::Reference drawn_reference(Draw& draw, const study::Scenario& s, const Scales& of, double left_s);
 void draw_events(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_measures(Draw& draw, study::Scenario& s);
-/// Gives some scenarios keys that need the general kernel.
+/// Sets keys in some scenarios that need the general kernel.
 void draw_general(Draw& draw, study::Scenario& s, const Scales& of);
 /// Makes some scenarios field-oriented.
 void draw_field(Draw& draw, study::Scenario& s, const Scales& of);
-/// Gives some six-step drives other loops and another PWM.
+/// Sets other loops and another PWM in some six-step drives.
 void draw_six_step(Draw& draw, study::Scenario& s);
-/// Gives some position loops a profile.
+/// Sets a profile in some position loops.
 void draw_profile(Draw& draw, study::Scenario& s);
 
 }  // namespace sixstep::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random scenario of the kind that an engineer writes: any motor of the library or a drawn one, every mode, sensor, firmware, arithmetic
-// and kind of event. Each key is within the limits of its check.
+// A random scenario of the kind that an engineer writes: a motor of the library or a random one, every mode,
+// sensor, firmware, arithmetic and kind of event. Each key is within its limits.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,10 +11,10 @@ namespace sixstep::testing {
 
 struct DrawnScenario {
   study::Scenario scenario;
-  std::string text;  ///< a file's text, with the drawn motor's values among its overrides
+  std::string text;  ///< the text of the scenario file, with the random motor's values as overrides
 };
 
-/// A scenario that the seed alone determines.
+/// A random scenario; only the seed determines it.
 DrawnScenario drawn_scenario(std::uint64_t seed);
 
 }  // namespace sixstep::testing

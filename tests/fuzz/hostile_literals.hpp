@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Literals that replace a value.
+// Literals that replace a value in a text.
 #pragma once
 
 namespace sixstep::testing {
 
-/// Numbers at the limits of a double and beyond; words that are not numbers; values of every other type.
+/// Numbers at and beyond the limits of a double, words that are not numbers, and values of every other type.
 inline constexpr const char* hostile_literals[] = {"1e308",
                                                    "-1e308",
                                                    "1.7976931348623157e308",

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The mutations start from every shipped scenario, and from the file that uses the whole language.
+/// The texts that are changed: every shipped scenario, and a file that uses the whole language.
 const std::vector<std::string>& shipped() {
   static const std::vector<std::string> texts = [] {
     std::vector<fs::path> files{fs::path(SIXSTEP_SOURCE_DIR) /
@@ -26,7 +26,7 @@ const std::vector<std::string>& shipped() {
     for (const auto& entry :
          fs::recursive_directory_iterator(fs::path(SIXSTEP_SOURCE_DIR) / "data/scenarios"))
       if (entry.path().extension() == ".toml") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());  // a folder has no order
+    std::sort(files.begin(), files.end());  // a folder has no defined order
     std::vector<std::string> all;
     for (const fs::path& file : files)
       if (const auto text = files::read_text(file.string())) all.push_back(*text);
@@ -88,7 +88,7 @@ class Breaker {
     return out;
   }
 
-  /// A range between two characters of a kind, as [begin, end).
+  /// A range between two characters of a given kind, as [begin, end).
   std::pair<std::size_t, std::size_t> stretch(const char* ends) {
     const std::size_t place = at(text_.size());
     const std::size_t begin = text_.find_last_of(ends, place), end = text_.find_first_of(ends, place);
@@ -96,7 +96,7 @@ class Breaker {
     return {from, std::max(from, std::min(end, text_.size()))};
   }
 
-  /// The value after some '=': the rest of its line.
+  /// Replaces the value after some '=': the rest of its line.
   void value_in_place() {
     std::size_t sign = text_.find('=', at(text_.size()));
     if (sign == std::string::npos) sign = text_.find('=');
@@ -114,7 +114,7 @@ class Breaker {
     const std::string number = text_.substr(place, end - place);
     text_.replace(place, end - place, (draw_.chance(0.2) ? "-" : "") + number + ends[at(std::size(ends))]);
   }
-  /// A key of the language, dotted, at the start of the file or in its own table.
+  /// Adds a key of the language, dotted, at the start of the file or in its table.
   void extra_key() {
     const std::string path = key().path, line = path + " = " + literal() + "\n";
     const std::size_t dot = path.rfind('.');
@@ -123,7 +123,7 @@ class Breaker {
     else
       text_ += "\n[" + path.substr(0, dot) + "]\n" + path.substr(dot + 1) + " = " + literal() + "\n";
   }
-  /// A number at or next to an end of the key's range.
+  /// Sets a number at or next to an end of the key's range.
   void end_of_range() {
     const text::KeyEntry& k = key();
     const auto& range = k.about.range;
@@ -176,7 +176,7 @@ class Breaker {
     for (const char c : text_) out += c == '\n' ? std::string(end) : std::string(1, c);
     text_ = out;
   }
-  /// Long names, texts and lists: rarely very long, because the length costs time.
+  /// Length of names, texts and lists. Very long ones are rare, because they cost time.
   std::size_t length() {
     return static_cast<std::size_t>(draw_.decades(10.0, draw_.chance(0.01) ? 2e5 : 2e3));
   }

@@ -7,11 +7,11 @@
 namespace sixstep::testing {
 
 struct BrokenText {
-  const char* kind;  ///< of the last damage
+  const char* kind;  ///< kind of the last damage
   std::string text;
 };
 
-/// A damaged scenario text that the seed alone determines.
+/// A damaged scenario text; only the seed determines it.
 BrokenText broken_text(std::uint64_t seed);
 
 }  // namespace sixstep::testing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits hold: for every motor of the library, chopping, sample instant, delay, arithmetic, sensor and drive, current, speed and bus stay
-// within the bounds of design/loops/limit_bounds.hpp, or the scenario is refused.
+// Limits hold for every motor of the library, chopping, sample instant, delay, arithmetic, sensor and drive:
+// current, speed and bus voltage stay within the bounds of design/loops/limit_bounds.hpp, or the scenario is
+// refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ using study::MetricKind;
 using study::Scenario;
 using study::Signal;
 
-/// Sheets that give a motor model.
+/// Sheets from which a motor model can be computed.
 const std::vector<design::Sheet>& motors() {
   static const std::vector<design::Sheet> all = [] {
     std::vector<design::Sheet> out;
@@ -41,7 +42,7 @@ const std::vector<design::Sheet>& motors() {
 constexpr Arithmetic arithmetics[] = {Arithmetic::float64, Arithmetic::float32, Arithmetic::q15,
                                       Arithmetic::q14,     Arithmetic::q31,     Arithmetic::q30};
 
-/// A drive with limits, whose reference goes first in one direction and then in the other.
+/// A drive with limits, whose reference has first one sign and then the other.
 struct DrawnLimits {
   explicit DrawnLimits(std::uint64_t seed);
   void draw_board(Draw& draw);
@@ -88,7 +89,7 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.control.speed.settle_s = draw.between(5e-3, 50e-3);
   s.control.speed.damping = 0.9;
   s.control.speed.torque_limit_Nm = draw.between(1.0, 1.5) * current_A * motor.K_t_Nm_A;
-  // Accelerating to top speed takes 4 to 20 ms, or longer if the rotor's own inertia is larger.
+  // Acceleration to top speed takes 4 to 20 ms, or longer if the rotor's inertia alone is larger.
   const double way = draw.between(4e-3, 20e-3) * current_A * motor.K_t_Nm_A / top_rad_s;
   s.load.inertia_kg_m2 = std::max(0.0, way - motor.shaft.J_kg_m2);
   s.duration_s = 50e-3;
@@ -103,9 +104,9 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.supply.resistance_ohm = draw.between(0.02, 0.2) * R;
   const double headroom_V = draw.between(0.05, 0.4) * bus_V;
   s.control.regeneration.limit_V = bus_V + headroom_V;
-  // The capacitance is 0.7 to 30 times the one that takes the windings' energy within the headroom.
+  // The capacitance is 0.7 to 30 times the value that absorbs the windings' energy within the headroom.
   s.supply.capacitance_F = draw.decades(0.7, 30) * L * std::pow(2 * current_A / headroom_V, 2);
-  // The rotor's energy exceeds the energy that the headroom takes, so that the limit must act.
+  // The rotor's energy exceeds the energy that the headroom absorbs, so the limit must act.
   const double enough = 6 * s.supply.capacitance_F * bus_V * headroom_V / (top_rad_s * top_rad_s);
   s.load.inertia_kg_m2 = std::max(s.load.inertia_kg_m2, enough);
 }
@@ -159,15 +160,15 @@ void ask(Scenario& s) {
   add(MetricKind::maximum, Signal::bus_voltage);
 }
 
-/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The format's range is twice the largest value,
-/// because it also holds differences.
+/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The range of the
+/// format is twice the largest value, because it must also contain differences.
 double digits(const Scenario& s, double largest) {
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   return largest *
          ((narrow ? 0x1p-12 : 0.0) + 0x1p-10 * (s.sensors.currents != rig::CurrentMeasurement::ideal));
 }
 
-/// The count of reached limits, and the largest used part of the allowed overshoot.
+/// The number of reached limits, and the largest used fraction of the allowed overshoot.
 struct Counts {
   int runs = 0, refused = 0, currents = 0, speeds = 0, buses = 0;
   double current = 0, speed = 0, bus = 0;

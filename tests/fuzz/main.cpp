@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T] runs cases from seed S on; with `new` the system draws S.
-// drawn_scenarios --show valid|hostile S prints the text of one case. The results are printed as Markdown; the exit code is 1 if a law is
-// broken.
+// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]: runs cases from seed S on; with
+// `new`, the system draws S.
+// drawn_scenarios --show valid|hostile S: prints the text of one case.
+// The results are printed as Markdown. The exit code is 1 if a law is broken.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -19,7 +20,7 @@ using namespace sixstep::testing;
 
 std::uint64_t number(const char* text) { return std::strtoull(text, nullptr, 10); }
 
-/// The seed is short to type, and far from the seeds of the standard tests.
+/// A random seed that is short to type and far from the seeds of the standard tests.
 std::uint64_t new_seed() {
   std::random_device device;
   return 1'000'000'000ull + (std::uint64_t{device()} << 8);

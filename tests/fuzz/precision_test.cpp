@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double against long double on drawn drives. The growth of rounding errors depends on the drive: for example on a comparator that just
-// misses its level, or on a rotor that just breaks away. A third run in long double, with parameters off by 1e-13, measures this growth.
-// Double may differ by 1e-11 of the machine's scales plus four times the third run's difference, because that run tries only one of many
-// directions.
+// Double is compared with long double on random drives. The growth of rounding errors depends on the drive:
+// for example on a comparator that just misses its level, or on a rotor that just breaks away. A third run,
+// in long double with parameters changed by 1e-13, measures this growth. The tolerance of double is 1e-11 of
+// the machine's scales, plus four times the difference of the third run, because this run tries only one of
+// many directions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +26,7 @@ DrawnDrive nearly(DrawnDrive d) {
   return d;
 }
 
-/// Currents and speed relative to the machine's scales.
+/// Currents and speed, relative to the machine's scales.
 using Point = std::array<double, 4>;
 
 template <class Rig>
@@ -42,19 +43,20 @@ double distance(const Point& a, const Point& b) {
 }
 
 struct Outcome {
-  bool tame = true;  ///< the effect of the parameters' 1e-13 stayed below 1e-11
-  double worst = 0;  ///< error of double, while tame
+  bool tame = true;  ///< the change of 1e-13 in the parameters had an effect below 1e-11
+  double worst = 0;  ///< error of double while `tame` is true
 };
 
-/// A zero current with a zero setpoint: the sign of its last bit decides whether soft chopping coasts or brakes (model.md 4b). No
-/// comparison is possible there.
+/// A zero current with a zero setpoint: the sign of the last bit decides whether soft chopping coasts or
+/// brakes (model.md 4b), so a comparison is not possible.
 bool asks_for_nothing(const DrawnDrive& d) {
   return std::any_of(d.timeline.begin(), d.timeline.end(), [](const rig::Action& a) {
     return a.kind == rig::ActionKind::setpoint && a.value == 0.0;
   });
 }
 
-/// The comparison ends once the perturbed run has diverged from the exact one, because from then on double may differ as well.
+/// The comparison ends once the changed run has diverged from the exact run, because double may then differ
+/// as well.
 Outcome compare(std::uint64_t seed) {
   const DrawnDrive drive(seed), other = nearly(drive);
   if (drive.drive.mode != control::Mode::duty && asks_for_nothing(drive)) return {.tame = false};

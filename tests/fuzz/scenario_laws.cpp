@@ -29,10 +29,10 @@ constexpr double longest_case_s = 60.0;
 #else
 constexpr double longest_case_s = 6.0;
 #endif
-/// Number of callbacks until a hostile text's run is stopped.
+/// Number of callbacks after which the run of a hostile text is stopped.
 constexpr std::int64_t hostile_looks = 8;
 
-/// A path in the scenarios' folder, so that the files named in a text are found there.
+/// A path in the scenarios' folder, where the files named in a text are found.
 std::string beside_scenarios(const char* name) {
   return std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name;
 }
@@ -45,7 +45,7 @@ double cpu_s() {
 
 constexpr double yes_no(bool holds) { return holds ? 0.0 : 2.0; }
 
-/// Every row of a run: both sides of each jump, and the recorded rows.
+/// Every row of a run: the values before and after each jump, and the recorded rows.
 struct Rows {
   bool finite = true, rising = true;
   double last_s = 0.0;
@@ -57,10 +57,10 @@ struct Rows {
   }
 };
 
-/// The known facts of one case, for its laws.
+/// The facts about one case from which its laws are computed.
 struct Evidence {
   const Examined& examined;
-  const base::Problems& problems;  ///< from reading or running; empty after a run
+  const base::Problems& problems;  ///< problems of reading or running; empty after a complete run
   const Outcome* outcome = nullptr;
   const Outcome* watched = nullptr;
   const Rows* rows = nullptr;
@@ -84,7 +84,8 @@ bool no_defect(const base::Problems& problems) {
   return true;
 }
 
-/// A time that was never reached is infinite, and exceeds any lower limit.
+/// Whether the value is a valid figure. A time that was never reached is infinite and exceeds any lower
+/// limit.
 bool is_figure(const Verdict& v) { return std::isfinite(v.measured) || (v.unit == "s" && v.measured > 0); }
 
 bool sound_figures(const Outcome& outcome) {
@@ -102,7 +103,7 @@ struct Law {
   double (*used)(const Evidence&);
 };
 
-/// Laws of every case, drawn or hostile.
+/// Laws of every case, random or hostile.
 constexpr Law always[] = {
     {"bounded time", [](const Evidence& e) { return e.seconds / longest_case_s; }},
     {"what is refused has a place, a rule and a cure",
@@ -116,7 +117,7 @@ constexpr Law always[] = {
      [](const Evidence& e) { return yes_no(!e.outcome || e.shorts || !says(*e.outcome, "shoot-through")); }},
 };
 
-/// Laws of an accepted drawn case: it has an outcome, a watched outcome and a walk.
+/// Laws of an accepted random case: it has an outcome, a watched outcome and a walk.
 constexpr Law of_a_run[] = {
     {"it reads back as it was written", [](const Evidence& e) { return yes_no(e.read_back_equal); }},
     {"it ends, and not by crawling",
@@ -137,14 +138,15 @@ constexpr Law of_a_run[] = {
      [](const Evidence& e) { return yes_no(e.breaks_a_hall_line || !says(*e.outcome, "does not follow")); }},
 };
 
-/// Relative tolerance of the energy balance, a tenth of the default. The plant's laws hold within each segment (tests/support/laws.hpp).
+/// Relative tolerance of the energy balance, a tenth of the default. The laws of the plant apply within each
+/// segment (tests/support/laws.hpp).
 constexpr double energy_tolerance = 1e-12;
 
 void ask(const Evidence& e, Examined& out) {
   for (const Law& law : always) out.laws.push_back({law.name, law.used(e)});
   if (!e.walk) return;
   for (const Law& law : of_a_run) out.laws.push_back({law.name, law.used(e)});
-  if (e.walk->segments == 0) return;  // a fault at the very start leaves no segment to check
+  if (e.walk->segments == 0) return;  // a fault at the start leaves no segment to check
   for (const auto& used : e.walk->laws.used(energy_tolerance)) out.laws.push_back({used.law, used.part});
 }
 
@@ -163,7 +165,7 @@ std::string kind_of(const Scenario& s) {
   return firmware + ", " + std::string(base::word(arithmetic_choices, s.control.arithmetic));
 }
 
-/// The key "control.arithmetic" of "drawn.toml:3:1: control.arithmetic".
+/// Returns the key "control.arithmetic" of the text "drawn.toml:3:1: control.arithmetic".
 std::string key_of(const base::Problems& problems) {
   if (problems.empty()) return "";
   const std::string& where = problems[0].where;
@@ -218,7 +220,8 @@ Listeners all_ears(Rows& rows, control::Mode mode) {
 std::string drawn_text(std::uint64_t seed) { return drawn_scenario(seed).text; }
 std::string hostile_text(std::uint64_t seed) { return broken_text(seed).text; }
 
-/// The read scenario equals the drawn one (of the sheet, the drawn values), and its written text reads back as the same.
+/// Whether the read scenario is equal to the random scenario (for the sheet: its random values), and whether
+/// its written text reads back as the same scenario.
 bool reads_back(const Scenario& read, const Scenario& drawn) {
   Scenario plain = read;
   plain.sheet = drawn.sheet;
@@ -288,7 +291,7 @@ Examined examine_hostile(std::uint64_t seed) {
   Rows rows;
   std::int64_t looks = 0;
   Listeners ears = all_ears(rows, scenario->control.mode);
-  ears.on_record = nullptr;  // a grid of nanoseconds over hours would take hours
+  ears.on_record = nullptr;  // recording a grid of nanoseconds over hours would take hours
   ears.keep_going = [&looks](double) { return ++looks < hostile_looks; };
   const auto outcome = run(*scenario, ears);
   if (!outcome) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws that hold for every scenario, drawn or damaged: each gives the used part of its tolerance. A new law is one line in
-// scenario_laws.cpp.
+// Laws for every scenario, random or damaged. Each law returns the used fraction of its tolerance. A new law
+// is one line in scenario_laws.cpp.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,26 +10,27 @@ namespace sixstep::testing {
 
 struct LawUsed {
   const char* law;
-  double part;  ///< 1 is the whole tolerance
+  double part;  ///< used fraction; 1 is the whole tolerance
   bool broken() const { return !(part <= 1.0); }
 };
 
 struct Examined {
-  std::string kind;  ///< the drawn firmware and arithmetic, or the kind of damage
+  std::string kind;  ///< firmware and arithmetic of a random case, or kind of damage
   bool accepted = false;
   std::string refused_at;  ///< first refused key or place
-  std::string ended;       ///< end of an accepted scenario's run
+  std::string ended;       ///< how the run of an accepted scenario ended
   std::vector<LawUsed> laws;
-  std::string words;  ///< the offending message, for the report of a failure
+  std::string words;  ///< the message that violates a law, for the report of a failure
 };
 
-/// One scenario of the kind that an engineer writes: written, read back, checked, run, run watched, and run from snapshots.
+/// A scenario of the kind that an engineer writes: written, read back, checked, run, run with observers, and
+/// run from snapshots.
 Examined examine_drawn(std::uint64_t seed);
 
 /// One damaged text: read, checked, and run for a while if it is accepted.
 Examined examine_hostile(std::uint64_t seed);
 
-/// The text of either, for inspection.
+/// The text of either case, for inspection.
 std::string drawn_text(std::uint64_t seed);
 std::string hostile_text(std::uint64_t seed);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fake_core.cpp plays an emulated core with a fault. The real cores run under ./test --target
+// fake_core.cpp simulates an emulated core with a fault. The real cores run under ./test --target
 // (tests/target/loop.py).
 #include "faces/loop/emulator.hpp"
 
@@ -16,7 +16,7 @@ using Command = sixstep::control::BridgeCommand<double>;
 
 Core playing(const char* how) { return {"fake", "Fake", {}, {FAKE_CORE, how}, "", "", {}}; }
 
-/// A drive that commands the bridge off, so that the host's answers equal the fake's.
+/// A drive that turns the bridge off, so the host's answers are equal to those of fake_core.
 struct Asked {
   Core core;
   std::unique_ptr<Emulator> emulator;
@@ -25,7 +25,7 @@ struct Asked {
   explicit Asked(const char* how)
       : core(playing(how)), emulator(std::move(*Emulator::start(core, "image"))), beside(emulator->port()) {}
   Command answer(std::int64_t tick) { return beside.held(rig::LeanCall<double>{}, Command{}, {tick, 0.0}); }
-  /// The number of calls without a fault before the first one with a fault, at most `most`.
+  /// The number of calls without a fault before the first call with a fault, at most `most`.
   int well_answered(int most) {
     for (int n = 0; n < most; ++n)
       if (answer(n).fault) return n;

@@ -30,7 +30,7 @@ TEST(FreshFolder, IsGoneWithAllThatIsInItAndNoTwoAreOne) {
   EXPECT_FALSE(fs::exists(path));
 }
 
-/// The program is killed, so that no destructor runs.
+/// The folder is removed even if the program is killed and no destructor runs.
 TEST(FreshFolder, IsGoneTooWhereItsProgramIsKilled) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The audit compares the energy balance with the energy that moved.
+// The audit relates the error of the energy balance to the energy that moved.
 #include "sixstep/plant/audit.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The fuzzer found this case: the load accelerates the shaft and brakes it to rest, so that its energies add
-/// up to zero. The balance then divided the rounding of both parts by almost nothing.
+/// The fuzzer found this case: the load accelerates the shaft and brakes it to rest, so its energies sum to
+/// zero. The error of the balance was then divided by almost nothing.
 TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   Board b = Board::duty(0.0);
   b.drive.mode = control::Mode::off;
@@ -34,7 +34,7 @@ TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   laws.expect_all(1e-11);
 }
 
-/// The fuzzer found this case: pulses of 1e-22 s moved 1e-34 J, of which no digit is known.
+/// The fuzzer found this case: pulses of 1e-22 s moved 1e-34 J, of which no digit is significant.
 TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;
@@ -46,8 +46,9 @@ TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   laws.expect_all(1e-11);
 }
 
-/// The fuzzer found this case: where a switch opens, the plant drops a diode's current that is below the
-/// noise. It is 1e-12 A, but a motor at a thousandth of its stall current lost its energy in every period.
+/// The fuzzer found this case: when a switch opens, the plant sets a diode's current below the noise, here
+/// 1e-12 A, to zero. A motor at a thousandth of its stall current lost the energy of this current in every
+/// period.
 TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   Board b = Board::duty(0.008, control::Chopping::complementary);
   b.board.modulator.dead_ticks = 90'000;
@@ -59,13 +60,12 @@ TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   laws.expect_all(1e-13);
 }
 
-/// Each segment's integrals are compared with the integrals of the whole products, with all terms up to
-/// degree 2 n.
+/// Compares each segment's integrals with integrals of the whole products, with all terms up to degree 2 n.
 struct BesideProducts {
   struct Worst {
     double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
   } worst;
-  std::array<int, 4> connected{};  ///< segments by their number of connected legs
+  std::array<int, 4> connected{};  ///< segments, by number of connected legs
   int other_bits = 0;              ///< segments whose bits differ from this file's build without AVX
 
   template <class System>
@@ -114,7 +114,7 @@ struct BesideProducts {
   }
 };
 
-/// The rounding of values, products and sums is below 64 eps of the scale on both sides. The back-EMF is a
+/// On both sides, the rounding of values, products and sums is below 64 eps of the scale. The back-EMF is a
 /// trapezoid or a sine, the bus is stiff or has R and C, and the devices are real.
 TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   std::array<int, 4> connected{};
@@ -146,8 +146,8 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   EXPECT_GT(connected[3], 1000);
 }
 
-/// Kirchhoff's law holds for each order of the three currents' series, not only for the audit's sums at both
-/// ends. A floating leg has no current in any order.
+/// Kirchhoff's law applies to each order of the series of the three currents, not only to the audit's sums at
+/// both ends. A floating leg has no current in any order.
 struct SumsOfSeries {
   double worst_A = 0, floating_A = 0;
   int of_legs[4] = {};
@@ -174,8 +174,8 @@ TEST(Audit, CurrentsSumToZeroOrderByOrder) {
   EXPECT_GT(sums.of_legs[3], 100);
 }
 
-/// Beyond the instant at which a diode's current ends, its series continues with the wrong sign. The check
-/// must report an error there, or it would never report one.
+/// After the instant at which a diode's current ends, its series continues with the wrong sign. The audit
+/// must report an error there; otherwise it would never report one.
 TEST(Audit, SeesADiodeThatConductsBackwards) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
@@ -184,7 +184,7 @@ TEST(Audit, SeesADiodeThatConductsBackwards) {
     Held<> bench(setup, a_to_b());
     ASSERT_EQ(bench.run_to(10e-6), sim::Stop::end);
     // The current flows through one diode and one switch against the bus: into b's upper diode, or out of a's
-    // lower one.
+    // lower diode.
     bench.plant().set_gates(high ? gates({}, {true, false, false}) : gates({false, true, false}, {}));
     const double i_0 = bench.state().i[0], length = bench.plant().expand(30e-6);
     const double exact =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torque during commutation equals Carlson's closed form (1992): flat tops, ideal devices, soft chopping
-// that stays off until the new phase carries the current. model.md 5 derives the form, which shares no line
-// with the kernels.
+// The torque during commutation is compared with Carlson's closed form (1992): flat tops, ideal devices, soft
+// chopping that stays off until the new phase carries the current. model.md 5 derives the closed form, which
+// shares no line with the kernels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 
 /// Flat tops of 150 degrees: all three back-EMFs are constant for 15 degrees on either side of the edge at
-/// 120.
+/// 120 degrees.
 constexpr double K_e = 0x1p-6, speed = 256.0, E = K_e * speed, L = 0.286e-3, charging_V = 40.0;
 
 plant::Gates pair(int high, int low) {
@@ -45,7 +45,7 @@ HeldGeneral bench<HeldGeneral>(double R_ohm) {
   return HeldGeneral(s, pair(0, 2));
 }
 
-/// Phase a carries I to c. Then b takes a's place, and the bus has the voltage `ratio` E.
+/// Phase a carries the current I to c. Then b replaces a, and the bus has the voltage `ratio` E.
 template <class Bench>
 struct Commutation {
   Bench held;
@@ -76,7 +76,8 @@ struct Commutation {
   double risen_s() const { return -L / R * std::log1p(-1.5 * R * I / (U - E)); }
 };
 
-/// The torque's relative change at the end of the part of the commutation that depends on the bus alone.
+/// The torque's relative change at the end of the part of the commutation that depends only on the bus
+/// voltage.
 double exact_change(double U, double I, double R) {
   const double left = U - 4 * E - 3 * R * I;
   return left >= 0 ? left / (2 * (U - E)) : left / (U + 2 * E + 3 * R * I);
@@ -84,7 +85,7 @@ double exact_change(double U, double I, double R) {
 double carlsons_change(double ratio) {
   return ratio >= 4 ? (ratio - 4) / (2 * (ratio - 1)) : (ratio - 4) / (ratio + 2);
 }
-/// Bound of the relative error that comes from currents that the kernels take for zero.
+/// Bound of the relative error caused by currents that the kernels treat as zero.
 double noise(double R, double U, double I) { return 1e-11 + 64 * eps * std::fmax(U, charging_V) / R / I; }
 
 template <class Bench>
@@ -133,8 +134,8 @@ TYPED_TEST(CarlsonsRipple, AtTwiceTheBackEmfTheNewCurrentNeverRisesAgain) {
   }
 }
 
-/// From the instant at which the new phase carries I, chopping holds its current there: the torque falls with
-/// the old phase's current.
+/// From the instant at which the new phase carries I, chopping keeps its current constant. The torque then
+/// falls with the old phase's current.
 TYPED_TEST(CarlsonsRipple, IsAtItsPeakWhenChoppingBegins) {
   Commutation<TypeParam> c(8.0, 1e-4);
   c.run_until(c.begin.plus_seconds(c.risen_s()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diodes begin to conduct at the rails, at the free star, and at sector edges with two events at once.
+// Diodes start to conduct at the rails, with a free star, and at sector edges with two events at once.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ double first_s(const Held<>& bench, int from, int to) {
   return -1.0;
 }
 
-/// The rotor turns freely from 270 degrees with a's lower switch on. e_a is the lowest until 300 degrees,
-/// where b's flat bottom begins and a's ends.
+/// The rotor turns freely from 270 degrees with a's lower switch on. e_a is the lowest back-EMF until 300
+/// degrees, where b's flat bottom begins and a's ends.
 Drivetrain towards_300_deg() {
   Drivetrain setup;
   setup.shaft.B_Nm_s = 0.0;
@@ -36,7 +36,7 @@ TEST(Rail, IdealDiodeConductsFromTheSectorEdgeOn) {
   LawChecker<> laws;
   ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
   laws.expect_all();
-  // Two events at one instant: rounding may put either first.
+  // Two events occur at one instant: rounding decides which is first.
   const double edge_s = at_electrical_deg(30.0) / 400.0, bound = 16 * eps * at_electrical_deg(300.0) / 400.0;
   EXPECT_NEAR(first_s(bench, plant::guard::edge_ahead, plant::guard::low_rail), edge_s, bound);
   EXPECT_NEAR(first_s(bench, plant::guard::low_rail, plant::guard::breakaway_forward), edge_s, bound);
@@ -51,10 +51,10 @@ TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
   LawChecker<> laws;
   ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
   laws.expect_all();
-  // On the ramp e_a - e_b = K_e w (theta - 300)/30. The diode conducts where this equals V_f.
+  // On the ramp, e_a - e_b = K_e w (theta - 300)/30. The diode conducts when this is equal to V_f.
   const double behind_edge = 30.0 * 0.7 / (setup.machine.K_e_V_s * 400.0);
   const double exact = at_electrical_deg(30.0 + behind_edge) / 400.0;
-  // Angles of 270 degrees carry an error of eps each; the ramp's slope adds that of its own terms.
+  // The relative error of angles of 270 degrees is eps each. The ramp's slope adds the error of its terms.
   EXPECT_NEAR(first_s(bench, plant::guard::low_rail, plant::guard::breakaway_forward), exact,
               32 * eps * at_electrical_deg(330.0) / 400.0);
 }
@@ -77,14 +77,14 @@ TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
               2 * noise_V * RC / left_V + 16 * eps * exact);
 }
 
-/// The third terminal is beyond the rail by half of the diode's drop: the leg floats from the start, without
-/// an event.
+/// The third terminal is beyond the rail by half of the diode's voltage drop. The leg floats from the start,
+/// without an event.
 TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
     setup.devices.V_f_V = 0.7;
-    // The terminal of c, whose EMF is at its top, is 1.5 K_e w beyond the rail; a's EMF is at its bottom and
-    // b's is zero (or all three are mirrored).
+    // The terminal of c, whose EMF is at its top, is 1.5 K_e w beyond the rail; a's EMF is at its bottom, and
+    // b's is zero. In the second case, all three are mirrored.
     setup.start = {.speed_rad_s = 0.35 / (1.5 * setup.machine.K_e_V_s),
                    .angle_rad = at_electrical_deg(high ? 270.0 : 90.0),
                    .bus_V = 24.0};
@@ -98,7 +98,7 @@ TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
 }
 
 TEST(FloatingStar, ConductsOnlyAboveTheBus) {
-  // 2 K_e w is a part in 1e9 below and above U_s + 2 V_f.
+  // 2 K_e w is below and above U_s + 2 V_f by a relative 1e-9.
   for (const double V_f : {0.0, 0.7}) {
     for (const double side : {-1e-9, 1e-9}) {
       Drivetrain setup;
@@ -131,7 +131,7 @@ TEST(Rectifier, BrakesTheRotorToTheSpeedOfTheBusAndFeedsIt) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(bench.state().i[k], 0.0);
 }
 
-/// Counts the legs that had no current in one segment and a conducting diode in the next.
+/// Counts the legs that had no current in one segment and have a conducting diode in the next segment.
 struct Starts {
   plant::Legs before{};
   int low = 0, high = 0;
@@ -168,7 +168,8 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
   Held<> back(setup, all_off());
   ASSERT_EQ(ahead.run_to(20e-3), Stop::end);
   ASSERT_EQ(back.run_to(20e-3), Stop::end);
-  // Two trajectories start eps apart in angle; the solver's accuracy bounds their distance later.
+  // The two trajectories start with angles that differ by eps. The solver's accuracy bounds their difference
+  // later.
   EXPECT_NEAR(back.state().w, -ahead.state().w, 1e-12 * 900.0);
   EXPECT_NEAR(back.state().i[0], ahead.state().i[0], 1e-10 * 10.0);
   EXPECT_NEAR(back.state().i[1], ahead.state().i[2], 1e-10 * 10.0);
@@ -177,8 +178,9 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
 }
 
 TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
-  // The devices are ideal and the rotor is at rest. A free terminal has exactly the star point's voltage:
-  // that of the one driven leg's rail, or a voltage between the rails. At equality with a rail a leg floats.
+  // The devices are ideal and the rotor is at rest. A free terminal has exactly the star point's voltage: the
+  // rail of the one driven leg, or a voltage between the rails. If the voltage is equal to a rail's, the leg
+  // floats.
   Drivetrain setup;
   for (const plant::Gates& g :
        {gates({}, {true, false, false}), gates({true, false, false}, {}), all_off()}) {
@@ -192,7 +194,7 @@ TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
 
 TEST(Pitfall03_RestartOnABoundary, RotorStartingOnASectorEdgeLeavesOnce) {
   for (int sector = 0; sector < 6; ++sector) {
-    // The gates are those of the positive pair of the sector that the rotor enters, so that it leaves the
+    // The gates are those of the positive pair of the sector that the rotor enters, so the rotor leaves the
     // edge as theta ~ t^3.
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
     plant::Gates g;

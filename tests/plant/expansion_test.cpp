@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A series ends where its terms are negligible, not at a single term that is zero. It has the same bits with
-// every instruction set.
+// A series ends when its terms are negligible, not at a single zero term. It has the same bits with every
+// instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ using namespace sixstep;
 using namespace sixstep::testing;
 
 /// The resistance is almost zero. At the first edge, where b's bottom begins and a's ends, the pair has no
-/// torque. A load pulls: x ~ t^2 and i ~ t, so that i and w have terms of the orders 1, 4, 7, 10 alone. A
-/// series that ended at the zero terms between them would miss 3e-7 of the speed. In slices of 1 us all but
-/// the first begin with a current and have no such zeros.
+/// torque. The load accelerates the rotor: x ~ t^2 and i ~ t, so i and w have only terms of the orders 1, 4,
+/// 7, 10. A series that ended at the zero terms between them would have an error of 3e-7 in the speed. In
+/// slices of 1 us, all slices but the first begin with a current and have no such zeros.
 TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   Drivetrain setup;
   setup.machine = {.R_ohm = 1e-9, .L_H = 1e-3, .K_e_V_s = 0.01, .pole_pairs = 1};
@@ -36,7 +36,7 @@ TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   laws.expect_all();
 }
 
-/// The rotor is locked: i ~ 1 - exp(-t/tau) over a time longer than one series can cover.
+/// With a locked rotor, i ~ 1 - exp(-t/tau), over a time longer than one series can cover.
 TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   Drivetrain setup;
   setup.shaft.locked = true;
@@ -50,8 +50,8 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   for (double taus = 0.5; taus < 8.0; taus += 1.0 / 512) {
     plant::Expansion<double> y{};
     plant::expand(c, rotor.state(), mode, taus * setup.tau(), y);
-    // The next term, of both legs together, is below 2^-53 of the natural scale. Each term of this
-    // exponential is h/(n tau) of the one before.
+    // The next term, for both legs together, is below 2^-53 of the natural scale. Each term of this
+    // exponential is h/(n tau) times the previous term.
     const auto size = [&](int n) { return 2 * std::fabs(y.i[0][n]) * c.amp_limit; };
     EXPECT_LE(size(y.degree) * y.h / setup.tau() / (y.degree + 1), 1.0) << taus;
     if (y.h == taus * setup.tau()) continue;
@@ -63,7 +63,7 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   EXPECT_GT(halved, 0);
 }
 
-/// A shaft with every kind of torque, so that neither method can omit one.
+/// A shaft with every kind of torque, so that neither method can omit a term.
 plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
   std::uniform_real_distribution<double> part(0.1, 1);
   Drivetrain setup;
@@ -76,7 +76,7 @@ plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
   return out;
 }
 
-/// The same recurrence with no negative term bounds the rounding of an order.
+/// A bound of the rounding of an order: the same recurrence with all terms positive.
 struct Majorant {
   series::Coefficients<double> i{}, w{}, bus{};
   Majorant(const plant::Constants<double>& c, const plant::LegsLaw<double>& law, double emf, bool turns,
@@ -97,7 +97,7 @@ struct Majorant {
 };
 
 /// FlatPair multiplies out the equations of winding and shaft, two orders at a time; the plain recurrence
-/// does not. An order of either has less than a dozen roundings.
+/// does not. In both, an order has less than a dozen roundings.
 TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
   std::mt19937_64 random{20261122};
   std::uniform_real_distribution<double> any(-1, 1);
@@ -105,7 +105,7 @@ TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
     const plant::Plant<double> rotor = braked(random, n % 2 == 0);
     const plant::Constants<double>& c = rotor.constants();
     plant::Mode mode{.motion = static_cast<plant::Motion>(random() % 5)};
-    // In sector 0 a and b are at their flat tops, c is on a ramp.
+    // In sector 0, a and b are at their flat tops, and c is on a ramp.
     for (unsigned k = 0; k < 2; ++k) mode.legs[k] = static_cast<plant::Connection>(1 + random() % 4);
     const plant::EmfPiece<double>& piece = c.emf[0].piece[0];
     ASSERT_EQ(piece.beta[0], piece.beta[1]);

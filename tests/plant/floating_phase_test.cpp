@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The physics most often missed (model.md 12): under soft chopping the free phase starts to conduct.
+// An effect that is often left out (model.md 12): with soft chopping, the free phase starts to conduct.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Differences {
   double current = 0, speed = 0, peak_current = 0, top_speed = 0;
 };
 
-/// Compares the engine with the textbook simulator on a grid, at half duty from rest.
+/// Compares the engine on a grid with the textbook simulator, which omits the effect, at half duty from rest.
 Differences against_naive(double step_s) {
   const Board board = Board::duty(0.5);
   auto engine = board.rig();
@@ -44,7 +44,7 @@ Differences against_naive(double step_s) {
 
 TEST(SoftChopping, FloatingPhaseStartsToConductAndLeavingItOutCostsTenPercentOfPeakCurrent) {
   const Differences d = against_naive(1e-6);
-  // model.md 12: 10.6 % and 0.4 %, to the digits given.
+  // According to model.md 12: 10.6 % and 0.4 %, to the printed digits.
   EXPECT_NEAR(d.current / d.peak_current, 0.106, 0.0005);
   EXPECT_NEAR(d.speed / d.top_speed, 0.004, 0.0005);
 }
@@ -55,7 +55,7 @@ TEST(SoftChopping, TheDifferenceIsNotTheNaiveSimulatorsStep) {
   EXPECT_NEAR(coarse.speed, fine.speed, 1e-3 * fine.speed);
 }
 
-/// Counts the legs that had no current in one segment and a conducting diode in the next.
+/// Counts the legs that had no current in one segment and have a conducting diode in the next segment.
 struct Starts {
   plant::Legs before{};
   int count = 0;
@@ -76,13 +76,14 @@ TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
   auto again = board.rig();
   Starts starts;
   ASSERT_EQ(run_to(again, length_s, starts), sim::Stop::end);
-  // Counts of the reference trajectory R3.
+  // The counts of the reference trajectory R3.
   EXPECT_EQ(rig.event_count(rig::EventKind::sector_edge), 224);
   EXPECT_EQ(rig.event_count(rig::EventKind::diode_off), 2034);
   EXPECT_EQ(starts.count, 1600);
 }
 
-/// The largest current of the free phase: of a leg outside the pair whose current has been zero before.
+/// The largest current of the free phase: of a leg that is not in the driven pair and whose current has been
+/// zero before.
 struct FreePhase {
   double worst_A = 0;
   std::array<bool, 3> was_free{};
@@ -100,10 +101,10 @@ struct FreePhase {
   }
 };
 
-/// With PWM-ON-PWM the star point is at the lower rail in the off-times of one half of the sector, and at the
-/// upper rail in those of the other half. The free phase's back-EMF then drives current through its diodes
-/// only in the off-time in which this EMF changes its sign. The EMF changes by 2 K_e w in a sector, and L
-/// di/dt = -2/3 e. With each other pattern the current flows throughout half a sector.
+/// With PWM-ON-PWM, the star point is at the lower rail in the off-times of one half of the sector, and at
+/// the upper rail in those of the other half. The free phase's back-EMF e then drives a current through the
+/// diodes only in the off-time in which e changes its sign. e changes by 2 K_e w in a sector, and L di/dt =
+/// -2/3 e. With every other pattern, this current flows throughout half a sector.
 TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
   using control::PwmPattern;
   constexpr double T = 30e-6;

@@ -18,7 +18,7 @@ Drivetrain dry(double coulomb, double breakaway = 0.0) {
   setup.shaft.B_Nm_s = 0.0;
   setup.shaft.coulomb_Nm = coulomb;
   setup.shaft.static_Nm = breakaway;
-  setup.start.angle_rad = 0.02;  // sector 0, both tops of the pair a, b
+  setup.start.angle_rad = 0.02;  // sector 0: both phases of the pair a, b are on their flat tops
   return setup;
 }
 
@@ -39,7 +39,7 @@ TEST(Pitfall08_Sticking, BreaksAwayInTheDirectionOfTheExcess) {
     bench.plant().set_load(load);
     LawChecker<> laws;
     ASSERT_EQ(bench.run_to(1e-3, laws), Stop::end);
-    // T_load > 0 opposes +w at rest too.
+    // T_load > 0 also acts in the negative direction at rest.
     const double exact = (load > 0 ? -0.01 : 0.01) / setup.shaft.J_kg_m2 * 1e-3;
     EXPECT_NEAR(bench.state().w, exact, 16 * eps * 0.06 / 0.01 * std::fabs(exact));
     laws.expect_all();
@@ -63,7 +63,7 @@ TEST(Pitfall08_Sticking, BreakawayInstantIsInClosedForm) {
   }
 }
 
-/// At rest with all legs on switches only the motion is undecided: a load above the friction moves the rotor
+/// At rest with all legs on switches, only the motion is undecided. A load above the friction moves the rotor
 /// at once, without a breakaway event.
 TEST(Pitfall08_Sticking, ALoadBeyondItIsNoEvent) {
   for (const double load : {0.05, -0.05}) {
@@ -110,8 +110,8 @@ TEST(Friction, RotorStopsAtTheClosedFormInstantAndStays) {
       if (e.id == plant::guard::standstill) stopped = e.at.seconds(), ++stops;
     EXPECT_EQ(stops, 1);
     const double exact = 50.0 * setup.shaft.J_kg_m2 / 0.005;
-    // The error of w is the guard's noise, 64 eps of the speed scale. The error of the time is that of w over
-    // T_c/J.
+    // The error of w is the guard's noise, 64 eps of the speed scale. The error of the time is the error of
+    // w, divided by T_c/J.
     EXPECT_NEAR(stopped, exact, 64 * eps * 766.4 * setup.shaft.J_kg_m2 / 0.005);
     const double way = 50.0 * exact / 2;
     EXPECT_NEAR(bench.angle() - 0.02, w > 0 ? way : -way, 1e-12 * way);
@@ -141,9 +141,9 @@ TEST(Friction, LockedRotorNeedsNone) {
   EXPECT_TRUE(bench.events.empty());
 }
 
-/// The fuzzer found this case: a rotor that a load accelerates for a picosecond has an EMF of a few rounding
-/// errors. The plant found the conducting leg only with a wider noise, and that noise set the speed to zero
-/// too: the rotor neither turned nor stood.
+/// The fuzzer found this case: if a load accelerates a rotor for a picosecond, its EMF is a few rounding
+/// errors. The plant found the conducting leg only with a larger noise limit, and this limit also set the
+/// speed to zero: the rotor neither turned nor was at rest.
 TEST(Pitfall05_SnapFirst, ARotorThatHardlyTurnsStillTurns) {
   for (int decade = -130; decade <= -60; ++decade)
     for (const double sign : {1.0, -1.0})

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general kernel equals closed forms (model.md 7 to 9). No formula here is one of the kernel's.
+// The general kernel is compared with closed forms (model.md 7 to 9). None of these formulas is used in the
+// kernel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// No gate, friction or load acts on the rotor.
+/// A rotor without gates, friction or load.
 GeneralSetup free_rotor(double speed_rad_s) {
   GeneralSetup s;
   s.shaft.B_Nm_s = 0;
@@ -208,7 +209,7 @@ TEST(GeneralClosedForms, AWireThatBreaksWhileItCarriesCurrentOpensAtTheNextZero)
 }
 
 // A terminal behind a broken wire has no rails. The other two terminals are symmetric about the middle of
-// their rails, and the windings' EMFs determine the third.
+// their rails, and the EMFs of the windings determine the voltage of the third.
 TEST(GeneralClosedForms, AStarBehindABrokenWireHangsMidwayBetweenTheOthersRails) {
   for (unsigned broken = 0; broken < 3; ++broken) {
     HeldGeneral held(free_rotor(300));

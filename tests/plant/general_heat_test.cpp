@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The temperatures of winding, housing (model.md (11)) and the switches' junctions equal a separate
-// integration and closed forms.
+// The temperatures of winding and housing (model.md (11)) and of the switches' junctions are compared with a
+// separate integration and with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ general::HeatGiven warm_motor() {
 TEST(GeneralHeat, TwoBodiesUnderSteadyPowersAreSolvedExactlyInStepsOfAnyLength) {
   const auto given = warm_motor();
   const double copper_W = 8, w = 300, friction_W = 1e-5 * w * w + 2e-3 * w;
-  // The reference integrates (11) by the classical method of fourth order with small steps.
+  // The reference integrates (11) with the classical fourth-order method in small steps.
   double T_w = 40, T_h = 30;
   const double C_w = 17.7 / 4.5, C_h = 212 / 4.25, dt = 0.01;
   const auto slope = [&](double tw, double th) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both kernels give the same trajectory where the lean kernel can run: they share no recurrence, no mode
-// search and no guard of a leg.
+// Both kernels give the same trajectory for all drives that the lean kernel supports. They share no
+// recurrence, no mode search and no guard of a leg.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The largest difference over the largest value: of the phase currents, and of the speed.
+/// The largest difference, divided by the largest value: for the phase currents, and for the speed.
 struct Apart {
   double current = 0, speed = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random machines, shafts, bridges and supplies of the general kernel run with random duties. The run reaches
+// Random machines, shafts, bridges and supplies run on the general kernel with random duties. The run reaches
 // its end, its energy balance closes, no diode conducts backwards, and no floating leg carries a current. A
-// failure prints its seed; SIXSTEP_DRAWS sets the number of draws.
+// failed test prints its seed; SIXSTEP_DRAWS sets the number of draws.
 #include <gtest/gtest.h>
 
 #include <cmath>

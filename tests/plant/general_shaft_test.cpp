@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads and gears of the general kernel equal closed forms (model.md 7). No formula here is one of the
-// kernel's.
+// Loads and gears of the general kernel are compared with closed forms (model.md 7). None of these formulas
+// is used in a kernel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(GeneralShaft, ATorqueOverTheSpeedIsALineBetweenItsPoints) {
   GeneralSetup s = free_rotor(50);
   s.shaft.load.over_speed = {{-10, -1e-4}, {10, 1e-4}, {30, 5e-4}};
   HeldGeneral held(s);
-  // The load is constant above 30 rad/s; from 30 to 10 rad/s its slope is 2e-5, through zero 1e-5.
+  // The load is constant above 30 rad/s. From 30 to 10 rad/s, its slope is 2e-5; through zero, it is 1e-5.
   const double level = 20 * J / 5e-4, sloped = J / 2e-5 * std::log(5e-4 / 1e-4);
   for (const double t : {level / 2, level, level + sloped / 3, level + sloped}) {
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
@@ -56,7 +56,7 @@ TEST(GeneralShaft, AGearWithLossesTakesMoreFromTheSideThatDrives) {
   s.shaft.load_J_kg_m2 = J2;
   s.shaft.load.torque_Nm = load;
   HeldGeneral held(s);
-  // The load's own inertia drives it to standstill; then the load torque drives it backwards.
+  // The inertia of the load drives the shaft until standstill. Then the load torque drives it backwards.
   const double slows = load / n / eta / (J + J2 / (n * n) / eta), stands = 12 / slows;
   ASSERT_EQ(run_to(held, stands / 2), sim::Stop::end);
   EXPECT_NEAR(held.plant().state().w, 6, 1e-9);
@@ -70,7 +70,7 @@ TEST(GeneralShaft, AGearWithLossesHoldsALoadThatCannotDriveIt) {
   s.shaft.gear = 5;
   s.shaft.efficiency = 0.5;
   s.shaft.load.torque_Nm = 2e-3;
-  s.shaft.coulomb_Nm = 3e-4;  // more than the load behind the gear's loss, 2e-3/5 * 0.5
+  s.shaft.coulomb_Nm = 3e-4;  // more than the load's torque behind the gear with its loss, 2e-3/5 * 0.5
   HeldGeneral held(s);
   ASSERT_EQ(run_to(held, 0.1), sim::Stop::end);
   EXPECT_EQ(held.plant().state().w, 0);
@@ -79,9 +79,9 @@ TEST(GeneralShaft, AGearWithLossesHoldsALoadThatCannotDriveIt) {
   EXPECT_NEAR(held.plant().state().w, -(4e-3 / 5 * 0.5 - 3e-4) / J * 0.1, 1e-9);
 }
 
-/// A load of almost zero drives the shaft for picoseconds, then the motor does. The trial state of a rotor at
-/// rest once had another sign of the gear's loss than the turning one, so that both alternated at one instant
-/// without end.
+/// An almost zero load drives the shaft for picoseconds, then the motor does. In an earlier version, the
+/// trial state of a rotor at rest had another sign of the gear's loss than the turning rotor, so both states
+/// alternated at one instant without end.
 TEST(GeneralShaft, ALossyGearStartsAgainstNextToNoLoad) {
   for (const double load : {-1e-6, -1e-8, -1e-10, 1e-8}) {
     GeneralSetup s;
@@ -126,7 +126,7 @@ TEST(GeneralShaft, ADynamometerSaysTheSpeedAndTheTorqueIsWhatIsLeft) {
   s.shaft.load_J_kg_m2 = 4e-5;
   s.shaft.coulomb_Nm = 2e-3;
   HeldGeneral held(s);
-  held.plant().set_speed(-10, 400);  // through zero at 25 ms
+  held.plant().set_speed(-10, 400);  // passes zero at 25 ms
   ASSERT_EQ(run_to(held, 0.01), sim::Stop::end);
   EXPECT_NEAR(held.plant().state().w, 2 * (-10 + 4), 1e-12);
   ASSERT_EQ(run_to(held, 0.075), sim::Stop::end);
@@ -134,7 +134,8 @@ TEST(GeneralShaft, ADynamometerSaysTheSpeedAndTheTorqueIsWhatIsLeft) {
   EXPECT_NEAR(plant.state().w, 2 * 20, 1e-11);
   const double angle = (static_cast<double>(plant.state().sector) * base::sector_rad + plant.state().x) / 8;
   EXPECT_NEAR(angle, 2 * (-10 * 0.075 + 200 * 0.075 * 0.075), 1e-12);
-  // No current: inertia, viscous and dry friction are the dynamometer's, at its own side.
+  // There is no current: inertia, viscous friction and dry friction act on the dynamometer, on its side of
+  // the gear.
   const double at_start = plant.expansion().w[0];
   EXPECT_NEAR(plant.series().load[0], -2 * ((J + 1e-5) * 800 + 7.3e-6 * at_start + 2e-3), 1e-12);
 }

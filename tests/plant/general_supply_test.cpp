@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Supplies of the general kernel equal closed forms (model.md 9). No formula here is one of the kernel's.
+// Supplies of the general kernel are compared with closed forms (model.md 9). None of these formulas is used
+// in the kernel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// The rotor is held; the bus supplies a resistor that is on from the start.
+/// The rotor is locked; the bus supplies a resistor that is always on.
 GeneralSetup loaded(const general::Supply& supply, double bus_V, double load_ohm) {
   GeneralSetup s;
   s.shaft.locked = true;
@@ -29,7 +30,9 @@ TEST(GeneralSupply, ACapacitorWithAResistanceRingsWithTheWinding) {
   GeneralSetup s;
   s.shaft.locked = true;
   const double C = 50e-6, R = 2 * 0.515 + 0.3, L = 2 * 0.286e-3, U = 30;
-  s.supply = {.V_0_V = 1, .R_b_ohm = 1, .C_F = C, .R_C_ohm = 0.3, .sinks = false};  // below the bus: blocked
+  s.supply = {.V_0_V = 1, .R_b_ohm = 1, .C_F = C, .R_C_ohm = 0.3, .sinks = false};  // below the bus voltage,
+                                                                                    // so the supply is
+                                                                                    // blocked
   s.start.bus_V = U;
   HeldGeneral held(s, a_to_b());
   const double a = R / (2 * L), w = std::sqrt(1 / (L * C) - a * a);
@@ -50,7 +53,7 @@ TEST(GeneralSupply, ASourceTakesBackNoMoreThanItsLimit) {
     s.supply = {.V_0_V = 24, .R_b_ohm = 0.5, .C_F = 1e-3, .R_C_ohm = R_C, .sinks = false, .sink_A = 4};
     s.start.bus_V = 30;
     HeldGeneral held(s);
-    // The current is 4 A until U_s = 24 + 0.5 * 4, then it is an exponential.
+    // The current is 4 A until U_s = 24 + 0.5 * 4, then it decays exponentially.
     const double U_C = 26 + R_C * 4, level = (30 - U_C) * 1e-3 / 4, tau = (0.5 + R_C) * 1e-3;
     ASSERT_EQ(run_to(held, level / 2), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, 30 - 4 * level / 2 / 1e-3 - R_C * 4, digits * 30);
@@ -60,7 +63,7 @@ TEST(GeneralSupply, ASourceTakesBackNoMoreThanItsLimit) {
   }
 }
 
-/// exp(A t) y by scaling and squaring of the series, for a battery's three states.
+/// exp(A t) y for a battery's three states, by scaling and squaring of the series.
 using Three = std::array<double, 3>;
 using Matrix = std::array<Three, 3>;
 Three after(const Matrix& A, const Three& y, double t) {
@@ -94,7 +97,7 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   const double R_b = 0.1, C = 1e-3, load = 2, OCV = 18 + 8 * 0.9;
   HeldGeneral held(
       loaded({.R_b_ohm = R_b, .C_F = C, .source = general::Source::battery, .battery = battery}, OCV, load));
-  // States: OCV (one line over the charge), v_1, U_s; i = (OCV - v_1 - U_s)/R_b.
+  // States: OCV (linear in the charge), v_1, U_s; i = (OCV - v_1 - U_s)/R_b.
   const double per_Q = 8 / 0.4;
   const Matrix A{{{-per_Q / R_b, per_Q / R_b, per_Q / R_b},
                   {1 / (R_b * 5e-3), -1 / (R_b * 5e-3) - 1 / (0.2 * 5e-3), -1 / (R_b * 5e-3)},
@@ -109,8 +112,8 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   EXPECT_LT(held.plant().more().charge.value, 0.5) << "the middle point was passed";
 }
 
-/// U_s where a rectifier conducts from `t_on` on, fed by a sine of amplitude V less `drop`: the RC circuit's
-/// response to that sine.
+/// U_s while a rectifier conducts, from `t_on` on. The rectifier is fed by a sine of amplitude V, minus
+/// `drop`. U_s is the response of the RC circuit to this sine.
 struct Conducting {
   double V, w, drop, R_b, R, C;
   double steady(double t) const {
@@ -150,8 +153,8 @@ TEST(GeneralSupply, ARectifierChargesAtTheTopsAndLeavesTheRestToTheCapacitor) {
     const double U_off = law.at(t_off - shift, t_on - shift, U);
     t_on = root(t_off + 1e-5, shift + 15e-3,
                 [&](double t) { return U_off * std::exp(-(t - t_off) / (R * C)) - open(t); });
-    // Between two pulses the open voltage is below the bus: the root above is the instant at which the
-    // rectifier conducts again.
+    // Between two pulses, the open-circuit voltage is below the bus voltage. The root above is the instant at
+    // which the rectifier conducts again.
     ASSERT_EQ(run_to(held, t_after), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, U_off * std::exp(-(t_after - t_off) / (R * C)), 1e-10) << pulse;
     U = U_off * std::exp(-(t_on - t_off) / (R * C));
@@ -170,7 +173,7 @@ TEST(GeneralSupply, ThreePhasesLeaveTheRippleOfSixPulses) {
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
     double open = 0;
     for (int k = 0; k < 6; ++k) open = std::max(open, V * std::cos(w * t - base::pi / 3 * k) - 1.6);
-    EXPECT_NEAR(held.plant().state().bus, open * 10 / 10.05, 0.02) << t;  // a small C still has a small lag
+    EXPECT_NEAR(held.plant().state().bus, open * 10 / 10.05, 0.02) << t;  // even a small C causes a small lag
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pitfalls of the event-exact plant that no other test in this folder covers: the tangential start, the order
-// of snapping events, and guards made of the polynomials that carry the state.
+// of events that set a state to zero, and guards that are built from the polynomials of the state.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,8 +15,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 namespace guard = plant::guard;
 
-/// a's lower switch is on and b's EMF pulls its terminal below the rail: b's diode starts with i = di/dt = 0.
-/// w is constant, so that L_tt di/dt + R_tt i = E' t from there on, in closed form.
+/// a's lower switch is on, and b's EMF pulls its terminal below the rail. b's diode starts with i = di/dt =
+/// 0. w is constant, so L_tt di/dt + R_tt i = E' t from this instant on, which has a closed form.
 TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter) {
   for (const double V_f : {0.0, 0.7}) {
     Drivetrain setup;
@@ -34,7 +34,7 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
           setup.tau() * x * x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6))));
       const double exact = static_cast<double>(emf_rate / setup.R_tt() * tau_part);
       // The instant is a whole picosecond, and the start is exact to the rounding of an angle of 300 degrees.
-      // The driving voltage is zero to the guards' noise.
+      // The driving voltage is zero to the noise of the guards.
       const double late_s = 0.5e-12 + 32 * eps * at_electrical_deg(300.0) / 400.0;
       const double noise_V = plant::noise_of(bench.plant().constants().volt_scale, 1.0);
       const double bound = (emf_rate * after_s * late_s + noise_V * after_s) / setup.L_tt();
@@ -52,7 +52,7 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
   }
 }
 
-/// A six-step drive that follows the sectors without delay. On either side of the edge it drives the rotor
+/// A six-step drive that follows the sectors without delay. On either side of the edge, it drives the rotor
 /// back to the other side.
 struct TornAtAnEdge : Held<> {
   explicit TornAtAnEdge(const Drivetrain& setup) : Held<>(setup, all_off()) { drive(); }
@@ -61,13 +61,14 @@ struct TornAtAnEdge : Held<> {
     drive();
   }
   void drive() {
-    const bool ahead = plant().state().sector >= 0;  // torque of a to b: positive on either side of the edge
+    const bool ahead = plant().state().sector >= 0;  // torque of the pair a to b: positive on either side of
+                                                     // the edge
     plant().set_gates(ahead ? gates({false, true, false}, {true, false, false}) : a_to_b());
   }
 };
 
-/// The torque is zero on both sides of the edge at rest, and the third derivative of the angle is towards the
-/// edge from either side. Without friction the rotor cannot leave, but time must advance.
+/// At rest, the torque is zero on both sides of the edge, and the third derivative of the angle is towards
+/// the edge from either side. Without friction, the rotor cannot leave the edge, but time must advance.
 TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoesOnInTime) {
   for (const double C_F : {0.0, 1e-3}) {
     Drivetrain setup;
@@ -86,7 +87,7 @@ TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoe
   }
 }
 
-/// The order in which a mode's guards are evaluated: at one instant the first one is the event.
+/// The order in which a mode's guards are evaluated: at one instant, the first guard is the event.
 struct Order {
   bool snap_after_another = false;
   int standstill_with_rail = 0, current_with_rail = 0;  ///< segments that have both guards
@@ -114,7 +115,8 @@ TEST(Pitfall05_SnapFirst, EventsThatSnapAStateAreAskedBeforeAllOthers) {
   ASSERT_EQ(run_to(rig, 50e-3, order), sim::Stop::end);
   Drivetrain fast;
   fast.start.speed_rad_s =
-      720.0;  // slightly above no load: the diodes' current ends while the next leg nears its rail
+      720.0;  // slightly above the no-load speed: the diodes' current ends while the next leg is close to its
+              // rail
   Held<> coasting(fast, all_off());
   ASSERT_EQ(coasting.run_to(20e-3, order), sim::Stop::end);
   EXPECT_GT(order.standstill_with_rail, 0);
@@ -136,7 +138,7 @@ TEST(Pitfall05_SnapFirst, ASpeedWithinNoiseIsRestWhereFrictionHolds) {
   }
 }
 
-/// The quantity that a guard watches, taken from the state that the expansion yields at the fraction s.
+/// The quantity that a guard watches, computed from the state that the expansion gives at the fraction s.
 double watched(const plant::Plant<double>& p, int id, double s) {
   const plant::Snapshot<double> now = p.at(s);
   const double V_f = p.constants().devices.V_f_V;
@@ -180,7 +182,8 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
   }
   Drivetrain spinning;
   for (const double speed :
-       {500.0, 715.0}) {  // at 715 a free star's EMF almost reaches the bus: no bound excludes an event
+       {500.0, 715.0}) {  // at 715 rad/s a free star's EMF almost reaches the bus voltage: no bound excludes
+                          // an event
     spinning.start.speed_rad_s = speed;
     for (const plant::Gates& g :
          {gates({true, false, false}, {}), gates({false, true, false}, {}), all_off()}) {
@@ -188,7 +191,7 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
       ASSERT_EQ(bench.run_to(5e-3, same), sim::Stop::end);
     }
   }
-  // Noise is 64 eps of the natural scale; both sides are sums of a few dozen products of that scale.
+  // The noise is 64 eps of the natural scale. Both sides are sums of a few dozen products of this scale.
   EXPECT_LT(same.worst, 1.0);
   for (const int id : {0, 1, 2, guard::standstill, guard::edge_ahead, 6, 7, 8, 9, 10, 11,
                        guard::floating_star + 1, guard::breakaway_forward, guard::breakaway_backward})

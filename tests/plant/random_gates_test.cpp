@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gates switch at random, as no modulator would. The plant must still find its one consistent mode and
-// satisfy the laws.
+// The gates switch at random, which no modulator does. The plant must still find a consistent mode, and all
+// laws must hold.
 #include <gtest/gtest.h>
 
 #include <random>

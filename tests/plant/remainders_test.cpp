@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values below the last bit: the remainders of the running sums, and states so small that the plant could
-// take them for noise.
+// Values below the last bit of a double: the remainders of compensated sums, and states so small that the
+// plant could treat them as noise.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,11 +14,11 @@ using namespace sixstep::testing;
 
 Drivetrain rectifying() {
   Drivetrain setup;
-  setup.start.speed_rad_s = 900.0;  // 2 K_e w = 30.15 V: two and three diodes in turn
+  setup.start.speed_rad_s = 900.0;  // 2 K_e w = 30.15 V: two and three diodes conduct alternately
   return setup;
 }
 
-/// The sum of the currents' remainders beyond the rounding of that sum.
+/// The sum of the three currents' remainders (i_low): how far it exceeds its rounding error.
 struct Sums {
   double beyond_rounding = 0, largest = 0;
   int with_three = 0;
@@ -63,8 +63,8 @@ TEST(Remainders, AnEdgeSetsTheAngleAndLeavesNone) {
   EXPECT_GT(edges.passed, 10);
 }
 
-/// A current through switches may be arbitrarily small: the plant takes a current below the noise for zero
-/// only where a diode could carry it.
+/// A current through switches may be arbitrarily small: the plant sets a current below the noise to zero only
+/// where a diode could carry it.
 TEST(Remainders, ACurrentThroughSwitchesIsNeverTakenForNone) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;

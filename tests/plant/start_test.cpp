@@ -9,9 +9,9 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The fuzzer found this case: the conversion from degrees to radians and by the pole pairs moved a start off
-/// its edge by a rounding error. At rest the rotor leaves as t^3, so that 2e-16 rad delayed the commutation
-/// by nanoseconds.
+/// The fuzzer found this case: the conversions from degrees to radians and from electrical to mechanical
+/// angle moved a start off its edge by a rounding error. From rest the angle grows as t^3, so that 2e-16 rad
+/// delayed the commutation by nanoseconds.
 TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
   for (int pole_pairs = 1; pole_pairs <= 21; ++pole_pairs)
     for (int edge = -14; edge <= 14; ++edge) {
@@ -25,10 +25,10 @@ TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
     }
 }
 
-/// The rotor has just passed the edge, forwards or backwards. At rest on an edge, the sector is the one that
-/// the rotor will enter (model.md 4b).
+/// A turning rotor has just passed the edge, forwards or backwards. At rest on an edge, the sector is the one
+/// that the rotor will enter (model.md 4b).
 TEST(Start, OnASectorEdgeTheRotorIsInTheSectorItTurnsInto) {
-  for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three
+  for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three pieces
     for (int edge = -7; edge <= 7; ++edge)
       for (const double speed : {-300.0, 0.0, 300.0}) {
         Drivetrain setup;

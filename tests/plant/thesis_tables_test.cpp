@@ -21,7 +21,7 @@ using Terms = std::array<double, 4>;
 
 struct TableRow {
   int table = 0, sector = 0;
-  std::array<char, 3> sign{};  // of i_a, i_b, i_c: + - 0, or * where the row gives none
+  std::array<char, 3> sign{};  // signs of i_a, i_b, i_c: + - 0, or * where the row states none
   Terms ab{}, bc{};            // u_ab - e_ab and u_bc - e_bc
   std::string text;
 };
@@ -54,8 +54,8 @@ constexpr std::array<DrivenPair, 6> pairs{{{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0
 
 Connection free_leg(char sign) { return connection_of(false, false, sign == '+' ? 1 : sign == '-' ? -1 : 0); }
 
-/// In table 4 both driven switches conduct. In table 5 only the sink's lower one conducts; the source is
-/// free, as the third leg is.
+/// In table 4 both driven switches conduct. In table 5 only the sink's lower switch conducts; the source and
+/// the third leg are free.
 Legs legs_of(const TableRow& row) {
   const DrivenPair pair = pairs[static_cast<std::size_t>(row.sector)];
   Legs legs{};
@@ -69,7 +69,7 @@ struct Derived {
   Terms ab{}, bc{};
 };
 
-/// The law is linear in (U_s, e_a, e_b, e_c) for ideal devices: its coefficients are its values at the unit
+/// For ideal devices the law is linear in (U_s, e_a, e_b, e_c): its coefficients are its values at the unit
 /// vectors.
 Derived derived(const Legs& legs) {
   Derived d;
@@ -93,8 +93,8 @@ TEST(ThesisTables, FollowFromTheCircuitLawButForOneMisprint) {
     if (law.ab != row.ab || law.bc != row.bc) misprints.push_back(row.text);
   }
   ASSERT_EQ(misprints.size(), 1u);
-  // model.md 13: table 5, 240-300 degrees, i_b < 0, i_c = 0. Printed (-U_s - e_a + e_b)/2; right (U_s +
-  // e_a - e_b)/2.
+  // model.md 13: table 5, 240-300 degrees, i_b < 0, i_c = 0. The table has (-U_s - e_a + e_b)/2; correct is
+  // (U_s + e_a - e_b)/2.
   EXPECT_EQ(misprints[0], "5,4,*,-,0,-1,-1,1,0,-0.5,-0.5,0.5,0");
   const Derived right = derived({Connection::low_switch, Connection::high_diode, Connection::floating});
   EXPECT_EQ(right.ab, (Terms{-1, -1, 1, 0}));

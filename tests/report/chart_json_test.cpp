@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a page's data is what the JSON library writes, byte for byte.
+// The writer of chart data and the JSON library write the same bytes.
 #include "report/chart_json.hpp"
 
 #include <gtest/gtest.h>

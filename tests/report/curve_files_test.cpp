@@ -128,8 +128,8 @@ TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {
       << "some room above ten seconds";
   for (const char* region : {"\"continuous\"", "\"short-time\""})
     EXPECT_NE(page().find(region), std::string::npos) << region;
-  // Without thermal data the nominal torque sets the page's range; without either, the page shows the whole
-  // curve.
+  // Without thermal data the nominal torque sets the page's range. Without thermal data and nominal torque,
+  // the page shows the whole curve.
   m.curve.thermal.reset();
   m.curve.thermal_missing = {{.where = "lines", .limit = "are missing"}};
   EXPECT_NE(page().find("\"corner\":2"), std::string::npos);

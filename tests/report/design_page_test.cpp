@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a design is whole and harmless, has every part of the design, and has the same bytes for the
-// same input.
+// The page of a design is complete HTML, escapes all names, has every part of the design, and has the same
+// bytes for the same input.
 #include "report/design_page.hpp"
 
 #include <gmock/gmock.h>
@@ -49,7 +49,7 @@ TEST(DesignPage, HasEveryPartOfTheDesign) {
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("nan")));
   EXPECT_THAT(page, Not(HasSubstr(">inf")));
-  EXPECT_THAT(page, Not(HasSubstr(".hpp")));  // advice names keys and options
+  EXPECT_THAT(page, Not(HasSubstr(".hpp")));  // advice names keys and options, not source files
   EXPECT_EQ(count(page, "<svg"), 6u);         // step, current, gain, phase, headroom, ripple
   EXPECT_EQ(count(page, "</svg>"), 6u);
   EXPECT_EQ(count(page, "<table"), count(page, "</table>"));
@@ -75,7 +75,8 @@ TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
   EXPECT_THAT(page, HasSubstr("<span class=\"unit\">dB</span>"));
 }
 
-/// The page has the text's lines on the speed's sensor and on sensorless drives, folded with the other steps.
+/// The page has the text report's lines on the speed sensor and on sensorless drives, folded with the other
+/// steps.
 TEST(DesignPage, TellsHowTheSpeedIsKnown) {
   analysis::DesignStudy s = studied(Mode::speed);
   s.design.sensing = {{"w_min", "slowest speed that does not read as 0", 12.5, "rad/s"}};
@@ -122,7 +123,7 @@ TEST(SvgCharts, DrawWhatIsFiniteAndBreakWhereItIsNot) {
   const std::string path = drawn.substr(drawn.find(" d=\"") + 4);
   EXPECT_EQ(count(path.substr(0, path.find('"')), "M"), 2u);
   EXPECT_EQ(count(path.substr(0, path.find('"')), "L"), 1u);
-  chart.log_x = true;  // 0 is on no logarithmic axis
+  chart.log_x = true;  // a logarithmic axis has no 0
   chart.curves[0].y = {1, 2, 3, 4};
   EXPECT_THAT(svg_chart(chart), Not(HasSubstr("inf")));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The balance's residuals on the page and in the JSON equal the differences of their rows.
+// The balance's residuals on the page and in the JSON equal the differences of its rows.
 #include "report/energy_balance.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using sixstep::testing::maxon_scenario;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A turning wheel has much stored energy and moves little.
+/// A turning flywheel stores much more energy than the run moves.
 study::Scenario flywheel(double inertia_kg_m2) {
   study::Scenario s = maxon_scenario(control::Mode::duty, 0.3);
   s.load.inertia_kg_m2 = inertia_kg_m2;
@@ -43,7 +43,7 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
     const double electrical = of("supplied") - of("copper") - of("devices") - of("air_gap") - of("magnetic");
     const double mechanical = of("air_gap") - of("friction") - of("load") - of("kinetic");
     const auto expect = [&](double joule, const char* residual) {
-      // The residual was divided and is multiplied again: two roundings.
+      // The residual was divided by the scale and is multiplied by it again: two roundings.
       EXPECT_NEAR(e[residual].get<double>() * of("scale"), joule, std::abs(joule) * 5e-16) << inertia;
     };
     expect(electrical, "electrical_residual");
@@ -61,8 +61,8 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
   }
 }
 
-/// All gates are off: no terminal has a current, and the copper's loss is that of three branches with a third of the
-/// loop's sum each.
+/// All gates are off: no terminal has a current. The copper loss is the loss of three branches, each with a
+/// third of the loop current's sum.
 TEST(Ledger, the_copper_of_a_delta_is_that_of_its_branches) {
   const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/delta-loop.toml");
   ASSERT_TRUE(s);
@@ -71,7 +71,8 @@ TEST(Ledger, the_copper_of_a_delta_is_that_of_its_branches) {
   ASSERT_TRUE(outcome);
   const study::Trace trace = kept.trace();
   const auto &t = *report::find_column(trace, "t_s"), &sum = *report::find_column(trace, "loop_A");
-  const double R_x = 1.5 * outcome->motor.machine.R_ohm * 2;  // between two terminals: two phases of the star
+  const double R_x = 1.5 * outcome->motor.machine.R_ohm * 2;  // between two terminals: twice the phase
+                                                              // resistance of the equivalent star
   double joule = 0.0;
   for (std::size_t n = 1; n < t.size(); ++n)
     joule += (t[n] - t[n - 1]) * 3 * R_x * (sum[n] * sum[n] + sum[n - 1] * sum[n - 1]) / 18;
@@ -82,7 +83,8 @@ TEST(Ledger, the_copper_of_a_delta_is_that_of_its_branches) {
   EXPECT_NE(std::ranges::find(groups.charts, "loop-current", &report::Group::id), groups.charts.end());
 }
 
-/// A junction warms with the current that rises at the start: its mean is below its end, 40 K/W times the mean powers.
+/// The junction warms because the current rises at the start: its mean temperature is below its final one.
+/// The mean rise is 40 K/W times the mean power.
 TEST(Ledger, the_table_of_switches_has_the_mean_of_the_junction) {
   const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/losses-20-khz.toml");
   ASSERT_TRUE(s);

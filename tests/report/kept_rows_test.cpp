@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A report keeps its rows in bounded memory: they hold every peak, the latest events and the largest step.
-// The report concludes nothing from an envelope.
+// A report keeps its rows in bounded memory. The kept rows contain every peak, the latest events and the
+// largest step. The report draws no conclusion from intervals of which only an envelope is kept.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ constexpr double gap_s = 1e-5;
 
 std::size_t place(ColumnId column) { return static_cast<std::size_t>(column); }
 
-/// A current that oscillates, a gate that switches in each row, one narrow peak, one narrow dip, and a step
-/// of the reference.
+/// One row of: a current that oscillates, a gate that switches in each row, one narrow peak, one narrow dip,
+/// and a step of the reference.
 std::vector<double> row(std::size_t n, std::size_t step_at) {
   std::vector<double> out(column_count, 0.0);
   out[place(ColumnId::t)] = static_cast<double>(n) * gap_s;
@@ -58,7 +58,7 @@ KeptRows filled(const Scenario& s, std::size_t count, std::size_t step_at) {
   return kept;
 }
 
-/// Each kept row equals one that was added, and no row is missing in the intervals marked whole.
+/// Each kept row equals an added row, and no row is missing in the intervals marked whole.
 void expect_whole_where_it_says(const Trace& t, std::size_t count, std::size_t step_at) {
   std::size_t last = 0;
   for (std::size_t n = 0; n < t.values[0].size(); ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packed rows equal the rows given after the page script's unpacking: planes of differences from one zlib
+// Packed rows equal the original rows after the page script's unpacking: planes of differences from one zlib
 // stream.
 #include "report/packed_rows.hpp"
 
@@ -24,7 +24,7 @@ std::string planes_of(const PackedRows& packed) {
   return planes;
 }
 
-/// Each difference has one plane per byte, from the plane `first` on.
+/// The differences from the planes: one plane per byte of a difference, from the plane `first` on.
 template <class Count>
 std::vector<Count> differences_of(const std::string& planes, std::size_t rows, std::size_t first) {
   std::vector<Count> out(rows);
@@ -39,7 +39,7 @@ std::vector<Count> differences_of(const std::string& planes, std::size_t rows, s
 struct Rows {
   std::vector<double> time, wave, noise;
 };
-/// The data are larger than zlib's window, so that its method changes between planes.
+/// The data exceed zlib's window, so that zlib's compression method changes between planes.
 Rows some_rows() {
   Rows out;
   std::uint32_t random = 1;
@@ -55,7 +55,7 @@ Rows some_rows() {
 void expect_back(const PackedRows& packed, const Rows& given) {
   const std::string planes = planes_of(packed);
   const auto gaps = differences_of<std::uint32_t>(planes, packed.rows, 0);
-  double ticks = 0.0;  // beyond 32 bits
+  double ticks = 0.0;  // the sum exceeds 32 bits
   for (std::size_t n = 0; n < packed.rows; ++n) {
     ticks += gaps[n];
     ASSERT_NEAR(packed.start_s + packed.tick_s * ticks, given.time[n], 0.51 * packed.tick_s) << n;
@@ -82,8 +82,8 @@ TEST(PackedRows, ComeBackWithinHalfAStep) {
   expect_back(*packed, rows);
 }
 
-/// Rows that are too large after quick compression are compressed thoroughly. They are left out only if they
-/// are still too large.
+/// Rows that are too large after quick compression are compressed thoroughly. The rows are omitted only if
+/// they are still too large.
 TEST(PackedRows, AreLeftOutOnlyWhereNoWayIsSmallEnough) {
   const Rows rows = some_rows();
   const auto quick = packed_rows(rows.time, {&rows.wave, &rows.noise}, 1'000'000);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's page draws the rows' values, its worst runs are the worst, its names are text, and the same plan
-// gives the same bytes.
+// A plan's page draws the rows' values, lists the runs with the smallest margins, and escapes all names. The
+// same plan gives the same bytes.
 #include "report/plan_page.hpp"
 
 #include <gmock/gmock.h>
@@ -208,8 +208,7 @@ TEST(PlanPage, HoldsNamesAsText) {
   EXPECT_EQ(data_of(page)["plans"][0]["columns"][3]["name"], bad);
 }
 
-/// The card's values equal the terminal's, except that the terminal prints u for µ and a space that may
-/// break.
+/// The card's values equal the terminal's, except that the terminal prints u for µ and a breaking space.
 TEST(PlanPage, values_of_an_axis_are_told_as_the_terminal_tells_them) {
   const std::vector<std::string> written{"2e-07", "1e-06", "0.0035", "12", "\"ideal\""};
   SyntheticPlan made =

@@ -142,7 +142,7 @@ sixstep::study::Scenario shipped(const std::string& name) {
   return s ? *s : sixstep::study::Scenario();
 }
 
-/// Doubles one number after the other: the n-th one that is not 0, of a single value.
+/// Doubles the n-th plain number of a scenario that is not 0; lists are not counted.
 class Doubled final : public sixstep::base::Visitor {
  public:
   explicit Doubled(int n) : left_(n) {}
@@ -166,7 +166,8 @@ class Doubled final : public sixstep::base::Visitor {
   int left_;
 };
 
-/// Each number acts on the run, so that two scenarios that differ in one have different set-ups.
+/// Each number affects the run. Scenarios that differ in one number must therefore have different set-up
+/// sections.
 TEST(SetUp, states_each_number_of_a_scenario) {
   for (const char* name :
        {"thesis/7.5-position", "gallery/sensorless-noise", "gallery/resolver-skew", "gallery/battery-sag",

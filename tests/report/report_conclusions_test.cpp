@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 
 std::string page(const SyntheticRun& run) { return glance_section(run.scenario, run.outcome, run.trace); }
 
-/// A speed step with a current that rises, stays and falls. The rows' times need no rounding.
+/// A speed step with a current that rises, remains constant and falls. The rows' times are exact doubles.
 SyntheticRun stepped_run() {
   SyntheticRun run = synthetic_run(0.001);
   run.scenario.control.mode = sixstep::control::Mode::speed;
@@ -59,22 +59,23 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   EXPECT_EQ(step->from, 0.0);
   EXPECT_EQ(step->to, 50.0);
   EXPECT_EQ(step->next_s, 9.0);
-  EXPECT_EQ(step->window.to, 2.5);  // the last row away from the goal is 1 s after the step
+  EXPECT_EQ(step->window.to, 2.5);  // the last row off the goal is 1 s after the step
   EXPECT_TRUE(step->done);
   const auto current = step_current(run.trace, *step);
   ASSERT_TRUE(current);
   EXPECT_EQ(current->peak_A, 6.0);
   EXPECT_EQ(current->peak_after_s, 1.0);
   EXPECT_EQ(current->asked_A, 10.0);
-  // 0 to 6 A in a second, 6 A for the half second to the window's end: integral of i^2 = 12 + 18.
+  // 0 to 6 A in 1 s, then 6 A for 0.5 s to the window's end: the integral of i^2 is 12 + 18 A^2 s.
   EXPECT_DOUBLE_EQ(current->rms_A, std::sqrt(30.0 / 1.5));
-  // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
+  // 6 A for 0.5 s, then 6 A to 0 in 5 s, then 0: 18 A s in 6.5 s.
   EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
   EXPECT_EQ(current->then_low_A, 0.0);
   EXPECT_EQ(current->then_high_A, 6.0);
 }
 
-/// A current step ends at the first Hall edge after the current has come near its goal: a later peak is a commutation's.
+/// A current step ends at the first Hall edge after the current has come near its goal: a commutation causes
+/// any later peak.
 TEST(Highlights, a_current_step_ends_where_commutations_of_a_steady_current_begin) {
   SyntheticRun run = stepped_run();
   run.scenario.control.mode = sixstep::control::Mode::current;
@@ -98,7 +99,7 @@ TEST(Highlights, a_current_step_ends_where_commutations_of_a_steady_current_begi
   EXPECT_EQ(step_current(run.trace, *largest_step(run.trace, run.scenario))->peak_A, 5.0);
 }
 
-/// Sets every quantity of a sheet to a value.
+/// Sets every quantity of a data sheet to 1.
 class AllQuantities final : public sixstep::base::Visitor {
  public:
   std::size_t count = 0;
@@ -123,7 +124,8 @@ TEST(Parameters, each_line_of_the_data_sheet_has_its_row) {
   EXPECT_EQ(rows, given.count);
 }
 
-/// The step of a field-oriented drive is that of i_q, the controlled current, and the page shows it.
+/// In a field-oriented drive the report's current step is a step of i_q, the controlled current. The page
+/// shows i_q.
 TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   SyntheticRun run = stepped_run();
   run.scenario.control.mode = sixstep::control::Mode::current;
@@ -139,7 +141,8 @@ TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   EXPECT_EQ(step->at_s, 1.0);
   const auto held = step_current(run.trace, *step);
   ASSERT_TRUE(held);
-  EXPECT_EQ(held->peak_A, 2.0);  // A of i_q in the window, which ends half a second later; i_m has 6 A there
+  EXPECT_EQ(held->peak_A, 2.0);  // i_q, in A, in the window, which ends half a second later; i_m reaches 6 A
+                                 // there
   EXPECT_EQ(held->asked_A, 4.0);
   const Groups groups = chart_groups(run.trace, run.scenario);
   EXPECT_EQ(std::ranges::find(groups.charts, "currents", &Group::id), groups.charts.end())
@@ -196,8 +199,8 @@ TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // T1 and T4 drive a to b; T1 switches off and a's lower diode conducts until no current flows; c's upper
-  // diode conducts last.
+  // T1 and T4 drive current from a to b. T1 switches off, and a's lower diode conducts until the current is
+  // zero. c's upper diode conducts last.
   trace.values = {{0, 1, 1, 2, 2, 3, 3, 4},  {0, 2, 2, 0, 0, 0, 0, 0}, {0, -2, -2, 0, 0, 0, 0, 1},
                   {0, 0, 0, 0, 0, 0, 0, -1}, {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
                   {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
@@ -213,7 +216,8 @@ TEST(Conduction, an_igbt_that_is_on_carries_one_direction_and_its_diode_the_othe
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // T1, T4 and T6 are on: a feeds, b returns through its transistor, c through its lower diode; then none flows.
+  // T1, T4 and T6 are on: current enters at a, returns at b through the transistor and at c through the lower
+  // diode; then it is zero.
   trace.values = {{0, 1, 1, 2}, {2, 2, 0, 0}, {-3, -3, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 1},
                   {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 1, 1},   {0, 0, 0, 0}, {1, 1, 1, 1}};
   EXPECT_THAT(conduction(trace, true).code, ::testing::ElementsAre(1 + 5 * 2 + 25 * 4, 0));
@@ -225,8 +229,8 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // No gate is on. Phase a feeds and b returns; phases b, c, a are at legs a, b, c: leg a carries b's current
-  // through its upper diode, c carries a's.
+  // No gate is on. Current enters phase a and returns from phase b. Legs a, b, c are connected to phases b,
+  // c, a: leg a carries b's current through its upper diode, leg c carries a's.
   trace.values = {{0, 1}, {2, 2}, {-2, -2}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   EXPECT_THAT(conduction(trace).code, ::testing::ElementsAre(4 + 5 * 3));
   EXPECT_THAT(conduction(trace, false, {1, 2, 0}).code, ::testing::ElementsAre(3 + 25 * 4));
@@ -263,7 +267,7 @@ TEST(PackedRows, keep_the_range_in_65533_steps_with_zero_on_one_and_refuse_what_
   EXPECT_FALSE(packed_rows(time, {&held, &moving}, 10));
 }
 
-/// A sawtooth with `turns` teeth from -1 to 1 in one second; its rows are at the jumps alone.
+/// A sawtooth with `turns` teeth from -1 to 1 in one second; it has rows only at its jumps.
 struct Saw {
   std::vector<double> time, values;
 };
@@ -278,8 +282,8 @@ Saw saw(int turns) {
 }
 
 TEST(Spectrum, of_a_saw_is_the_fourier_series) {
-  // 37 teeth are no power of two, so that teeth and jumps do not align with the cells. Harmonic n has the
-  // amplitude 2/(pi n).
+  // 37 is no power of two, so that teeth and jumps do not align with the cells. The amplitude of harmonic n
+  // is 2/(pi n).
   constexpr int turns = 37, cells = 4096;
   const Saw s = saw(turns);
   const Lines lines = lines_of(s.time, s.values, {0, 1}, 1.0 / cells);
@@ -288,10 +292,10 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
   ASSERT_EQ(lines.amplitude.size(), cells / 8 + 1u);
   for (int n = 1; n * turns + 1 < cells / 8; ++n) {
     const auto k = static_cast<std::size_t>(n * turns);
-    // The cells alias the harmonics at m cells -+ k, m = 1, 2 .., onto line k. A cell's mean keeps k/(m cells
-    // -+ k) of each, and the correction divides by the same for k. The aliased amplitudes are at most 2/pi
-    // turns/(m cells - k). Their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2,
-    // which is less than 4.
+    // Sampling by cells aliases the harmonics at m cells -+ k, m = 1, 2, .., to line k. The mean over a cell
+    // multiplies each of them by k/(m cells -+ k), and the correction divides by the factor of line k. The
+    // aliased amplitudes are at most 2/pi turns/(m cells - k). Their sum is below 2/pi turns k/cells^2 times
+    // twice the sum of 1/(m - 1/8)^2, which is less than 4.
     const double folded = 4 * 2 / M_PI * turns * (n * turns) / (static_cast<double>(cells) * cells);
     EXPECT_NEAR(lines.amplitude[k], 2 / (M_PI * n), folded + 1e-12) << n;
     EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
@@ -302,8 +306,8 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
     EXPECT_NEAR(lines.tones[n].line, turns * (static_cast<double>(n) + 1), 1e-3);
 }
 
-/// The interval is no whole number of teeth, so that every harmonic lies between two lines. The spectrum
-/// still gives its frequency and amplitude.
+/// The interval is no whole number of teeth: every harmonic is between two lines. The spectrum still shows
+/// the harmonic's frequency and amplitude.
 TEST(Spectrum, a_tone_between_two_lines_has_its_own_amplitude_and_frequency) {
   const Saw s = saw(37);
   for (const double end : {0.9871, 0.9932, 0.9999}) {
@@ -356,11 +360,11 @@ TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
   auto& angle = run.trace.values.back();
   auto& reference = run.trace.values[3];
   for (std::size_t n = 0; n < time.size(); ++n) {
-    angle[n] = time[n] * 0.6 * M_PI;  // two pole pairs: 0.6 electrical turns a second
+    angle[n] = time[n] * 0.6 * M_PI;  // 0.6 electrical turns per second with two pole pairs
     reference[n] = time[n] < 1 ? 0 : 50;
   }
   const auto found = steady_stretch(run.trace, run.scenario, 2);
-  ASSERT_TRUE(found);  // 1 s (the second row of it) to 9 s: the later half has 2.4 turns
+  ASSERT_TRUE(found);  // from the second row at 1 s to 9 s: the later half has 2.4 turns
   EXPECT_EQ(found->turns, 2);
   EXPECT_NEAR(found->time.from, 9 - 2 / 0.6, 8 * 9 * 2.3e-16);  // a few roundings of numbers up to 9
   EXPECT_EQ(found->time.to, 9.0);
@@ -369,7 +373,7 @@ TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
 }
 
 TEST(Spectrum, lines_are_called_by_what_they_come_from) {
-  // 10 turns and 1000 PWM periods in the stretch.
+  // The stretch has 10 turns and 1000 PWM periods.
   EXPECT_EQ(origin_of(60, {10, 1000}).name, "6 × electrical");
   EXPECT_EQ(origin_of(1000, {10, 1000}).name, "PWM");
   EXPECT_EQ(origin_of(2000, {0, 1000}).name, "2 × PWM");
@@ -378,10 +382,10 @@ TEST(Spectrum, lines_are_called_by_what_they_come_from) {
   EXPECT_EQ(origin_of(65, {10, 1000}).name, "");
   EXPECT_EQ(origin_of(65, {0, 0}).name, "");
   EXPECT_EQ(origin_of(10, {10, 1000}).name, "electrical, the fundamental");
-  // Three turns, 2.5 lines away from the PWM, are no side line of the electrical frequency, which is at 3.
+  // With three turns, side lines are three lines away from the PWM's line: 2.5 lines away is no side line.
   EXPECT_EQ(origin_of(1002.5, {3, 1000}).name, "");
   EXPECT_EQ(origin_of(1003.1, {3, 1000}).name, "PWM + electrical");
-  // A named tone has the line of its cause, another one its own.
+  // A tone with a name has the line of its cause; another tone keeps the line that it was found at.
   EXPECT_EQ(origin_of(1003.1, {3, 1000}).line, 1003.0);
   EXPECT_EQ(origin_of(5.94, {6, 1000}).line, 6.0);
   EXPECT_EQ(origin_of(65.2, {10, 1000}).line, 65.2);

@@ -37,7 +37,7 @@ std::string page(const SyntheticRun& run, const std::string& text = "title = \"x
                  .scenario_text = text});
 }
 
-/// The page's own data, as its script would read them.
+/// The data embedded in the page, as the page's script reads them.
 nlohmann::json data_of(const std::string& html) {
   const std::string open = R"(<script type="application/json" id="data">)";
   const std::size_t begin = html.find(open) + open.size();
@@ -155,7 +155,7 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
   run.scenario.protection.over_current_A = 15.0;
   run.outcome.fault = sixstep::base::Problem{"t = 0.305 s", "", "the drive tripped", "look"};
   run.outcome.trip = sixstep::study::Trip{.at_s = 0.305, .reasons = {"a Hall fault"}, .hall_line = 2};
-  const std::string html = page(run);  // keeps each number together with its unit
+  const std::string html = page(run);  // the page keeps each number and its unit together
   EXPECT_THAT(html, HasSubstr("phase currents through 12 bits over ±20.48\u00a0A"));
   EXPECT_THAT(html, HasSubstr("line H2 reads low from 300\u00a0ms on"));
   run.scenario.at = {{.time_s = 0.1}, {.time_s = 0.2}};
@@ -177,7 +177,7 @@ TEST(Report, curves_without_a_number_are_left_out) {
   for (const auto& chart : data["charts"]) {
     EXPECT_NE(chart["id"], "bus");  // a stiff bus has no chart
     if (chart["id"] == "speed") {
-      EXPECT_EQ(chart["curves"].size(), 1u);  // its reference is NaN throughout
+      EXPECT_EQ(chart["curves"].size(), 1u);  // the reference is NaN throughout
     }
   }
 }
@@ -191,7 +191,7 @@ TEST(Report, long_run_keeps_every_extreme_and_the_close_ups_whole) {
   const auto& chart = data["charts"][0];
   ASSERT_EQ(chart["id"], "currents");
   ASSERT_FALSE(chart["complete"]);
-  const auto& of_a = chart["curves"][1];  // behind i_m, which lies beneath the phases
+  const auto& of_a = chart["curves"][1];  // after i_m, which is drawn below the phases
   ASSERT_EQ(of_a["label"], "i_a");
   const auto t = decoded<std::uint64_t, double>(data["axes"][of_a["axis"].get<std::size_t>()]);
   const auto i = decoded<std::uint32_t, float>(of_a["data"]);
@@ -220,7 +220,7 @@ TEST(Thinning, every_bucket_keeps_its_extremes) {
   EXPECT_FALSE(result.complete);
   EXPECT_LE(result.rows.size(), 2000u);
   EXPECT_THAT(result.rows, ::testing::IsSupersetOf({0u, 7u, 31234u, 49999u}));
-  // The largest value drawn in each bucket equals the largest value there.
+  // In each bucket the largest value drawn equals the largest value.
   for (std::size_t from = 0; from + 1000 <= time.size(); from += 1000) {
     double high = -1.0, drawn = -1.0;
     for (std::size_t n = from; n < from + 1000; ++n) high = std::max(high, wave[n]);
@@ -271,7 +271,7 @@ TEST(Index, names_every_experiment_and_its_verdict) {
       {{"One & two", "a.html", &good.outcome}, {"Three", "b.html", &bad.outcome}}, "sixstep run", "0.1.0");
   EXPECT_THAT(html, HasSubstr("1 of 2 experiments pass"));
   EXPECT_THAT(html, HasSubstr("<a href=\"a.html\">One &amp; two</a>"));
-  // The overview is first, and each of its lines links to its section.
+  // The overview is first, and each of its rows links to a section.
   const std::size_t overview = html.find("<table class=\"overview\">");
   ASSERT_NE(overview, html.npos);
   EXPECT_LT(overview, html.find("<section class=\"experiment"));

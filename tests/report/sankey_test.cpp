@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drawing of a run's energy equals its energy balance: a band's width is the energy, and a node's inflow
-// equals its outflow.
+// The energy diagram of a run equals the run's energy balance: a band's width is its energy, and a node's
+// inflow equals its outflow.
 #include "report/sankey.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ double height(const std::string& svg) {
   return h;
 }
 
-/// A balance that closes: the energies satisfy the law.
+/// A closed balance: the energies satisfy the law.
 EnergyBook book(double copper, double devices, double magnetic, double friction, double load,
                 double kinetic) {
   EnergyBook b{.copper = copper,
@@ -58,7 +58,8 @@ EnergyBook book(double copper, double devices, double magnetic, double friction,
   return b;
 }
 
-/// Each node's bar is at 340 or 560, 10 wide; a band's width is rounded to 0.005, and none is below a pixel.
+/// Each node's bar is at x = 340 or 560 and is 10 wide. A band's width is rounded to 0.005 and is at least
+/// one pixel.
 void expect_kirchhoff(const std::string& svg) {
   for (const double node : {340.0, 560.0}) {
     double in = 0.0, out = 0.0, slack = 1e-9;
@@ -103,8 +104,8 @@ TEST(Sankey, a_locked_rotor_has_no_air_gap_to_show) {
   EXPECT_THAT(svg, Not(HasSubstr("rotor and shaft")));
 }
 
-/// The signs are arbitrary: sources are on the left, sinks on the right, bands meet their nodes, and labels,
-/// which are 36 high, do not touch.
+/// The signs are arbitrary. Sources are on the left, sinks on the right; bands end at their nodes; labels,
+/// which are 36 high, do not overlap.
 TEST(Sankey, any_book_that_closes_is_drawn_whole) {
   for (std::uint64_t n = 0; n < 300; ++n) {
     std::uint64_t count = 0;
@@ -132,7 +133,7 @@ TEST(Sankey, any_book_that_closes_is_drawn_whole) {
 TEST(Sankey, nothing_is_drawn_that_is_not_so) {
   EXPECT_EQ(energy_sankey({}), "");
   EnergyBook open = book(0.4, 0.1, 0.0, 0.05, 1.0, 0.45);
-  open.copper += 0.02;  // 1 % of the energy: more than a pixel of 130
+  open.copper += 0.02;  // 1 % of the energy: more than one of the 130 pixels of the full width
   EXPECT_EQ(energy_sankey(open), "");
   open.copper = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(energy_sankey(open), "");

@@ -12,7 +12,7 @@ using namespace report;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// One second of both curves, rows a period of 1/1024 s apart.
+/// Both curves for one second, with rows at intervals of 1/1024 s.
 sixstep::study::Trace trace_of(double (*current)(double), double (*torque)(double)) {
   sixstep::study::Trace trace;
   for (const char* name : {"t_s", "i_a_A", "torque_Nm"}) trace.columns.push_back({name, "", "", ""});
@@ -51,8 +51,8 @@ TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
   EXPECT_THAT(html, Not(HasSubstr("<table")));
 }
 
-/// Two pole pairs turn by 0.38 of an electrical turn in the later half of the run, by none, by one and by more than two. With one turn
-/// the fundamental would be the line that is left out.
+/// The later half of the run has `turned` electrical turns of a rotor with two pole pairs. With one turn the
+/// fundamental would be the first line, which the spectrum omits.
 TEST(Spectra, fewer_than_two_electrical_turns_are_told) {
   for (const double turned : {0.38, 0.0, 1.2, 2.4}) {
     sixstep::study::Trace trace = trace_of(rounding, tone);
@@ -66,7 +66,8 @@ TEST(Spectra, fewer_than_two_electrical_turns_are_told) {
   }
 }
 
-/// The stretch holds whole turns: the fundamental is their number over its time, however strong a neighbour is.
+/// The stretch contains whole turns: the fundamental is the number of turns divided by the stretch's
+/// duration, however strong a neighbouring tone is.
 TEST(Spectra, the_fundamental_is_the_number_of_turns_over_their_time) {
   sixstep::study::Trace trace = trace_of(
       [](double t) { return std::sin(2 * M_PI * 12 * t) + 0.3 * std::sin(2 * M_PI * 9.7 * t); }, rounding);
@@ -80,7 +81,7 @@ TEST(Spectra, the_fundamental_is_the_number_of_turns_over_their_time) {
   EXPECT_THAT(spectra_section(found), HasSubstr("12.00\u00a0Hz</td>"));
 }
 
-/// A thermal step of 10 ms changes the resistance a hundred times a second.
+/// A thermal step of 10 ms changes the resistance 100 times per second.
 TEST(Spectra, the_steps_of_the_thermal_model_are_named) {
   sixstep::study::Scenario s = scenario();
   s.heat.step_s = 0.01;
@@ -90,7 +91,8 @@ TEST(Spectra, the_steps_of_the_thermal_model_are_named) {
               HasSubstr("<td>step of the thermal model</td>"));
 }
 
-/// Two diodes in series conduct in each half of the mains' period: the bus pulsates at twice 50 Hz and its multiples.
+/// Two diodes in series conduct in each half of the mains' period: the bus voltage pulsates at twice 50 Hz
+/// and multiples of it.
 TEST(Spectra, multiples_of_twice_the_mains_are_named) {
   EXPECT_EQ(origin_of(100.1, {.mains = 50.0}).name, "2 × mains");
   EXPECT_EQ(origin_of(100.1, {.mains = 50.0}).line, 100.0);

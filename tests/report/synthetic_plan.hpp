@@ -25,7 +25,7 @@ struct SyntheticPlan {
               for (const sixstep::analysis::RunRecord& row : rows) visit(row);
             }};
   }
-  /// The same values under other names.
+  /// Keeps the values and changes all names.
   void rename(sixstep::analysis::PlanColumns names, const std::string& problem) {
     columns = std::make_shared<const sixstep::analysis::PlanColumns>(std::move(names));
     for (sixstep::analysis::RunRecord& row : rows) {
@@ -41,7 +41,8 @@ struct SyntheticPlan {
   }
 };
 
-/// A lower settling time costs a higher current, over two numbers; the word axis adds some current.
+/// A plan over two numeric axes and perhaps a word axis. A shorter settling time needs a higher current; the
+/// word adds some current.
 inline SyntheticPlan synthetic_plan(sixstep::analysis::Plan plan, double shift = 0.0) {
   using sixstep::analysis::RunEnd;
   SyntheticPlan made{.plan = std::move(plan)};

@@ -21,7 +21,7 @@ struct SyntheticRun {
   sixstep::study::Trace trace;
 };
 
-/// State and law of the little drive; rows go to the trace whenever a gate, a diode or a Hall bit changes.
+/// State and equations of the drive; a row is recorded whenever a gate, a diode or a Hall bit changes.
 class SyntheticDrive {
  public:
   SyntheticDrive(sixstep::study::Trace& trace, double duration_s, double speed_rad_s)
@@ -69,7 +69,7 @@ class SyntheticDrive {
       switch_bridge();
       const auto state = gates_and_diodes();
       const bool event = state != last_;
-      if (event && n > 0) record(held_);  // left side of the jump, with the gates as they were
+      if (event && n > 0) record(held_);  // left side of the jump, with the previous gates
       held_ = {gates_, hall_, volts_};
       last_ = state;
       solve_voltages();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An analogue path and its converter equal their equation.
+// An analogue path and its converter are compared with their equation.
 #include "sixstep/rig/adc.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(Adc, NoiseHasItsRootMeanSquareAndIsDrawnByPlace) {
     sum += x;
     squares += x * x;
   }
-  // The bounds are five standard deviations: 1/sqrt(n) of the mean, 1/sqrt(2 n) of the rms.
+  // The bounds are five standard deviations: of the mean, rms/sqrt(n); of the rms, rms/sqrt(2 n).
   EXPECT_NEAR(sum / n, 0.0, 5 * 100.0 / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), 100.0, 5 * 100.0 / std::sqrt(2.0 * n));
   EXPECT_EQ(converted(path, 0.0, first), converted(path, 0.0, first));

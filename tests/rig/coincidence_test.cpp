@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each test has two events at one instant, one test per pair of: scenario step, control tick, PWM edge,
-// comparator, sector edge, current zero. Each of the two must take effect once, in model.md 4b's order
-// (pitfall 1: a lost tick passes every energy balance). This file has the pairs with a scenario step or a
-// control tick. The counts show whether an edge was done before the tick that should have replaced it.
+// Each test has two events at one instant; there is one test per pair of scenario step, control tick, PWM
+// edge, comparator, sector edge and current zero. Each of the two events must take effect once, in the order
+// of model.md 4b (pitfall 1: no energy balance detects a lost tick). This file has the pairs with a scenario
+// step or a control tick. The event counts show whether an edge was executed before the tick that should have
+// replaced it.
 #include <gtest/gtest.h>
 
 #include "tests/support/coinciding.hpp"
@@ -52,7 +53,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndPwmEdge) {
 
 TEST(Pitfall01_CoincidentInstants, StepAndComparator) {
   Board b = locked(Board::hysteresis(10.0, 0.25, Chopping::soft));
-  // a level below the present current: the comparator trips at that very instant
+  // The new level is below the present current: the comparator trips at the instant of the step.
   b.setpoint(123'456'789, 1.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 123.456788 * us), sim::Stop::end);
@@ -113,8 +114,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
     ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, next);
-    // At full duty the tick comes first and commands the upper switch on, so that a new dead time replaces
-    // the one that would have ended.
+    // At full duty the tick comes first and commands the upper switch on: a new dead time replaces the dead
+    // time that would have ended at 30 us.
     EXPECT_EQ(rig.event_count(EventKind::pwm_edge), next < 1.0 ? 4 : 3);
     EXPECT_EQ(rig.plant().gates().low[0], next < 1.0);
     EXPECT_FALSE(rig.plant().gates().high[0]);
@@ -122,8 +123,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeTheTickComesFirst) {
-  // The dead time is half a period: at each tick one dead time would end as the next begins. The tick
-  // replaces the edge at the end of the first one; an edge before the tick would be counted.
+  // The dead time is half a period: at each tick one dead time would end and the next begins. The tick must
+  // replace the edge at the end of the first dead time. An edge executed before the tick would be counted.
   Board b = locked(Board::duty(0.5, Chopping::complementary));
   b.board.modulator.dead_ticks = 15e6;
   auto rig = b.rig();
@@ -176,7 +177,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, 0.25);
     EXPECT_EQ(rig.plant().sector(), 1);
-    // With commutation at the sample, rounding may put the edge just after this sample, so that the next one
+    // With commutation at the sample, rounding may put the edge just after this sample; the next sample then
     // commutates.
     ASSERT_EQ(run_to(rig, at_sample ? 60 * us : 31 * us), sim::Stop::end);
     EXPECT_EQ(source_leg(rig), 0);
@@ -185,8 +186,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndSectorEdgeAtTheStartBackwards) {
-  // The rotor starts on the edge and turns back, so that the tick of t = 0 falls exactly on the edge. The
-  // tick comes after the edge: the run begins in the sector that the rotor enters.
+  // The rotor starts on the edge and turns backwards, so that the tick of t = 0 falls exactly on the edge.
+  // The tick comes after the edge: the run begins in the sector that the rotor enters.
   Board b = turning(Board::duty(0.5), 30 * us);
   b.start.angle_rad = 0.0;
   b.start.speed_rad_s = -100.0;
@@ -208,7 +209,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndCurrentZero) {
   ASSERT_EQ(run_to(rig, 30 * us + ns, laws), sim::Stop::end);
   EXPECT_EQ(rig.event_count(EventKind::tick), 2);
   EXPECT_TRUE(rig.plant().gates().high[0]);
-  // The current was zero at the tick within rounding: the second period equals the first.
+  // At the tick the current was zero within rounding: the second period equals the first.
   const double exact = 24.0 * ns / b.L_tt();
   EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
   ASSERT_EQ(run_to(rig, 60 * us + ns, laws), sim::Stop::end);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning on the virtual board finds the values of three motors of the library.
+// Commissioning on the virtual board finds the values of three motors of the motor library.
 #include "tests/support/commissioning.hpp"
 #include "tests/support/in_part.hpp"
 
@@ -62,8 +62,8 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
       CommissioningBench bench(motor);
       double R = bench.machine.R_ohm[0];
       if (!ideal) {
-        // The amplifiers have an offset of 12 counts and one count of noise, channels drop a tenth of the
-        // phase, and diodes and dead time are present.
+        // The amplifiers have an offset of 12 counts and one count of noise. The channels' resistance is a
+        // tenth of the phase resistance. Diodes and dead time are present.
         const double dead_s = 0.5e-6, in_diode = 2 * dead_s / bench.facts.period_s;
         bench.board.sensors.current.offset = 12.3 * bench.facts.A_per_count;
         bench.board.sensors.current.noise = 1.0 * bench.facts.A_per_count;
@@ -76,8 +76,8 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
     }
 }
 
-/// The error, in degrees, that comes from the trapezoid of the field. It is 1.12 at rest (hall_survey.hpp),
-/// and more as the frequency of the shape's ripple approaches that of the rotor's swing.
+/// Error in degrees from the trapezoidal back-EMF. It is 1.12 at rest (hall_survey.hpp) and grows as the
+/// frequency of the shape's ripple approaches the frequency of the rotor's swing.
 double of_shape_deg(const CommissioningBench& bench) {
   const double p = bench.machine.pole_pairs;
   const double swing =
@@ -86,9 +86,9 @@ double of_shape_deg(const CommissioningBench& bench) {
   return 1.12 / (1 - ripple * ripple / (swing * swing));
 }
 
-/// Each edge has its own angle and a hysteresis, and friction takes a tenth of the test current's torque.
-/// With a sine the error is the swing and the capture timer's count in both directions. With a trapezoid it
-/// is the shape's error, and a twentieth more because friction affects the swing.
+/// Each edge has its own angle and a hysteresis; friction is a tenth of the test current's torque. With a
+/// sinusoidal back-EMF the error consists of the swing and of the capture timer's count in both directions.
+/// With a trapezoid it is the shape's error plus a twentieth, because friction affects the swing.
 TEST(Commissioning, FindsWhereEachHallEdgeStands) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)
@@ -119,14 +119,14 @@ TEST(Commissioning, FindsWhereEachHallEdgeStands) {
 constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
                                 WireOrder::acb, WireOrder::cba, WireOrder::bac};
 
-/// The mean over a sector of a phase's trapezoid of 120 degrees (model.md 1).
+/// The mean of a phase's trapezoid of 120 degrees (model.md 1) over a sector.
 double in_sector(int sector, std::size_t phase) {
   constexpr double of_a[6] = {1, 1, 0, -1, -1, 0};
   return of_a[(sector + 6 - 2 * static_cast<int>(phase)) % 6];
 }
 
-/// The pair of the table makes the largest torque in each of the rotor's sectors. With an odd permutation of
-/// the wires the pair is reversed, because the board's forward is then the motor's backward.
+/// In each sector of the rotor, the table's pair gives the largest torque. With an odd permutation of the
+/// motor wires the pair is reversed, because the board's forward is then the motor's backward.
 void expect_right_table(const CommissioningBench& bench, const control::HallLines& lines) {
   for (int sector = 0; sector < 6; ++sector) {
     const std::uint8_t probes =
@@ -140,7 +140,8 @@ void expect_right_table(const CommissioningBench& bench, const control::HallLine
   }
 }
 
-/// The test has all 36 orders of both plugs, the eight inversions of lines in turn, and both spacings.
+/// The test covers all 36 orders of both plugs, the eight inversions of lines in turn, and both spacings of
+/// the probes.
 TEST(Commissioning, FindsEveryWiring) {
   InPart some;
   int plain = 0;
@@ -172,7 +173,8 @@ TEST(Commissioning, FindsEveryWiring) {
   EXPECT_LT(plain, 36);
 }
 
-/// The drive runs by the table in the board's forward direction, at the duty's speed less friction.
+/// With the found table the drive runs in the board's forward direction. Its speed is the duty's no-load
+/// speed, reduced by friction.
 TEST(Commissioning, DrivesByTheTableThatItFound) {
   for (const rig::Wiring& wires : {rig::Wiring{}, rig::Wiring{WireOrder::bca, WireOrder::acb, 5},
                                    rig::Wiring{WireOrder::cba, WireOrder::cab, 2}})
@@ -197,7 +199,7 @@ TEST(Commissioning, SaysWhatIsWrong) {
   const control::CommissioningState& line = commission(dead_rig);
   EXPECT_EQ(line.probes.verdict, HallSurvey::dead_line);
   EXPECT_EQ(line.probes.dead_pins, 0b010);
-  EXPECT_EQ(line.phase, CommissioningPhase::done);  // the rest is found nevertheless
+  EXPECT_EQ(line.phase, CommissioningPhase::done);  // the other values are found nevertheless
 
   CommissioningBench open(commissioned_motors[0]);
   open.timeline.push_back({{}, rig::ActionKind::wire_break, 0.0});

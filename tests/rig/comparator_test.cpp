@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The board's event comparators (model.md 4) trip only beyond a level, not at it, and keep their state
-// between the levels. There is one, or one per phase.
+// between the levels. A board has one comparator, or one per phase.
 #include <gtest/gtest.h>
 
 #include "tests/support/modulating.hpp"

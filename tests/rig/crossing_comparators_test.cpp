@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparators at the filtered terminals of a rotor at constant speed: a lag delays a sine's zero crossings by
-// atan(w tau)/w, and offset and hysteresis shift them by an arc sine.
+// Comparators at the filtered terminals of a rotor at constant speed: the lag tau delays a sine's zero
+// crossings by atan(w tau)/w, and offset and hysteresis shift the crossings by an arc sine.
 #include "sixstep/rig/crossing_comparators.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ using CapturingRig = rig::Rig<double, Capturing>;
 
 constexpr double tau = 50e-6, w = 250.0, w_e = 8 * w;
 
-/// A flywheel without friction: 250 rad/s without end.
+/// A flywheel without friction: it keeps 250 rad/s.
 Board flywheel(const rig::CrossingComparators& comparators) {
   Board board = Board::duty(0.4);
   board.machine.back_emf = plant::BackEmf::sine;
@@ -50,9 +50,9 @@ std::vector<Edge> edges_of(const Board& board, double end_s) {
 
 double amplitude() { return 0.01675 * w / std::hypot(1, w_e * tau); }
 
-/// Each edge after 2 ms, when the start has decayed (40 time constants), is at its closed-form angle. Line a
-/// rises `rises_late_rad` after the lagged crossing of e_a at -30 degrees, and each other line a third of a
-/// turn later.
+/// Each edge after 2 ms, when the start transient has decayed (40 time constants), is at its closed-form
+/// angle. Line a rises `rises_late_rad` after the lagged crossing of e_a at -30 degrees. Each further line
+/// rises a third of a turn later.
 void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double falls_late_rad) {
   std::uint8_t before = 0;
   int seen = 0;
@@ -66,7 +66,7 @@ void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double 
     const double lag = std::atan(w_e * tau) + (rises ? rises_late_rad : falls_late_rad);
     const double at = base::pi / 180 * (-30 + 120 * leg + (rises ? 0 : 180)) + lag;
     const double off = std::remainder(w_e * edge.at_s - at, 2 * base::pi);
-    // The bound in radians is the rounding of the voltage, 24 V, over the slope `amplitude`.
+    // The bound in radians is the rounding error of a voltage of 24 V, divided by the slope `amplitude`.
     EXPECT_LT(std::fabs(off), 1e-12 * 24 / amplitude()) << leg << rises << " " << edge.at_s;
     ++seen;
   }
@@ -86,17 +86,17 @@ TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
   expect_edges(edges_of(board, 20e-3), rise, -fall);
 }
 
-/// The mean of the three terminals cancels the star point's voltage, chopped or not, and with it the bus. A
-/// floating leg shows e_k less the mean of e, which is zero for sines.
+/// The mean of the three terminals cancels the star point's voltage, also with chopping. A floating leg shows
+/// e_k less the mean of the three back-EMFs, which is zero for sines.
 TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   Board board = flywheel({.lag_s = tau, .hysteresis_V = 0.1});
   board.start.speed_rad_s = 0;
   board.shaft.locked = true;
-  EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once each
+  EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, one edge per leg
 }
 
-/// Half the bus as reference does not cancel the star point's voltage. A floating leg at u_n = 0 or U/2 has
-/// the mean d U/2, and the ripple about it.
+/// Half the bus as reference does not cancel the star point's voltage. The terminal of a floating leg then
+/// has the mean d U/2 (d duty, U bus voltage) and a ripple about it.
 TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
   Board board = flywheel({.lag_s = tau, .against = rig::CrossingReference::half_bus});
   board.shaft.locked = true;
@@ -105,8 +105,8 @@ TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) 
   board.timeline.clear();
   board.setpoint(0, 0.5);
   const std::vector<Edge> edges = edges_of(board, 3e-3);
-  // Terminal a, chopped at d = 1/2, has the steady state U/2 +- (U/2) tanh(T/(4 tau)): it passes U/2 once in
-  // each half.
+  // The steady state of terminal a, chopped at d = 1/2, is U/2 +- (U/2) tanh(T/(4 tau)): it crosses U/2 once
+  // in each half of the period.
   double on = 0, off = 0;
   std::uint8_t before = 0;
   for (const Edge& edge : edges) {
@@ -117,7 +117,7 @@ TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) 
     (t < 15e-6 ? on : off) = t;
   }
   const double e = std::exp(-15e-6 / 10e-6), half = 10e-6 * std::log(2 / (1 + e));
-  EXPECT_NEAR(on, half, 1e-16 + 1e-12 * 2e-3);  // the run's clock has picoseconds and their fractions
+  EXPECT_NEAR(on, half, 1e-16 + 1e-12 * 2e-3);  // the run's clock has integer picoseconds and fractions
   EXPECT_NEAR(off, 15e-6 + half, 1e-16 + 1e-12 * 2e-3);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dead time holds over whole runs: reversals, full duty, Hall edges, every way to command the bridge.
+// The dead time is kept over whole runs: reversals, full duty, Hall edges, every kind of bridge command.
 #include <gtest/gtest.h>
 
 #include "sixstep/rig/lean_rig.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field-oriented current controller on three legs equals a trajectory of an independent brute-force solver
-// in float128 (tests/reference/G15.csv): sine machine from rest, i_q* = +-4 A, PWM and control period 50 us,
-// centred, space vector, one period of delay.
+// A field-oriented current controller on three legs is compared with the trajectory of an independent
+// brute-force solver in float128 (tests/reference/G15.csv). Sine machine from rest, i_q* = +-4 A, PWM and
+// control period 50 us, centred pulses, space vector, one period of delay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,8 @@ constexpr double T = 50e-6, bus_V = 24.0;
 
 control::Direction<double> direction(double rad) { return {base::cos(rad), base::sin(rad)}; }
 
-/// v[n] = v[n-1] + 1.2 e[n] - 1.1 e[n-1], clamped to +-12 V, the clamped value kept.
+/// A PI controller in velocity form: v[n] = v[n-1] + 1.2 e[n] - 1.1 e[n-1], v in V and e in A. v is clamped
+/// to +-12 V, and the clamped value is kept.
 struct VelocityPi {
   double v = 0.0, e = 0.0;
   double step(double error) {
@@ -80,7 +81,8 @@ TEST(FieldOriented, FollowsTheReferenceTrajectory) {
     }
   }
   EXPECT_EQ(rows, 401);
-  // The bounds are the reference's: 1e-10 of a current's peak, 1e-12 of the others'.
+  // The reference's accuracy gives the bounds: 1e-10 of the peak of a current, 1e-12 of the peak of the other
+  // columns.
   for (std::size_t k = 0; k < 5; ++k)
     EXPECT_LE(worst[k], (k < 3 ? 1e-10 : 1e-12) * peak[k]) << "column " << k + 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first instant of a run: dead time, the sector of a rotor on an edge, a setpoint that slews.
+// The first instant of a run: dead time, the sector of a rotor on an edge, a slew-limited setpoint.
 #include <gtest/gtest.h>
 
 #include "sixstep/control/commutation.hpp"
@@ -11,7 +11,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// The current PI of the reference cases.
+/// The current PI controller of the reference cases.
 Board current_pi(double i_ref) {
   Board b;
   b.drive.mode = control::Mode::current;
@@ -32,12 +32,12 @@ TEST(FirstInstant, TheFirstTurnOnWaitsTheDeadTimeWithDutyPiAndHysteresis) {
       EXPECT_EQ(rig.plant().state().i[0], 0.0);
       ASSERT_EQ(run_to(rig, 2.5 * us), sim::Stop::end);
       EXPECT_EQ(rig.plant().gates(), a_to_b());
-      // The current equals 24 V for 0.5 us over 0.572 mH; the resistance takes less than 1e-3 of it.
+      // The current is 24 V 0.5 us/0.572 mH; the resistance reduces it by less than 1e-3.
       EXPECT_NEAR(rig.plant().state().i[0], 24.0 * 0.5 * us / b.L_tt(), 1e-3 * 24.0 * 0.5 * us / b.L_tt());
     }
 }
 
-/// The first samples show the sector that the rotor turns into: backwards at 0 deg this is sector 5, with the
+/// The first samples show the sector that the rotor enters: backwards from 0 deg this is sector 5, with the
 /// pair c to b.
 TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsEntered) {
   for (int edge = 0; edge < 6; ++edge)
@@ -58,14 +58,14 @@ TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsE
     }
 }
 
-/// The setpoint slews at 2000 A/s: 0.06 A per tick from the measured current, also after a jump between two
+/// The setpoint slews at 2000 A/s, 0.06 A per tick, from the measured current, also after a jump between two
 /// ticks.
 TEST(FirstInstant, ASetpointOfAnEventHysteresisSlewsOncePerTick) {
   Board b = locked(Board::hysteresis(4.0, 0.02, Chopping::soft));
   b.drive.extras.on = b.drive.extras.slews_setpoint = true;
   b.drive.extras.slew.step = 0.06;
   b.setpoint(10 * period_ticks, 3.0);                     // at a tick
-  b.setpoint(20 * period_ticks + period_ticks / 3, 5.0);  // between two
+  b.setpoint(20 * period_ticks + period_ticks / 3, 5.0);  // between two ticks
   auto rig = b.rig();
   for (int n = 0; n < 60; ++n) {
     ASSERT_EQ(run_to(rig, n * 30 * us), sim::Stop::end);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's analogue front end in whole runs. With a held motor the outputs equal closed forms of a
-// first-order lag of exponentials. With a turning motor, its freewheeling and its floating leg, they equal
-// the lag's integral, by quadrature of the plant's values. Both kernels, crossed wires and delays are tested.
+// The board's analogue front end in whole runs. With a held motor the outputs are compared with closed forms
+// of a first-order lag of exponentials. With a turning motor, which freewheels and has a floating leg, the
+// outputs are compared with the lag's integral by quadrature of the plant's values. Both kernels, crossed
+// wires and delays are tested.
 #include "sixstep/rig/front_end.hpp"
 
 #include <gtest/gtest.h>
@@ -15,12 +16,12 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// A drive with converters that stores the terminal voltages it receives.
+/// A drive with converters; it stores the terminal voltages that it receives.
 struct Looking : rig::SensedDrive<double> {
   using SensedDrive::SensedDrive;
   plant::PerLeg<double> terminal_V{};
   void look_at_terminals(const plant::PerLeg<double>& u) { terminal_V = u; }
-  bool open_loop() const { return false; }  ///< it samples although its duty needs none
+  bool open_loop() const { return false; }  ///< the drive samples although its constant duty needs no sample
 };
 using LookingRig = rig::Rig<double, Looking>;
 using GeneralLookingRig = GeneralRigOf<Looking>;
@@ -31,7 +32,7 @@ constexpr double period_s = 30e-6;
 Board held(double duty, const rig::FrontEndConfig& front_end) {
   Board board = Board::duty(duty);
   board.shaft.locked = true;
-  board.start.angle_rad = at_electrical_deg(10);  // a to b
+  board.start.angle_rad = at_electrical_deg(10);  // the pair a to b
   board.board.modulator.period_ticks = period_ticks;
   board.board.front_end = front_end;
   return board;
@@ -41,13 +42,13 @@ LookingRig rig_of(const Board& board) {
   return LookingRig(board.plant(), board.drive, board.board, board.timeline);
 }
 
-/// Output at t of a lag tau that starts at x, for the input a + b exp(-t/T).
+/// Output at time t of a lag tau that starts at x, for the input a + b exp(-t/T).
 double lagged(double x, double a, double b, double T, double tau, double t) {
   const double particular = b / (1 - tau / T);
   return a + particular * std::exp(-t / T) + (x - a - particular) * std::exp(-t / tau);
 }
 
-/// The bound is 1e-12 of the largest value.
+/// The bounds are 1e-12 of the largest current and of the largest voltage.
 constexpr double amp = 1e-12 * 24 / 1.03, volt = 1e-12 * 24;
 
 TEST(FrontEnd, AnAmplifierFollowsTheHeldMotorsCurrent) {
@@ -62,7 +63,7 @@ TEST(FrontEnd, AnAmplifierFollowsTheHeldMotorsCurrent) {
       EXPECT_NEAR(seen.i_A[0], expected, amp) << tau << " " << t;
       EXPECT_NEAR(seen.i_A[1], -expected, amp);
       EXPECT_EQ(seen.i_A[2], 0);
-      EXPECT_NEAR(seen.dc_link_A, expected, amp);  // the whole pulse is one on-time
+      EXPECT_NEAR(seen.dc_link_A, expected, amp);  // the whole time is one on-time
     }
   }
 }
@@ -74,7 +75,7 @@ TEST(FrontEnd, ADelayShowsTheCurrentBeforeTheSample) {
       board.board.sampled_in_middle = middle;
       LookingRig rig = rig_of(board);
       const double I = 24 / board.R_tt(), T = board.tau();
-      double begin = 0;  // sampled in the middle, the first command waits for the next period
+      double begin = 0;  // if sampled in the middle, the first command waits for the next period
       if (middle) begin = period_s;
       for (const int n : {3, 4, 20}) {
         const double sample = n * period_s + (middle ? period_s / 2 : 0);
@@ -108,7 +109,7 @@ TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   LookingRig rig = rig_of(held(duty, {.divider_s = tau}));
   const double on = std::exp(-duty * period_s / tau), off = std::exp(-(1 - duty) * period_s / tau);
   ASSERT_EQ(run_to(rig, period_s), sim::Stop::end);
-  // All three legs float between the rails before the run.
+  // Before the run all three legs float at half the bus.
   EXPECT_NEAR(rig.front_end().reading().terminal_V[0], (24 + (12.0 - 24) * on) * off, volt);
   EXPECT_NEAR(rig.front_end().reading().terminal_V[1], 12 * on * off, volt);
   ASSERT_EQ(run_to(rig, 200 * period_s), sim::Stop::end);  // 60 time constants later
@@ -118,13 +119,14 @@ TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   EXPECT_NEAR(seen.terminal_V[1], 0, volt);
   EXPECT_NEAR(seen.terminal_V[2], low / 2, volt);  // c floats at the mean of a and b
   EXPECT_EQ(seen.bus_V, 24);
-  // The drive's tick received the same value.
+  // The drive received the same value at its tick.
   ASSERT_EQ(run_to(rig, 200 * period_s + 1e-6), sim::Stop::end);
   EXPECT_NEAR(rig.firmware().terminal_V[2], low / 2, volt);
 }
 
-/// The lag's integral over whole segments: x exp(-z) + z int exp(-z (1 - r)) u(r) dr, with u from plant.at(),
-/// in ten pieces of five points. For z < 1, as here, its error is below rounding.
+/// The lag's integral over whole segments: x exp(-z) + z int exp(-z (1 - r)) u(r) dr, z is the segment's
+/// duration divided by tau, r the elapsed part of the segment. u comes from plant.at(); there are ten pieces
+/// of five Gauss points. For z < 1, as here, the quadrature's error is below rounding.
 struct Quadrature {
   double tau;
   plant::PerLeg<double> x{}, i{};
@@ -236,7 +238,8 @@ TEST(FrontEnd, BelongsToTheBoardsLegs) {
   const rig::FrontEndReading& seen = rig.front_end().reading();
   const auto& i = rig.plant().state().i;
   for (std::size_t leg = 0; leg < 3; ++leg) EXPECT_NEAR(seen.i_A[leg], i[crossed.phase(leg)], amp) << leg;
-  EXPECT_NEAR(seen.i_A[0], -seen.i_A[1], amp);  // legs a and b are driven, whichever phases they feed
+  EXPECT_NEAR(seen.i_A[0], -seen.i_A[1], amp);  // legs a and b are driven, whichever phases are connected to
+                                                // them
   EXPECT_GT(seen.i_A[0], 1);
   EXPECT_NEAR(seen.terminal_V[0], 24, volt);
   EXPECT_NEAR(seen.terminal_V[1], 0, volt);

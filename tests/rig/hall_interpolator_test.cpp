@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, position and sector from the angle between Hall edges equal the closed-form motion of rotor and
-// probes.
+// Speed, position and sector from the angle between Hall edges are compared with the closed-form motion of
+// rotor and probes.
 #include "sixstep/rig/hall_interpolator.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ rig::SensorsConfig reading(HallAngleFrom from, int edges) {
   return config;
 }
 
-/// The probes' mounting and their lines' delay.
+/// Errors of the probes' mounting, their hysteresis and the delay of their lines.
 struct Probes {
   bool stray = true;
   double hysteresis_deg = 0, delay_s = 0;
@@ -42,13 +42,13 @@ struct Errors {
   int samples = 0, wrong_sectors = 0;
 };
 
-/// theta(t) in electrical degrees, monotonous in `direction`. The test judges samples from `from_s` on.
+/// theta(t) in electrical degrees, monotonic in `direction`. The test compares the samples from `from_s` on.
 struct Bench {
   std::function<double(double)> theta_deg, w_rad_s;
   Probes probes{};
   int direction = 1;
 
-  /// The time at which the rotor passes the angle, by bisection.
+  /// The time, s, at which the rotor passes an angle, by bisection.
   double passes_s(double angle_deg, double end_s) const {
     double low = 0, high = end_s;
     for (int n = 0; n < 60; ++n) {
@@ -92,12 +92,12 @@ rig::HallInterpolator<double> interpolator(const rig::SensorsConfig& config) {
   return {config, {}, {.pole_pairs = p, .sector = 0}};
 }
 
-/// Electrical degrees in a tick of the timer.
+/// Electrical degrees that the rotor turns in one count of the timer.
 double tick_deg(double w) { return p * std::fabs(w) * 180 / base::pi / capture_Hz; }
 
-// Errors in ticks: one at either end of the turn over which an edge's angle was learned, and one in the time
-// since an edge. The speed is measured over a sector, each of whose two ends has one tick of time and two of
-// angle.
+// Errors in counts of the timer. The angle of an edge has one at either end of the turn over which it was
+// learned; the time since an edge has one. The speed is measured over a sector: each of its two ends has one
+// count of time and two of angle.
 TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   for (const double w : {100.0, -100.0, 300.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::learned_edges, 6);
@@ -109,8 +109,8 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
     EXPECT_LT(learned.speed_rad_s, std::fabs(w) * 2 * (1 + 2) * tick_deg(w) / 55) << w;
     EXPECT_LE(learned.wrong_sectors, learned.samples * ticks * tick_deg(w) / 60) << w;
 
-    // Evenly spaced edges are assumed: the angle is as wrong as the probes' places, and the measured speed is
-    // 60/55 or 60/66 of the true one.
+    // The interpolator assumes evenly spaced edges: the angle has the probes' mounting errors, and the
+    // measured speed is 60/55 or 60/66 of the true speed.
     auto trusting = interpolator(reading(HallAngleFrom::angle, 1));
     const Errors trusted = steady(w).drive(trusting, 0.1, 0.2);
     EXPECT_GT(trusted.position_deg, 3.9 / p);
@@ -118,13 +118,13 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   }
 }
 
-// Six edges are a turn, over which the edges' angle errors cancel.
+// Six edges are one electrical turn, over which the mounting errors cancel.
 TEST(HallInterpolator, SpeedOverSixEdgesNeedsNoPlaces) {
   auto six = interpolator(reading(HallAngleFrom::angle, 6));
   EXPECT_LT(steady(100).drive(six, 0.1, 0.2).speed_rad_s, 100 * 2 * tick_deg(100) / 360 + 100 * 0.1);
 }
 
-// The interpolator subtracts the data sheet's hysteresis and delay: its angle leads the lines.
+// The interpolator adds the angle for the data sheet's hysteresis and delay: its angle leads the lines.
 TEST(HallInterpolator, TakesOffHysteresisAndDelay) {
   for (const double w : {200.0, -200.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::angle, 1);
@@ -137,7 +137,8 @@ TEST(HallInterpolator, TakesOffHysteresisAndDelay) {
   }
 }
 
-// A speed that rises by 5 % per turn is unfit for learning; at constant speed the next eight turns are fit.
+// While the speed rises by 5 % per turn, the interpolator does not learn. At constant speed it learns from
+// the next eight turns.
 TEST(HallInterpolator, LearnsNothingOfARotorThatSpeedsUp) {
   const double a = 400, until = 0.25, top = 20 + a * until;
   Bench bench;

@@ -21,7 +21,7 @@ std::int64_t seconds() {
 }
 constexpr std::int64_t second_ticks = 1'000'000'000'000;
 
-/// The shaft's angle as the integral of its speed.
+/// The shaft's angle, computed as the integral of its speed.
 class Way {
  public:
   template <class Rig>
@@ -45,8 +45,8 @@ struct WayAndEnergy {
   }
 };
 
-/// The angle by sector count equals the integral. Each edge is located to at worst 64 eps of a sector, the
-/// guard's noise: errors on the same side add up to 64 eps of the angle.
+/// The angle from the sector count equals the integral of the speed. Each edge is located within 64 eps of a
+/// sector, the guard's noise. If all errors have the same sign, they add up to 64 eps of the angle.
 template <class Rig>
 void expect_angle(const Rig& rig, double way_rad) {
   const auto& s = rig.plant().state();
@@ -78,8 +78,8 @@ TEST(OneHour, OfChoppingCountsEveryPeriod) {
   const sim::Instant end{seconds() * second_ticks, 0.0};
   ASSERT_EQ(sim::run(rig, end, way).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), end);
-  // The actions due at the end are done: a tick at that instant, and the off edge of a period that ends in
-  // its second half.
+  // The actions due at the end are executed: a tick at that instant, and the off edge if the run ends in the
+  // second half of a period.
   const std::int64_t whole = end.ticks / period_ticks, rest = end.ticks % period_ticks;
   EXPECT_EQ(rig.event_count(EventKind::tick), whole + 1);
   EXPECT_EQ(rig.event_count(EventKind::pwm_edge), whole + (rest >= period_ticks / 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open loop with a steady bridge skips control ticks without a change of the result.
+// In open loop with a steady bridge, the rig skips control ticks without changing the result.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,8 @@ TEST(IdleTicks, SkippingThemChangesRoundingOnly) {
   EXPECT_EQ(a.event_count(rig::EventKind::sector_edge), b.event_count(rig::EventKind::sector_edge));
 }
 
-/// The duty steps on ticks and between them, from full duty and from slightly less than full (never steady).
+/// The duty steps on a tick or between two ticks. It starts from full duty in one run, and from slightly less
+/// (never steady) in the other.
 void expect_steps_seen(std::int64_t at_ticks) {
   Board skipping = Board::duty(1.0), busy = Board::duty(1.0 - 1e-15);
   for (Board* b : {&skipping, &busy}) {
@@ -44,7 +45,7 @@ void expect_steps_seen(std::int64_t at_ticks) {
   ASSERT_EQ(run_to(a, 12e-3), sim::Stop::end);
   ASSERT_EQ(run_to(b, 12e-3), sim::Stop::end);
   EXPECT_EQ(a.modulator().command().duty, 0.25);
-  // The off-time of 3e-8 ps per period is the only difference.
+  // The only difference is an off-time of 3e-8 ps per period.
   EXPECT_NEAR(a.plant().state().w, b.plant().state().w, 1e-12 * 700.0);
   EXPECT_NEAR(a.plant().state().i[0], b.plant().state().i[0], 1e-10 * 23.3);
 }

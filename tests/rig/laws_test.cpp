@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of model.md 5 hold over random drives: shapes, devices, buses, friction, chopping, steps.
+// The laws of model.md 5 hold over random drives with any back-EMF shape, devices, bus, friction, chopping
+// and steps.
 #include "tests/support/laws.hpp"
 
 #include <gtest/gtest.h>

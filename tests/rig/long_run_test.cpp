@@ -27,23 +27,24 @@ void run_periods(Rig& rig, std::int64_t count) {
 }
 
 TEST(Pitfall02_TimeAndAngleAreCounted, TimeDoesNotDriftWhileTheRotorIsLocked) {
-  // The duty's off edge falls between the picoseconds, and a periodic run repeats exactly.
+  // The duty's off edge falls between integer picoseconds, and a periodic run repeats exactly.
   Board b = locked(Board::duty(1.0 / 3.0));
   auto rig = b.rig();
   run_periods(rig, periods());
   EXPECT_EQ(rig.event_count(EventKind::pwm_edge), periods());
   EXPECT_EQ(rig.modulator().turn_ons(), periods() + 1);
-  // The ripple's minimum has the closed form i(0) = i(T): on over T/3 towards U/R_tt, off through the diodes'
-  // loop towards 0.
+  // The ripple's minimum i(0) = i(T) has a closed form: for T/3 the current rises towards U/R_tt, then it
+  // decays through the diode towards 0.
   const double T = 30e-6, on = std::exp(-T / 3 / b.tau()), off = std::exp(-2 * T / 3 / b.tau());
   const double foot = 24.0 / b.R_tt() * (1 - on) * off / (1 - on * off);
-  // A rounding error in the compensated sums decays with tau, some twenty periods: errors do not add up.
+  // A rounding error in the compensated sums decays with tau, some twenty periods: rounding errors do not add
+  // up.
   EXPECT_NEAR(rig.plant().state().i[0], foot, 64 * eps * 24.0 / b.R_tt());
 }
 
 TEST(Pitfall02_TimeAndAngleAreCounted, AngleDoesNotDriftAtASpeedThatNoTorqueChanges) {
   Board b = Board::duty(0.5);
-  b.shaft.J_kg_m2 = 1e18;  // 1 N m for five minutes: 3e-16 rad/s
+  b.shaft.J_kg_m2 = 1e18;  // a torque of 1 N m for five minutes changes the speed by 3e-16 rad/s
   b.shaft.B_Nm_s = 0.0;
   b.start.speed_rad_s = 300.0;
   b.start.angle_rad = 0.0;
@@ -53,9 +54,9 @@ TEST(Pitfall02_TimeAndAngleAreCounted, AngleDoesNotDriftAtASpeedThatNoTorqueChan
   EXPECT_EQ(s.w, 300.0);
   const long double turned = (static_cast<long double>(s.sector) * base::sector_rad + s.x) / 8;
   const long double exact = 300.0L * 30e-6L * static_cast<long double>(periods());
-  // Each edge sets the angle exactly and is located to at worst 64 eps of a sector: an error in one sector
-  // changes the next one's time, not its angle. The errors add up at random at most; 1e-12 would be 4e5 of
-  // them in a row.
+  // Each edge sets the angle exactly and is located within 64 eps of a sector: an error in one sector changes
+  // the time of the next sector, not its angle. The errors add up at random at most. 1e-12 would be the sum
+  // of 4e5 errors of the same sign.
   EXPECT_NEAR(static_cast<double>(turned / exact), 1.0, 1e-12);
   const auto edges = static_cast<std::int64_t>(exact * 8 / base::sector_rad);
   EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::sector_edge)), static_cast<double>(edges), 1.0);

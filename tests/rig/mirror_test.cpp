@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The symmetries of motor, bridge and commutation hold: mirrored runs give mirrored results.
+// Mirrored runs give mirrored results: the symmetries of motor, bridge and commutation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,12 +12,12 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// The bound on the difference of two runs whose starts differ by rounding is the solver's accuracy (model.md
-/// 12, 6.5e-12 of currents).
+/// The bound on the difference of two runs whose initial states differ by rounding is the solver's accuracy
+/// (model.md 12: 6.5e-12 of full scale for currents).
 constexpr double current_part = 1e-11, speed_part = 1e-12;
 
-/// theta -> 300 degrees - theta, w -> -w, d -> -d, T_load -> -T_load, and b and c exchanged give the same
-/// currents.
+/// The mirrored run has theta -> 300 degrees - theta, w -> -w, d -> -d, T_load -> -T_load, and phases b and c
+/// exchanged; its currents are the same.
 Board mirrored(Board b) {
   b.start.angle_rad = at_electrical_deg(300.0) - b.start.angle_rad;
   b.start.speed_rad_s = -b.start.speed_rad_s;
@@ -25,7 +25,7 @@ Board mirrored(Board b) {
   return b;
 }
 
-/// The motor turns by a third of a turn: the phases rotate, a -> b -> c -> a.
+/// The rotor starts a third of an electrical turn further: the phases rotate, a -> b -> c -> a.
 Board rotated(Board b) {
   b.start.angle_rad += at_electrical_deg(120.0);
   return b;
@@ -74,7 +74,8 @@ TEST(Mirror, EveryPhaseIsLikeTheOthers) {
 }
 
 TEST(Mirror, HardChoppingDoesNotKnowTheRails) {
-  // theta -> theta + 180 degrees reverses every current and EMF; both switches of the pair chop together.
+  // theta -> theta + 180 degrees reverses every current and back-EMF. Both switches of the pair chop
+  // together.
   const Board b = drive(Chopping::hard, false);
   Board half = b;
   half.start.angle_rad += at_electrical_deg(180.0);

@@ -37,8 +37,8 @@ TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
   EXPECT_EQ(on(m), "a-b-");
 }
 
-/// The first command of a run changes every leg's state (model.md 11), whether a duty or a hysteresis gives
-/// the command.
+/// The first command of a run changes every leg's state (model.md 11), in duty control and in hysteresis
+/// control.
 TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0})
@@ -53,8 +53,8 @@ TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
       }
 }
 
-/// No dead time is needed, because no switch of the leg received a turn-off command since the leg was last
-/// on.
+/// No dead time is needed: since the leg was last on, no other switch of the leg has received a turn-off
+/// command.
 TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
     SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
@@ -119,8 +119,8 @@ TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
   }
 }
 
-/// With complementary chopping the lower switch is on until the new command turns it off. The upper switch of
-/// the soft chopping that follows waits for the dead time.
+/// With complementary chopping the lower switch is on until the new command turns it off. Under the new soft
+/// chopping, the upper switch waits for the dead time.
 TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   for (const bool centred : {false, true}) {
     SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
@@ -135,8 +135,8 @@ TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   }
 }
 
-/// Leg a changes from source to sink: its command changes from the upper to the lower switch, which waits for
-/// the dead time.
+/// Leg a changes from source to sink: its command changes from the upper to the lower switch, and the lower
+/// switch waits for the dead time.
 TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.98, 1.0}) {
@@ -227,8 +227,8 @@ TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
   EXPECT_EQ(on(m), "b+c-");
 }
 
-/// With commutation = "sample" the pair changes with a period's command. Leg a passes its state to b; c is
-/// unchanged.
+/// With commutation = "sample" the pair changes with a period's command. Leg a transfers its state to leg b;
+/// leg c is unchanged.
 TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0}) {
@@ -237,8 +237,8 @@ TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
       m.start_period(at(0), command(duty, chopping, {Leg::a, Leg::c}));
       while (m.next_edge() < at(period)) do_next(m);
       m.start_period(at(period), command(duty, chopping, {Leg::b, Leg::c}));
-      // The leg was low until now, as in any period of complementary chopping: the turn-on is a change within
-      // the leg.
+      // If the state of leg a was low until now, as in any period of complementary chopping, the turn-on is a
+      // change within the transferred state and waits.
       const bool waits = chopping == Chopping::complementary && duty < 1.0;
       EXPECT_EQ(on(m), waits ? "c-" : "b+c-");
       if (waits) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mounted Hall probes (model.md 10): every edge of a rotor at constant speed comes at its equation's instant
-// plus the delay, in both directions. The lines of probes 60 degrees apart and glitches are tested too.
+// Mounted Hall probes (model.md 10): at constant speed every edge appears at the instant of its equation plus
+// the delay, in both directions. Probes 60 degrees apart and glitches are tested too.
 #include "sixstep/rig/probes.hpp"
 
 #include <gtest/gtest.h>
@@ -35,11 +35,11 @@ GeneralRig turned(const rig::ProbeGiven& probes, double sign, rig::Timeline time
 
 struct Edge {
   double at_s;
-  int sector;  // 0..5, from here on
+  int sector;  // 0..5, the sector after the edge
 };
 
-/// The edges that a rotor from angle 0 passes, forward or backward, and the sectors behind them, by the
-/// definition alone.
+/// The edges that a rotor passes from angle 0, forward or backward, and the sectors after them, computed only
+/// from the definition.
 std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, double until_s) {
   std::vector<Edge> edges;
   const int count = placed.own_deg.empty() ? 1 : static_cast<int>(placed.own_deg.size());
@@ -50,8 +50,8 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
   for (int n = -2000; n <= 2000; ++n) {
     const double place = 60.0 * n + placed.offset_deg + own(n);
     const double met = place + sign * placed.hysteresis_deg / 2;
-    // Forward, the first edge is the first one beyond 0, apart from the hysteresis. Backward, it is the last
-    // one at or below 0.
+    // Forward, the first edge is the first edge beyond 0, without the hysteresis. Backward, it is the last
+    // edge at or below 0.
     if (sign > 0 ? place <= 0 : place > 0) continue;
     const double at_s = sign * met / deg_s;
     if (at_s < until_s) edges.push_back({at_s, (((sign > 0 ? n : n - 1) % 6) + 6) % 6});
@@ -63,7 +63,7 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
 constexpr std::uint8_t codes_120[6] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
 constexpr std::uint8_t codes_60[6] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};
 
-/// The pins change within 1e-12 s of each edge, and nowhere else.
+/// The pins change within 2e-12 s of each edge, and at no other time.
 void expect_edges(const rig::ProbeGiven& given, double sign) {
   GeneralRig rig = turned(given, sign);
   const double delay_s = static_cast<double>(given.delay_ticks) * 1e-12;
@@ -97,7 +97,7 @@ TEST(Probes, AreLateByTheirDelay) {
     expect_edges({.placement = {2.0, 1.0, {}}, .delay_ticks = 37'000'000}, sign);
 }
 
-// A sector takes 187 us at 5600 rad/s electrical: a delay of 200 us holds two edges at once.
+// At 5600 rad/s electrical a sector lasts 187 us: during a delay of 200 us, two edges are pending at once.
 TEST(Probes, KeepEdgesThatAreOnTheirWay) {
   rig::MountedProbes<double> probes({.delay_ticks = 200}, {});
   ASSERT_TRUE(probes.mounted());
@@ -114,7 +114,8 @@ TEST(Probes, KeepEdgesThatAreOnTheirWay) {
 
 TEST(Probes, SixtyDegreesApartShowTheirOwnCodes) {
   expect_edges({.placement = {3.0, 0.0, {}}, .spaced_60 = true}, 1.0);
-  // Probes without mounting errors change with the sectors; the chip's decoder has a table of its own.
+  // Probes without mounting errors change at the sector edges. The chip decodes probes 60 degrees apart with
+  // a separate table.
   const rig::MountedProbes<double> probes({.spaced_60 = true}, {});
   EXPECT_FALSE(probes.mounted());
   for (int sector = 0; sector < 6; ++sector) {
@@ -140,7 +141,8 @@ TEST(Probes, GlitchesTurnOneLineOver) {
   }
 }
 
-// The rotor oscillates across an edge: the line changes h/2 late in either direction, and never twice.
+// The rotor oscillates across an edge: in either direction the line changes h/2 after the edge, h the
+// hysteresis, and only once.
 TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;
@@ -162,8 +164,8 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
     const int sector = control::sector_of_hall(rig.pins());
     if (sectors.empty() || sectors.back() != sector) sectors.push_back(sector);
   }
-  // The lines change at 70 forward on the way from 0 to 75, at 50 back to 45, at 70 forward to 75, and at 50
-  // back to 0. The edge at -10 is not reached.
+  // The line changes at 70 degrees on the way from 0 to 75, at 50 on the way back to 45, at 70 on the way to
+  // 75, and at 50 on the way back to 0. The rotor does not reach the edge at -10.
   EXPECT_EQ(sectors, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 

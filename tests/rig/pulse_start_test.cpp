@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulses that detect the rotor's angle, on the virtual board: a wheel hub motor with two inductances from its
-// sheet and iron that saturates, and the motor 251601, whose rotor cannot be detected.
+// Pulses that detect the rotor's angle, on the virtual board, with two motors. The wheel hub motor has two
+// inductances in its sheet and iron that saturates. The motor 251601 has a rotor that pulses cannot detect.
 #include <cstdio>
 #include <random>
 
@@ -31,7 +31,7 @@ struct PulseBench {
     machine.shape.flat_deg = m.flat_deg;
     if (m.back_emf == plant::BackEmf::sine) machine.shape.harmonics = {{1, 1.0}};
   }
-  /// theta_e at rest, degrees.
+  /// Sets theta_e at rest, in degrees.
   void stand_at(double electrical_deg) {
     base.at.angle_rad = electrical_deg * base::pi / 180 / machine.pole_pairs;
   }
@@ -61,7 +61,7 @@ PulseBench hub() {
   return bench;
 }
 
-/// Runs until the pulses are over.
+/// Runs until the pulses have ended.
 PulsePositionReading found(PulsedRig& rig) {
   bool began = false;
   const double t = run_until_true(rig, 2.0, 0.25e-3, [&] {
@@ -76,10 +76,10 @@ double off_deg(const PulsePositionReading& reading, double electrical_deg) {
   return std::remainder(reading.electrical * (360.0 / 4294967296.0) - electrical_deg, 360.0);
 }
 
-/// The error of the finer angle has two parts, noise and saturation. The noise is half of that of its second
-/// harmonic: 1/(signal over noise) rad of 2 x, with two equal components. With m = L_d I/(2 I_sat L_S),
-/// saturation adds m/4 of the current times 3 m/8 over L_D/L_S. The bound has five times the noise, for all
-/// hundred angles.
+/// The error of the finer angle has two parts, noise and saturation. The second harmonic in 2 x has two
+/// components with equal noise: the noise of 2 x is 1/(signal to noise) rad, and that of x is half of it.
+/// With m = L_d I/(2 I_sat L_S), saturation adds m/4 of the current times 3 m/8, divided by L_D/L_S. The
+/// bound contains five times the noise, because it applies to a hundred angles.
 TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
   const unsigned seed = 20'261'123;
   std::mt19937 draw(seed);
@@ -101,7 +101,7 @@ TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
     const double m = 520e-6 * I_A * 2 / std::sqrt(3.0) / (2 * 40.0 * 585e-6), saliency = 65.0 / 585.0;
     const double allowed_deg = (5 * 16.0 / reading.axis_16 + m * m * 3 / 32 / saliency) / 2 * 180 / base::pi;
     EXPECT_LT(std::fabs(off), allowed_deg) << deg;
-    // The sector is right where the rotor is farther from an edge than the error.
+    // The sector is right if the rotor's distance from an edge exceeds the error.
     const double into = std::fmod(deg, 60.0);
     if (reading.sector == static_cast<int>(deg / 60)) continue;
     ++beyond_edges;
@@ -112,7 +112,7 @@ TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
       beyond_edges, worst);
 }
 
-/// The drive starts from the pulses and runs in both directions without an alignment.
+/// After the pulses the drive starts without an alignment, in both directions.
 TEST(PulseStart, StartsFromTheSectorThatItSaw) {
   for (const double sign : {1.0, -1.0})
     for (const double deg : {5.0, 83.0, 160.0, 239.0, 301.0}) {
@@ -136,7 +136,8 @@ TEST(PulseStart, StartsFromTheSectorThatItSaw) {
     }
 }
 
-/// A round rotor cannot be detected, with or without noise; the drive reports it, aligns and starts.
+/// Pulses cannot detect a round rotor, with or without noise. The drive reports this, aligns the rotor and
+/// starts.
 TEST(PulseStart, RefusesTheRound251601AndAlignsIt) {
   for (const double noise_counts : {0.0, 1.0})
     for (int n = 0; n < 12; ++n) {

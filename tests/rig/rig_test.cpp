@@ -34,8 +34,8 @@ TEST(Rig, DelayedCommandTakesEffectOnePeriodAfterItsSample) {
 }
 
 TEST(Rig, ADelayedHysteresisWaitsForItsSampleToo) {
-  // The sample at 60 us sees a step between two samples, and the step takes effect at 90 us; without delay it
-  // takes effect at once.
+  // With a delay, the sample at 60 us detects a step at 45 us, and the step takes effect at 90 us. Without a
+  // delay it takes effect at once.
   for (const bool delayed : {true, false}) {
     Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
     b.board.delayed = delayed;
@@ -92,7 +92,7 @@ TEST(Rig, OrAtTheNextSample) {
 }
 
 TEST(Rig, AHallEdgeKeepsTheSignInEffectWhileAReversalWaits) {
-  // A reversal sampled at 30 us takes effect at 60 us; the edge at 40 us still uses the old sign.
+  // A reversal sampled at 30 us takes effect at 60 us. The edge at 40 us still uses the old sign.
   Board b = edge_between_ticks();
   b.board.delayed = true;
   b.setpoint(15'000'000, -0.9);
@@ -104,8 +104,8 @@ TEST(Rig, AHallEdgeKeepsTheSignInEffectWhileAReversalWaits) {
 }
 
 TEST(Rig, DutyIsFeltAsTheMeanVoltage) {
-  // Locked rotor, soft chopping, continuous current: the steady state has the mean current d U/R_tt with a
-  // ripple.
+  // Locked rotor, soft chopping, continuous current: the steady state has the mean current d U/R_tt (d duty,
+  // U bus voltage) and a ripple.
   Board b = Board::duty(0.5);
   b.shaft.locked = true;
   b.start.angle_rad = 0.02;
@@ -127,8 +127,8 @@ TEST(Rig, TicksAndEdgesAreCounted) {
   EXPECT_EQ(rig.modulator().turn_ons(), 101);
 }
 
-/// The statistic "diode starts to conduct" must not depend on whether the start was located or fell on a PWM
-/// edge; the reference trajectory R3 counts 1600.
+/// The statistic "diode starts to conduct" must not depend on whether the start was located or coincided with
+/// a PWM edge. The reference trajectory R3 has 1600 starts.
 TEST(Rig, CountsEveryStartOfADiode) {
   const Board b = Board::duty(0.5);
   auto rig = b.rig();
@@ -136,13 +136,14 @@ TEST(Rig, CountsEveryStartOfADiode) {
   EXPECT_EQ(rig.plant().diodes_started(), 1600);
 }
 
-/// The count includes switchings that a step of the reference or a sector edge causes at once.
+/// The count includes a comparator's switching that a setpoint step or a sector edge causes at once.
 TEST(Rig, CountsEverySwitchingOfAComparator) {
   Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
   for (int n = 1; n < 4; ++n) b.setpoint(n * 5'000'000'000LL, n % 2 == 0 ? 5.0 : -5.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 20e-3 - 1e-12), sim::Stop::end);
-  // R7s has 332 switchings off; every one but the last few is followed by one on.
+  // In the reference trajectory R7s the comparator switches off 332 times. After each, except perhaps the
+  // last, it switches on.
   const std::int64_t off = 332;
   EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::comparator)), 2.0 * off, 1.0);
 }
@@ -164,7 +165,7 @@ TEST(Rig, HysteresisSwitchesAsOftenAsTheReference) {
   Offs offs;
   ASSERT_EQ(run_to(rig, 20e-3, offs), sim::Stop::end);
   EXPECT_EQ(offs.at_s.size(), 332u);
-  // R7s has the mean switching frequencies 19.65, 14.74, 19.70, 14.70 kHz in its quarters.
+  // The mean switching frequencies of R7s in its four quarters are 19.65, 14.74, 19.70 and 14.70 kHz.
   const double reference[] = {19.65e3, 14.74e3, 19.70e3, 14.70e3};
   for (int quarter = 0; quarter < 4; ++quarter) {
     double first = 0, last = 0;

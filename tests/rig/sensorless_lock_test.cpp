@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sensorless drive's losses and their names, rotors that already spin, and Hall probes as a second source.
+// A sensorless drive's losses of the rotor and their names, rotors that already spin, and Hall probes as a
+// second source.
 #include "tests/support/sensorless.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -15,8 +16,8 @@ TEST(Sensorless, CatchesASpinningRotor) {
       SensorlessBench bench(motor);
       bench.at.speed_rad_s = part * bench.no_load_rad_s();
       bench.at.angle_rad = 1.0;
-      // Soft chopping cannot limit a braking current near the no-load speed. At 0.9 of that speed the
-      // setpoint is therefore the rotor's own speed; otherwise the setpoint is lower, so that the drive
+      // Soft chopping cannot limit a braking current near the no-load speed. At 0.9 of the no-load speed the
+      // setpoint is therefore the rotor's speed. At the other speeds the setpoint is lower, so that the drive
       // brakes.
       bench.setpoint(0, (std::fabs(part) > 0.8 ? 1.0 : 0.6) * part * bench.no_load_rad_s());
       auto rig = bench.rig();
@@ -45,12 +46,11 @@ TEST(Sensorless, BrakesARotorThatSpinsTheOtherWayAndTurnsItRound) {
   }
 }
 
-/// A loss of a rotor that ran at half the no-load speed when the cause came: its name, and the commutations
-/// from the cause until the loss.
+/// A loss of the rotor after a cause: its name, and the number of commutations from the cause to the loss.
 struct Lost {
   LockLoss named = LockLoss::none;
   int commutations = 0;
-  double sectors = 0.0;  ///< the time in sectors
+  double sectors = 0.0;  ///< time from the cause to the loss, in sectors
 };
 
 template <class Firmware = rig::SensorlessDrive<double>>
@@ -93,8 +93,8 @@ TEST(Sensorless, ALoadThatTurnsTheRotorBackIsSeenWithinTwoCommutations) {
     bench.act(cause_s, rig::ActionKind::load_torque, 10 * bench.nominal_A() * bench.motor.K_t_Nm_A);
     auto rig = bench.rig();
     run_until(rig, cause_s);
-    // The drive may follow the rotor while the rotor turns forward. After that it may commutate at most
-    // twice.
+    // The drive may follow the rotor while the rotor turns forward. After the reversal it may commutate at
+    // most twice.
     ASSERT_GT(
         run_until_true(rig, cause_s + 0.3, bench.spec.period_s, [&] { return rig.plant().state().w <= 0; }),
         0);
@@ -151,7 +151,7 @@ TEST(Sensorless, GivesUpAfterSoManyLossesAndIsClearedBySettingNothing) {
   EXPECT_EQ(phase(rig), SensorlessPhase::running);
 }
 
-/// The bench has Hall probes and begins with `source`.
+/// A bench with Hall probes whose drive starts with `source`.
 SensorlessBench with_probes(const SensorlessMotor& motor, control::RotorSource source) {
   SensorlessBench bench(motor);
   bench.chip.source = {.has_hall = true, .wanted = source};

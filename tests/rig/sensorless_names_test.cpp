@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The names of losses that the plant provokes: an old current that outlasts the crossing, a rotor struck into
-// another sector, a held rotor, a broken divider. Both directions run by crossings in double and by an
-// observer in q15.
+// another sector, a held rotor, a broken divider. Each case is tested in both directions, by crossings in
+// double and by an observer in q15.
 #include "tests/support/sensorless_board.hpp"
 
 #include <array>
@@ -17,7 +17,7 @@ using control::SensorlessPhase;
 
 struct Lost {
   LockLoss named = LockLoss::none;
-  bool caused = false;   ///< before the loss was named
+  bool caused = false;   ///< the cause showed before the loss was named
   int commutations = 0;  ///< since the cause
 };
 
@@ -42,7 +42,7 @@ Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caus
   return found;
 }
 
-/// The drive runs by the crossings in double, and by flux linkage in q15.
+/// Tests two drives: by the crossings in double, and by the flux linkage in q15.
 template <class Caused>
 void expect_name(const SensorlessBench& bench, double cause_s, LockLoss name, const std::string& where,
                  Caused&& caused) {
@@ -64,7 +64,7 @@ std::string at(const SensorlessMotor& motor, int sign) {
   return std::string(motor.name) + (sign > 0 ? " forward" : " backward");
 }
 
-/// The crossing has passed, and the leg's old current still runs.
+/// The crossing has passed, and the floating leg still carries its old current.
 template <class Rig>
 bool crossing_is_hidden(const Rig& rig, double least_A) {
   const control::SensorlessState& rotor = rig.firmware().rotor();
@@ -74,8 +74,8 @@ bool crossing_is_hidden(const Rig& rig, double least_A) {
   return passed && std::fabs(state.i[control::floating_leg(rotor.sector)]) > least_A;
 }
 
-/// The inductance is so large that the limit's current decays over half a sector at half the no-load speed, L
-/// I = U t. The drive then speeds up.
+/// The inductance is so large that the limit current I takes half a sector at half the no-load speed to
+/// decay: L I = U t. The drive then speeds up.
 TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1}) {
@@ -92,8 +92,8 @@ TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation)
     }
 }
 
-/// A blow of four control periods, in any part of a sector, accelerates the rotor from a tenth of its no-load
-/// speed to seven tenths: it turns through sectors for which the drive still waits.
+/// Within four control periods a torque, at any angle in a sector, accelerates the rotor from 0.1 to 0.7 of
+/// its no-load speed. The rotor turns through sectors that the drive does not yet expect.
 TEST(SensorlessNames, ARotorThatIsStruckStandsInAWrongSector) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -124,8 +124,8 @@ TEST(SensorlessNames, AHeldRotorMasksItsCrossing) {
 constexpr double broken_s = 1.4;
 
 /// The divider of one leg breaks on the board and reads 0. The reading is wrong once the terminal has another
-/// voltage. It matters unless the leg floats after its crossing. Before a falling crossing the chip takes 0
-/// for that crossing, which gives the right pair for the next two sectors.
+/// voltage. A wrong reading matters unless the leg floats and its crossing is done. Before a falling crossing
+/// the chip interprets 0 as the crossing: the pairs of the next two sectors are then still right.
 template <class Scalar, std::size_t leg>
 struct BrokenDivider : BuiltDrive<Scalar> {
   using BuiltDrive<Scalar>::BuiltDrive;
@@ -172,9 +172,9 @@ void expect_divider_named(const SensorlessMotor& motor, int sign, Follow followe
   EXPECT_LE(l.commutations, looks_crossed ? 3 : 2) << where;
 }
 
-/// A reading of 0 from a leg that is driven high contradicts the command: the loss is named `terminals`. From
-/// a floating leg, 0 looks like a diode's rail, which hides the crossing, or like a back-EMF that does not
-/// come.
+/// A reading of 0 from a leg that is driven high contradicts the command: the loss is named `terminals`. In a
+/// floating leg a reading of 0 looks like a conducting diode, which hides the crossing, or like a back-EMF
+/// that does not reach its crossing.
 TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes with the sensorless drive, and rotors that already spin, on a realistic board: the handover
-// there and back, and a line that dies in flight or was dead before, in both directions, at constant and at
-// changing speed. The drive catches rotors under load.
+// Hall probes with the sensorless drive, and rotors that already spin, on a realistic board. The tests cover
+// the handover to back-EMF and back, a line that fails during the run, and a line that is dead from the
+// start, in both directions, at constant and at changing speed. The drive also catches spinning rotors under
+// load.
 #include "tests/support/sensorless_board.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -31,8 +32,8 @@ void choose(SensorlessBench& bench, BuiltRig::Tunings& tunings, double t_s, Roto
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// Runs until `source` commutates, for at most `most_s` s, and checks that the drive followed the rotor until
-/// then.
+/// Runs until `source` commutates, for at most `most_s` s. Checks that this happened and that the drive's
+/// sector is then at most one off.
 void expect_source(BuiltRig& rig, RotorSource source, double most_s, const std::string& where) {
   const double t = run_until_true(rig, rig.now().seconds() + most_s, 1e-4,
                                   [&] { return rig.firmware().source().source == source; });
@@ -69,7 +70,7 @@ TEST(SensorlessSource, HandsOverAndBackBothWays) {
     }
 }
 
-/// Checks that the drive runs by back-EMF and holds the speed.
+/// Checks that the drive runs by back-EMF at the speed w.
 void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) {
   EXPECT_EQ(rig.firmware().source().source, RotorSource::back_emf) << where;
   EXPECT_EQ(phase(rig), SensorlessPhase::running) << where;
@@ -77,8 +78,8 @@ void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) 
   EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
 }
 
-/// A dead line that hid an edge makes the handover a sector late. The drive may then report one loss of the
-/// rotor, and catches it again.
+/// A dead line that hid an edge delays the handover by a sector. The drive may then lose the rotor once and
+/// must catch it again.
 TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   int n = 0, caught_again = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -99,7 +100,7 @@ TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   std::printf("a Hall line dies: %d of %d go on, %d of them caught again\n", n, n, caught_again);
 }
 
-/// With a dead line the code at power-up may still be valid: then the first sectors show the fault.
+/// With a dead line the code at power-up may still be valid. The first sectors then show the fault.
 TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -119,8 +120,9 @@ TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
     }
 }
 
-/// Soft chopping cannot limit a braking current near the no-load speed. At 0.8 of that speed the setpoint is
-/// therefore the rotor's own speed; otherwise the setpoint is lower, so that the drive brakes.
+/// Soft chopping cannot limit a braking current near the no-load speed. At 0.8 of the no-load speed the
+/// setpoint is therefore the rotor's speed. At the other speeds the setpoint is lower, so that the drive
+/// brakes.
 TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -146,8 +148,8 @@ TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
       }
 }
 
-/// A slow rotor against half of its torque stops before the drive catches it. The drive reports one loss of
-/// the rotor, and starts it.
+/// A load of half the nominal torque stops a slow rotor before the drive catches it. The drive must then
+/// start the rotor.
 TEST(SensorlessSource, StartsARotorThatStoppedWhileItWasCaught) {
   SensorlessBench bench = on_built_board(three_motors[2]);
   bench.load_part = 0.5;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sensorless six-step on the virtual board, with three motors of the library designed by design/loops/:
-// starts, speeds, throttle, losses and their names, spinning rotors, and Hall probes as a second source. The
-// drive's sector is compared with the rotor's.
+// Sensorless six-step on the virtual board, with three motors of the motor library and the design of
+// design/loops/: starts, speeds and throttle steps. The drive's sector is compared with the rotor's sector.
 #include "tests/support/sensorless.hpp"
 
 #include <cstdlib>
@@ -21,7 +20,7 @@ struct Started {
   double after_s = 0.0;
 };
 
-/// The drive starts from rest, reaches a speed, and holds it for 0.1 s.
+/// Starts the drive from rest. The result says whether it reaches the speed w and holds it for 0.1 s.
 Started started(const SensorlessBench& bench, double w) {
   auto rig = bench.rig();
   const double most_s = 2.0 + 8.0 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
@@ -102,7 +101,7 @@ TEST(Sensorless, ThrottleStepsKeepLock) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1})
       for (const control::Chopping chopping : {control::Chopping::soft, control::Chopping::hard}) {
-        // Hard chopping has the mean voltage of 2 d - 1 of the bus: these are the same 10 %.
+        // With hard chopping the mean voltage is 2 d - 1 of the bus: both values give 10 %.
         const double low = chopping == control::Chopping::hard ? 0.55 : 0.1;
         SensorlessBench bench(motor, Mode::duty, chopping);
         bench.load_part = 0.1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers that fail during a run, over shafts whose motion is known in closed form: lines that
+// Encoders and resolvers that fail during a run, with shafts whose motion has a closed form: lines that
 // stick, an index that is lost or false, tracks and windings that break and recover, excitation that fails
 // and returns.
 #include <gtest/gtest.h>
@@ -24,13 +24,13 @@ ShaftPorts encoder(int lines, const Motion& m) {
                     m.shaft(0));
 }
 
-/// The quarter lines passed: floor(4 N theta/2 pi).
+/// The quarter lines passed: floor(4 N theta/2 pi), N lines.
 std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
 
-// With line A or B stuck, the other line's edges remain and count up and down by one. After the fault the
-// count follows the lines again, so that it has lost a whole number of lines: all those passed, to within
+// With line A or B stuck, only the other line's edges remain, and they count up and down by one. After the
+// fault the count follows the lines again. It has then lost a whole number of lines: the passed lines, within
 // one.
 TEST(StuckLine, LosesWholeLines) {
   constexpr std::int64_t lines = 1000;
@@ -57,8 +57,8 @@ TEST(StuckLine, LosesWholeLines) {
         }
 }
 
-// Each edge of the other line looks like a reversal over the same place, so that the measured distance is
-// zero.
+// Each edge of the other line looks like a reversal at the same angle. The measured distance, and thus the
+// speed, is zero.
 TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   constexpr std::int64_t lines = 1000;
   const Motion m{0.1, 300, 0};
@@ -88,7 +88,7 @@ TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   }
 }
 
-// The last captured edge is one of the free line.
+// The last captured edge is an edge of the line that is not stuck.
 TEST(StuckLine, CapturesTheOtherLinesEdges) {
   constexpr std::int64_t lines = 500;
   for (const int line : {line_A, line_B}) {
@@ -98,7 +98,8 @@ TEST(StuckLine, CapturesTheOtherLinesEdges) {
     for (int n = 1; n < 60; ++n) {
       m.show(ports, (n - 1) * 1e-4, n * 1e-4);
       const std::int64_t now = quarters(m, lines, n * 1e-4);
-      // A changes where quarters 0 and 2 of a line begin, B where 1 and 3 begin.
+      // Line A changes at the beginning of quarters 0 and 2 of a line, line B at the beginning of quarters 1
+      // and 3.
       const std::int64_t border = line == line_A ? now - (now % 2 == 0 ? 1 : 0) : now - now % 2;
       if (border <= quarters(m, lines, 0)) continue;
       const double at_s = (static_cast<double>(border) * 2 * base::pi / (4 * lines) - m.theta_0) / m.w;
@@ -117,7 +118,7 @@ int indexes(ShaftPorts& ports, const Motion& m, double from_s, double to_s) {
 }
 
 TEST(StuckIndex, IsLostUntilItIsWhole) {
-  const Motion m{0.5, 100, 0};  // passes 2 pi at 57.8 ms, and a further turn each 62.8 ms
+  const Motion m{0.5, 100, 0};  // the angle passes 2 pi at 57.8 ms and then one turn every 62.8 ms
   for (const bool high : {false, true}) {
     ShaftPorts ports = encoder(500, m);
     EXPECT_EQ(indexes(ports, m, 0, 0.1), 1);
@@ -141,7 +142,7 @@ TEST(FalseIndex, LatchesTheCountAtAWrongPlace) {
   m.show(ports, 0.02, 0.03);
   EXPECT_FALSE(ports.index_passed());
   EXPECT_EQ(ports.since_index(), quarters(m, 500, 0.03) - quarters(m, 500, 0.02));
-  // A high Z or a shorted line gives no rising pulse.
+  // A line Z that is stuck high or low has no rising pulse.
   ports.stick_line(line_Z, true, sim::to_instant(0.03));
   EXPECT_TRUE(ports.index_passed());
   ports.pulse_index();
@@ -163,8 +164,8 @@ TEST(AbsolutePort, ATrackIsWholeAgain) {
   }
 }
 
-// V_1 and V_2 scale with the excitation. A broken winding's voltage is zero; after repair both voltages have
-// their full amplitude.
+// The cosine and sine voltages scale with the excitation. A broken winding's voltage is zero; after the
+// repair both voltages have their full amplitude.
 TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,
@@ -209,8 +210,8 @@ double off_turns(const ShaftPorts& ports, double turns) {
   return off - std::floor(off + 0.5);
 }
 
-// The angle is a ratio: half the excitation gives the same. Without excitation there is no error signal: the
-// angle continues at its speed.
+// The angle comes from a ratio: half the excitation gives the same angle. Without excitation there is no
+// error signal: the angle continues at its speed.
 TEST(ConverterChip, WithoutExcitationGoesOnAtItsSpeed) {
   const Motion m{0.4, 150, 0};
   ShaftPorts whole(converter(), capture_Hz, 0, m.shaft(0)), half = whole, none = whole;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers as a board's peripherals, over shafts whose motion is known in closed form: counts
-// and the time of the last edge, the latch of an absolute code, samples at the peaks of an excitation.
+// Encoders and resolvers as a board's peripherals, with shafts whose motion has a closed form: counts and the
+// time of the last edge, the latch of an absolute code, samples at the peaks of an excitation.
 #include "sixstep/rig/shaft_ports.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ ShaftPorts encoder(int lines, const Motion& m) {
                     m.shaft(0));
 }
 
-/// The quarter lines passed: floor(4 N theta/2 pi).
+/// The quarter lines passed: floor(4 N theta/2 pi), N lines.
 std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
@@ -36,14 +36,14 @@ TEST(EncoderPort, CountsAndCapturesTheLastEdge) {
     m.show(ports, 0, 0.02);
     const std::int64_t n = quarters(m, 1000, 0.02);
     EXPECT_EQ(ports.quarters(), n);
-    // The edge at which this count begins: its own forward, the next one backward.
+    // The edge at which count n begins: edge n forward, edge n + 1 backward.
     const double border = static_cast<double>(w > 0 ? n : n + 1) * 2 * base::pi / 4000;
     EXPECT_NEAR(ports.edge_time(), (border - m.theta_0) / w * capture_Hz, 1.0) << w;
     EXPECT_EQ(ports.edge_direction(), w > 0 ? 1 : -1);
   }
 }
 
-// The rotor reverses at t = w/|a|; it passes its last edge again on the way back.
+// The rotor reverses at t = w/|a|. On the way back it passes its last edge again.
 TEST(EncoderPort, ARotorThatTurnsRoundPassesItsEdgesAgain) {
   const Motion m{0.5, 40, -8000};  // reverses at 5 ms, 0.1 rad further
   ShaftPorts ports = encoder(1000, m);
@@ -63,14 +63,14 @@ TEST(EncoderPort, TellsOfItsIndexOnceATurn) {
   const Motion m{-0.05, 100, 0};
   ShaftPorts ports = encoder(500, m);
   int passed = 0;
-  for (int n = 0; n < 2000; ++n) {  // 0.2 s: 20 rad from -0.05
+  for (int n = 0; n < 2000; ++n) {  // 0.2 s at 100 rad/s: 20 rad from -0.05
     m.show(ports, n * 1e-4, (n + 1) * 1e-4);
     passed += ports.index_passed();
   }
   EXPECT_EQ(passed, 4) << "at 0, 2 pi, 4 pi and 6 pi";
 }
 
-// The counter misses 7 edges: it lags by 7, and the index then corrects the count since the index.
+// The counter misses 7 edges and lags by 7. The index then corrects the count since the index.
 TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   for (const double w : {100.0, -100.0}) {
     const Motion m{w > 0 ? -0.05 : 0.05, w, 0};
@@ -87,9 +87,10 @@ TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   }
 }
 
-// The missed edges span the index: those after the index stay missing from the count since the index.
+// The missed edges are on both sides of the index. The count since the index lacks those after the index.
 TEST(EncoderPort, EdgesMissedBehindTheIndexAreMissingFromItsCount) {
-  const Motion m{-3.5 * 2 * base::pi / 2000, 100, 0};  // 4 edges to the index, the fourth its own
+  const Motion m{-3.5 * 2 * base::pi / 2000, 100, 0};  // 4 edges to the index; the fourth is the edge of the
+                                                       // index
   ShaftPorts ports = encoder(500, m);
   ports.miss(6);
   m.show(ports, 0, 1e-3);
@@ -148,7 +149,8 @@ TEST(ResolverPort, IsSampledAtItsPeaks) {
   }
 }
 
-// A winding that leads by d shows cos d of its amplitude at a peak of the excitation.
+// If a winding's voltage leads the excitation by d, its sample at a peak of the excitation is cos d of its
+// amplitude.
 TEST(ResolverPort, ShowsWhatItsWindingsAreUnlikeBy) {
   constexpr double rad = 180 / base::pi;
   const rig::Resolver r{.amplitude_V = 1.5,
@@ -196,8 +198,8 @@ TEST(ResolverPort, IsAsNoisyAsItIsSaidToBeAndTheSeedsOwn) {
     square += (x * x + y * y) / 2;
     product += x * y;
   }
-  // Rounding to counts adds 1/12 to the variance; 8000 values give the deviation to 0.8 %, 4000 products the
-  // mean to 1/63.
+  // Rounding to counts adds 1/12 to the variance. 8000 values determine the deviation within 0.8 %, 4000
+  // products the mean within 1/63.
   const double wanted = 100 + 1.0 / 12;
   EXPECT_NEAR(std::sqrt(square / samples / wanted), 1, 5 * 0.008);
   EXPECT_NEAR(product / samples / wanted, 0, 5.0 / 63) << "the windings' noise is each one's own";
@@ -226,8 +228,8 @@ double off_turns(const ShaftPorts& ports, const Motion& m, double t) {
   return off - std::floor(off + 0.5);
 }
 
-// A loop of type 2 has no lag at constant speed at its clocks. The remaining error is the count that it
-// rounds down to, and the integrator's rounding of the speed to 2^-48 turn over K_i.
+// At constant speed a type 2 loop has no lag at its clocks. The remaining error is the rounding down to a
+// count, and the integrator's rounding of the speed, 2^-48 turn divided by K_i.
 TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
   for (const int bits : {10, 12, 14, 16})
     for (const double w : {0.0, 150.0, -400.0}) {
@@ -241,7 +243,7 @@ TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
     }
 }
 
-// The lag stays at the acceleration divided by K_a.
+// The lag is constant: the acceleration divided by K_a.
 TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
   const Motion m{0.1, 0, 40000};
   ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
@@ -256,7 +258,7 @@ TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
   EXPECT_GT(off, -lag_turns - 0x1p-16 - 1e-6);
 }
 
-// The angle is constant until the next clock and then is that clock's.
+// Between two clocks the chip shows the angle of the earlier clock.
 TEST(ConverterChip, HoldsTheAngleOfItsLastClock) {
   const Motion m{0.4, 300, 0};
   ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
@@ -279,9 +281,9 @@ TEST(ConverterChip, IsReadAsItWasLatched) {
   EXPECT_NEAR(off_turns(now, m, 0.01) - off_turns(late, m, 0.01), behind, 0x1p-16 + step);
 }
 
-// Without its cosine only the sign of the sine remains.
+// Without the cosine winding, the chip detects only the sign of the sine.
 TEST(ConverterChip, WithoutItsCosineSaysAQuarterOfATurn) {
-  for (const double theta : {0.2, 0.7, 1.2}) {  // p_r theta below half a turn
+  for (const double theta : {0.2, 0.7, 1.2}) {  // p_r theta is below half a turn
     const Motion m{theta, 0, 0};
     ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
     ports.break_winding(1);

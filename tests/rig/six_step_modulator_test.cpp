@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gates follow the command edge by edge (model.md 3). Ticks are picoseconds, the period is 30 us.
+// The gates follow the command edge by edge (model.md 3). Ticks are picoseconds; the period is 30 us.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -150,7 +150,7 @@ double drawn_duty(std::mt19937_64& random) {
   return kind == 2 ? 0.03 * unit(random) : kind == 3 ? 1 - 0.03 * unit(random) : unit(random);
 }
 
-/// The pair of a sector, or the reversed pair.
+/// The driven pair of a sector; reversed, source and sink are exchanged.
 Pair pair_of(unsigned sector, bool reversed) {
   const Pair pair = control::positive_pair(static_cast<std::uint8_t>(sector % 6));
   return reversed ? control::swapped(pair) : pair;
@@ -171,7 +171,7 @@ TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutation
         SCOPED_TRACE(::testing::Message() << "seed " << seed << " centred " << centred << " period " << k);
         constexpr Chopping choppings[] = {Chopping::soft, Chopping::hard, Chopping::complementary};
         if (random() % 4 == 0) reversed = !reversed;
-        if (random() % 4 == 0) turn();  // seen at the sample
+        if (random() % 4 == 0) turn();  // the drive detects this edge at the sample
         m.start_period(at(k * period),
                        command(drawn_duty(random), choppings[random() % 3], pair_of(sector, reversed)));
         watch.look(m.gates(), at(k * period));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gates follow three leg commands edge by edge (model.md 11). Ticks are picoseconds, the period is 30 us.
+// The gates follow three leg commands edge by edge (model.md 11). Ticks are picoseconds; the period is 30 us.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -25,7 +25,8 @@ LegCommands<double> legs(LegCommand<double> a, LegCommand<double> b, LegCommand<
   return {.enabled = true, .leg = {a, b, c}};
 }
 
-/// All edges of one period: "2.5 a-b+", times in us since its start.
+/// All edges of one period, as pairs like {2.5, "a-b+"}: time in us since its start, and the gates after the
+/// edge.
 std::vector<std::pair<double, std::string>> edges(ThreeLegModulator& m, std::int64_t start) {
   std::vector<std::pair<double, std::string>> all;
   while (m.next_edge() < at(start + period)) {
@@ -98,8 +99,8 @@ TEST(ThreeLegModulator, DeadTimeIsPerLegAndOnlyWhereItsCommandChanges) {
   EXPECT_EQ(edges(m, period), (Edges{{1.0, "a+b+c-"}, {15.0, "a+c-"}, {16.0, "a+b-c-"}}));
 }
 
-/// The off-time is shorter than the dead time: the lower switch is commanded on and off and never turns on,
-/// and the upper one waits nevertheless.
+/// The off-time is shorter than the dead time: the lower switch is commanded on and off and never turns on.
+/// The upper switch nevertheless waits for the dead time.
 TEST(ThreeLegModulator, TheUpperSwitchWaitsFromTheTurnOffCommandOfTheLowerEvenIfThatNeverCameOn) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), legs(pwm(0.98), low, low));
@@ -159,7 +160,7 @@ LegCommand<double> drawn_leg(std::mt19937_64& random) {
   }
 }
 
-/// Any legs follow any others, with pulses and off-times down to zero, and the bridge is off at times.
+/// Random leg commands follow each other, with pulses and off-times down to zero. The bridge is off at times.
 TEST(ThreeLegModulator, NeverShootsThroughAndKeepsTheDeadTimeOverAnyCommands) {
   constexpr std::uint32_t seed = 1113;
   std::mt19937_64 random{seed};
@@ -192,8 +193,8 @@ TEST(ThreeLegModulator, NeverShootsThroughAndKeepsTheDeadTimeOverAnyCommands) {
   }
 }
 
-/// Six-step is a special case of three leg commands: without a commutation it has the same gates at the same
-/// instants.
+/// Six-step is a special case of three leg commands. Without a commutation it must have the same gates at the
+/// same instants.
 TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
   constexpr std::uint32_t seed = 6;
   std::mt19937_64 random{seed};
@@ -207,8 +208,8 @@ TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
     ThreeLegModulator three{config};
     for (int k = 0; k < 200; ++k) {
       SCOPED_TRACE(::testing::Message() << "seed " << seed << " board " << board << " period " << k);
-      // In six-step a new pair takes over the state of the legs that it replaces, and with it a dead time.
-      // Independent legs do not. Other phases therefore take part only without a dead time.
+      // In six-step a new pair takes over the state of the legs that it replaces, including a dead time.
+      // Independent legs do not. The other phase is therefore used only without a dead time.
       const bool reversed = random() % 4 == 0;
       Pair pair = reversed ? Pair{Leg::b, Leg::a} : Pair{Leg::a, Leg::b};
       if (!(config.dead_ticks > 0) && random() % 2 == 0) pair = {Leg::c, Leg::b};

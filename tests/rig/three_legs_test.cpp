@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmwares that command three legs, on the virtual board: circuits in closed form, and six-step as three
-// legs.
+// Firmwares that command three legs, on the virtual board. Circuits are compared with closed forms, and
+// six-step as three legs is compared with six-step.
 #include <gtest/gtest.h>
 
 #include "tests/support/laws.hpp"
@@ -29,7 +29,7 @@ void expect_same_state(const Rig& one, const auto& two) {
   EXPECT_EQ(one.event_count(rig::EventKind::pwm_edge), two.event_count(rig::EventKind::pwm_edge));
 }
 
-/// A firmware that fills the legs itself with the command of the present sector's pair.
+/// A firmware that fills in the three legs from the six-step command of the present sector's pair.
 struct SixStepLegs {
   Chopping chopping;
 
@@ -41,8 +41,8 @@ struct SixStepLegs {
   }
 };
 
-/// The rotor runs up over 20 sectors with commutation at the sample. Six-step as three legs has the same bits
-/// as six-step, including freewheeling floating legs.
+/// The rotor runs up, with commutation at the sample. Six-step as three legs has the same bits as six-step,
+/// including freewheeling floating legs.
 TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const bool centred : {false, true})
@@ -65,7 +65,7 @@ TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
       }
 }
 
-/// The exact mean of i_a over whole periods, from the mean of its polynomials.
+/// The exact mean of i_a over whole periods, from the integrals of its polynomials.
 struct MeanOfA {
   double ampere_s = 0.0, s = 0.0;
   void segment(const auto& rig, double part) {
@@ -76,8 +76,8 @@ struct MeanOfA {
   }
 };
 
-/// i_a in the steady state, over a hundred periods after 40 time constants, when exp has decayed below
-/// rounding.
+/// The mean of i_a in the steady state, over a hundred periods. They begin after 40 time constants, when the
+/// exponential has decayed below rounding.
 double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   auto rig = three_leg_rig(b, HeldLegs{legs});
   EXPECT_EQ(run_to(rig, 800 * T), sim::Stop::end);
@@ -87,7 +87,7 @@ double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   return mean.ampere_s / mean.s;
 }
 
-/// The engine's error of currents (model.md 12) is 6.5e-12 of full scale, 23.3 A.
+/// The solver's error of currents (model.md 12) is 6.5e-12 of full scale, which is 23.3 A.
 constexpr double amp_tolerance = 6.5e-12 * 23.3;
 
 TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
@@ -100,8 +100,9 @@ TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
   }
 }
 
-/// The current's sign selects the diode in the dead time: the low one where it flows into the motor, else the
-/// high one. The leg's voltage falls by U t_d/T where i > 0 and rises by as much where i < 0, at any duty.
+/// The current's sign selects the diode that conducts in the dead time: the lower diode if the current flows
+/// into the motor, else the upper one. The leg's mean voltage falls by U t_d/T if i > 0 and rises by the same
+/// amount if i < 0, at any duty.
 TEST(ThreeLegs, DeadTimeWorksAgainstTheCurrentOfEachLeg) {
   const double dead_s = 1e-6, lost = U * dead_s / T;
   for (const bool centred : {false, true})
@@ -110,7 +111,7 @@ TEST(ThreeLegs, DeadTimeWorksAgainstTheCurrentOfEachLeg) {
       Board b = locked_at(10.0);
       b.board.modulator.centre_aligned = centred;
       b.board.modulator.dead_ticks = dead_s * 1e12;
-      // The currents are some amperes in each direction, more than the ripple of U T/(8 L_s) = 0.3 A.
+      // The currents are some amperes in each direction and exceed the ripple U T/(8 L_s) = 0.3 A.
       const double d = sign * 0.15;
       const double u_a = (0.5 + d) * U - sign * lost, u_bc = (0.5 - d) * U + sign * lost;
       EXPECT_NEAR(mean_of_a(b, complementary(0.5 + d, 0.5 - d, 0.5 - d)),
@@ -126,8 +127,8 @@ TEST(ThreeLegs, PulsesBelowTheMinimumChangeTheMeanVoltageAndNoOtherLegs) {
               amp_tolerance);
 }
 
-/// Two legs drive, the third is off and floats: (d_a - d_b) U is over both phases, and no current flows in c.
-/// The terminal of c is between the rails at rest.
+/// Two legs drive; the third is off and floats. The voltage over both phases is (d_a - d_b) U, and no current
+/// flows in c. At rest the terminal of c is between the rails.
 TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   Board b = locked_at(10.0);
   control::LegCommands<double> legs = complementary(0.6, 0.35, 0.0);
@@ -146,7 +147,7 @@ struct TenPeriods {
   }
 };
 
-/// After all legs turn off, the currents flow back through the diodes until they end: L di/dt = -U over both
+/// After all legs turn off, the currents flow through the diodes until they are zero: L di/dt = -U over both
 /// phases.
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   Board b = locked_at(10.0);
@@ -158,7 +159,7 @@ TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
 }
 
-/// model.md 11: with delay 1 period 0 has d = 1/2 in each leg, and a firmware that is off stays off.
+/// model.md 11: with a delay, each leg has d = 1/2 in period 0. A firmware that is off stays off.
 TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   Board b = locked_at(10.0);
   b.board.delayed = true;
@@ -177,7 +178,7 @@ TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   EXPECT_EQ(silent.event_count(rig::EventKind::pwm_edge), 0);
 }
 
-/// The sample is in the middle: the command from a period's middle acts from the next period's start.
+/// The sample is in the middle of a period; its command acts from the start of the next period.
 TEST(ThreeLegs, AnAnswerFromTheMiddleActsFromTheNextPeriod) {
   Board b = locked_at(10.0);
   b.board.sampled_in_middle = true;

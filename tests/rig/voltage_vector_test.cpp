@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A voltage vector rotates in open loop at constant speed on a sine machine held at that speed: the current
-// equals the phasor solution. The fundamental of a periodic current is that of the voltage over R + j w L.
+// A voltage vector rotates in open loop on a sine machine at the same constant speed. The current is compared
+// with the phasor solution: its fundamental is the fundamental of the voltage divided by R + j w L.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -20,7 +20,8 @@ constexpr double T = 30e-6, U = 24.0, pi = std::numbers::pi;
 constexpr int periods = 60;  // PWM periods in an electrical turn
 constexpr double w = 2 * pi / (periods * T), start_deg = 20.0;
 
-/// The legs of sample n: a vector of length V, `phase_rad` ahead of phase a at n = 0.
+/// Leg commands at sample n for a rotating vector of length V. At n = 0 the vector leads phase a by
+/// `phase_rad`.
 struct TurningVector {
   double V = 0.0, phase_rad = 0.0;
   bool space_vector = true;
@@ -37,7 +38,7 @@ struct TurningVector {
   }
 };
 
-/// A shaft of 1e9 kg m2: the machine's torque changes its speed by parts in 1e13 over the run.
+/// With an inertia of 1e9 kg m2 the machine's torque changes the speed by parts in 1e13 over the run.
 Board bench(bool centred) {
   Board b;
   b.machine.back_emf = plant::BackEmf::sine;
@@ -49,8 +50,8 @@ Board bench(bool centred) {
   return b;
 }
 
-/// (2/turn) integral of i_a exp(-j w t): Gauss' rule of five points a segment, which is exact to rounding at
-/// w h <= 0.1 and orders of the current far below ten.
+/// (2/turn) integral of i_a exp(-j w t), by a five-point Gauss rule per segment. The rule is exact to
+/// rounding for w h <= 0.1 and currents whose order is far below ten.
 struct Fundamental {
   Complex sum = 0.0;
   void segment(const auto& rig, double part) {
@@ -67,7 +68,7 @@ struct Fundamental {
   }
 };
 
-/// Turns before the last one: L/R = 0.55 ms leaves exp(-45) of the start.
+/// Electrical turns before the measured one. L/R is 0.55 ms: exp(-45) of the start remains.
 constexpr int settling_turns = 14;
 
 Complex current(const Board& b, const TurningVector& vector) {
@@ -80,19 +81,19 @@ Complex current(const Board& b, const TurningVector& vector) {
 
 Complex impedance(const Board& b) { return {b.machine.R_ohm, w * b.machine.L_H}; }
 
-/// e_a = K_e w_m cos(theta_e - 60 deg) as a phasor.
+/// The phasor of e_a = K_e w_m cos(theta_e - 60 deg).
 Complex back_emf(const Board& b) {
   return std::polar(b.machine.K_e_V_s * w / b.machine.pole_pairs, (start_deg - 60.0) * pi / 180.0);
 }
 
-/// The vector as the bridge makes it, without the pulses' shape: each sample holds for a period.
+/// The vector with each sample constant for a period, without the shape of the pulses.
 Complex held(const TurningVector& v) {
   const double half = w * T / 2;
   return std::polar(v.V * std::sin(half) / half, v.phase_rad - half);
 }
 
-/// The fundamental of the actual pulses, phase a against the star point: a pulse of length d T about t_c has
-/// (2/turn) U d T sinc(w d T/2) exp(-j w t_c).
+/// The fundamental of the actual pulses, phase a to star point. A pulse of length d T centred at t_c
+/// contributes (2/turn) U d T sinc(w d T/2) exp(-j w t_c).
 Complex pulsed(const TurningVector& v, bool centred) {
   const auto leg = [&](int k) {
     Complex sum = 0.0;
@@ -106,9 +107,10 @@ Complex pulsed(const TurningVector& v, bool centred) {
   return leg(0) - (leg(0) + leg(1) + leg(2)) / 3.0;
 }
 
-/// A centred pulse of d T instead of T has a sinc that is larger by (1 - d^2) (w T)^2/24. With x = d - 1/2, d
-/// (1 - d^2) = 3/8 + x/4 - 3/2 x^2 - x^3. The constant and the square have no fundamental, since x only
-/// changes its sign over half a turn; x/4 has V/(4 U), the cube at most 2/8.
+/// The sinc of a centred pulse of length d T exceeds that of a pulse of length T by (1 - d^2) (w T)^2/24.
+/// With x = d - 1/2, d (1 - d^2) = 3/8 + x/4 - 3/2 x^2 - x^3. The constant and the square have no
+/// fundamental, because x only changes its sign after half a turn. The fundamental of x/4 is V/(4 U); that of
+/// the cube is at most 2/8.
 double pulse_shape_V(double V) { return (V + U) / 4 * w * T * w * T / 24; }
 
 /// The bound covers the solver (6.5e-12 of full scale, model.md 12), the quadrature, and the start's
@@ -130,7 +132,8 @@ TEST(VoltageVector, ItsCurrentIsThatOfThePhasorSolution) {
 TEST(VoltageVector, ItsCurrentIsThatOfItsPulsesToRounding) {
   for (const bool centred : {false, true})
     for (const bool space_vector : {false, true})
-      for (const double V : {5.0, 11.9, 13.8, 15.5, 30.0}) {  // up to U/2, to U/sqrt 3, and beyond both
+      for (const double V : {5.0, 11.9, 13.8, 15.5, 30.0}) {  // amplitudes up to U/2, up to U/sqrt 3, and
+                                                              // beyond
         SCOPED_TRACE(::testing::Message() << centred << space_vector << " " << V);
         const TurningVector v{V, 0.3, space_vector};
         const Board b = bench(centred);
@@ -139,7 +142,7 @@ TEST(VoltageVector, ItsCurrentIsThatOfItsPulsesToRounding) {
       }
 }
 
-/// A delay of one period turns the voltage back by w T exactly.
+/// A delay of one period turns the voltage back by exactly w T.
 TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
   const TurningVector v{12.0, 0.3};
   Board b = bench(true);
@@ -148,8 +151,8 @@ TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
   EXPECT_LE(std::abs(current(b, v) - (voltage - back_emf(b)) / impedance(b)), tolerance_A);
 }
 
-/// The amplitude that the bridge makes of a vector of length V: undistorted up to U_s/2 and U_s/sqrt 3, less
-/// beyond.
+/// The amplitude of the bridge's voltage for a vector of length V. It is undistorted up to U/2
+/// (sine-triangle) and U/sqrt 3 (space vector), and smaller than V beyond.
 TEST(VoltageVector, SpaceVectorReachesUOverRoot3AndSineTriangleHalfOfU) {
   const auto made = [](double V, bool space_vector) {
     const Board b = bench(true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// first_root equals constructed roots, the roots on a naive grid, and the critical cases of a simulator: a
-// start on the boundary, a root at the end, a tangent.
+// first_root is compared with constructed roots, with the roots on a plain grid, and with the critical cases
+// of a simulator: a start on the boundary, a root at the end, a touch.
 #include "sixstep/series/first_root.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ Poly rounded(const Exact& c, int degree) {
   return p;
 }
 
-/// A polynomial without a root in [0, 1] and positive there, of degree up to 14.
+/// A polynomial of degree up to 14 that is positive on [0, 1].
 Exact random_positive(std::mt19937_64& random, int& degree) {
   std::uniform_real_distribution<long double> unit(0, 1);
   Exact c{};
@@ -71,8 +71,8 @@ Exact random_positive(std::mt19937_64& random, int& degree) {
   return c;
 }
 
-/// Rounding of the coefficients, of the Bernstein form and of an evaluation: each at most degree * eps of the
-/// sum of magnitudes, which bounds every term that is summed.
+/// Rounding errors of the coefficients, of the Bernstein form and of an evaluation. Each is at most degree *
+/// eps times the sum of the coefficients' magnitudes, which bounds every summed term.
 double value_error(const Exact& c, int degree) {
   return 4.0 * (degree + 1) * eps * static_cast<double>(magnitude(c, degree));
 }
@@ -104,14 +104,14 @@ TEST(Pitfall09_FirstRootSafely, FindsTheFirstOfEveryPlantedClosePair) {
     ASSERT_LT(n, 2000000);
     const Planted p = plant_pair(random);
     const double error = value_error(p.exact, p.degree);
-    if (p.depth <= 2 * error) continue;  // rounding may lift such a dip above zero
+    if (p.depth <= 2 * error) continue;  // rounding may raise such a dip above zero
     ++resolvable;
     const auto root = first_root(rounded(p.exact, p.degree), p.degree, 1.0, 0.0);
     SCOPED_TRACE(::testing::Message() << "seed " << seed << " polynomial " << n << " degree " << p.degree
                                       << " a " << p.a << " delta " << p.delta);
     ASSERT_LE(root, 1.0);
-    // x (x - delta) g = +-error has its first solution within 2 error/(g delta) of 0; twice that, since g
-    // varies.
+    // With x = s - a, the first solution of x (x - delta) g = +-error is within 2 error/(g delta) of 0. The
+    // bound is twice this, because g varies.
     ASSERT_NEAR(root, p.a, 4 * error / (p.rest_at_a * p.delta) + eps);
   }
 }
@@ -188,11 +188,11 @@ TEST(FirstRoot, NegativeStartIsNow) {
 }
 
 TEST(Pitfall03_RestartOnABoundary, IsNoEvent) {
-  // s (1/2 - s): leaves upwards, comes back at 1/2.
+  // s (1/2 - s) rises from zero and returns to zero at 1/2.
   EXPECT_EQ(first_root<double>({0.0, 0.5, -1.0}, 2, 1.0, 1e-15), 0.5);
   // A leg starts to conduct with i = di/dt = 0: s^2 (1/4 - s).
   EXPECT_EQ(first_root<double>({0.0, 0.0, 0.25, -1.0}, 3, 1.0, 1e-15), 0.25);
-  // theta ~ t^3 from a sector edge at rest, with rounding noise below it.
+  // From rest on a sector edge, theta ~ t^3; rounding noise in the lower coefficients.
   EXPECT_EQ(first_root<double>({-3e-16, 2e-16, -1e-16, 1.0}, 3, 1.0, 1e-15), no_root<double>);
   const auto root = first_root<double>({-3e-16, 2e-16, -1e-16, 0.5, -1.0}, 4, 1.0, 1e-15);
   EXPECT_NEAR(root, 0.5, 2 * eps);
@@ -214,13 +214,13 @@ TEST(FirstRoot, RootsOutsideTheSegmentAreIgnored) {
 
 TEST(FirstRoot, RootAtTheEndCounts) {
   EXPECT_EQ(first_root<double>({1.0, -1.0}, 1, 1.0, 1e-15), 1.0);
-  // (1 - s)(s^2 - s + 1/2): not monotone enough for Newton alone.
+  // (1 - s)(s^2 - s + 1/2): Newton's method without bracketing does not converge safely here.
   const auto curved = first_root<double>({0.5, -1.5, 2.0, -1.0}, 3, 1.0, 1e-15);
-  EXPECT_GE(curved, 1.0 - 16 * eps);  // it does not go below zero within the segment
+  EXPECT_GE(curved, 1.0 - 16 * eps);  // within the segment the polynomial is not negative
 }
 
 TEST(FirstRoot, ATouchIsFoundOrPassedButNeverElsewhere) {
-  // (s - 1/2)^2 is nowhere negative, except by rounding.
+  // (s - 1/2)^2 is not negative anywhere, except by rounding.
   const auto touch = first_root<double>({0.25, -1.0, 1.0}, 2, 1.0, 1e-15);
   if (touch != no_root<double>) {
     EXPECT_NEAR(touch, 0.5, std::sqrt(4 * eps));

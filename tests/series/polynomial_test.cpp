@@ -43,7 +43,8 @@ TEST(Polynomial, IntegralsAreExact) {
 TEST(Polynomial, ProductIntegralAgreesWithItsOwnPrimitive) {
   std::mt19937_64 random{seed};
   for (int n = 0; n < 1000; ++n) {
-    const int degree = static_cast<int>(random() % 9);  // products fit into the highest degree
+    const int degree = static_cast<int>(random() % 9);  // the product's degree does not exceed the highest
+                                                        // degree
     const Poly a = random_poly(random, degree), b = random_poly(random, degree);
     Poly ab{};
     for (int j = 0; j <= 2 * degree; ++j)
@@ -64,8 +65,8 @@ TEST(Polynomial, RestrictedIsTheSameCurve) {
     if (n % 5 == 0) from = 0;
     const Poly r = restricted(c, degree, from, to);
     for (const double s : {0.0, 0.25, 0.5, 1.0}) {
-      // Terms of the Taylor shift: at most sum |c_j| (from + (to - from) s)^j binomially, i.e. sum |c_j|
-      // to^j.
+      // Bound on the terms of the Taylor shift: sum |c_j| (from + (to - from) s)^j, expanded binomially, is
+      // at most sum |c_j| to^j.
       const double scale = magnitude_of(c, degree);
       EXPECT_NEAR(evaluate(r, degree, s), evaluate(c, degree, from + (to - from) * s),
                   4 * (degree + 1) * eps * scale)
@@ -91,7 +92,7 @@ TEST(Pitfall11_CompensatedSums, LoseNothingInAMillionSteps) {
   EXPECT_GT(std::fabs(plain - exact), 100 * eps * 1000.0) << "the plain sum is no worse: test says nothing";
 }
 
-/// Chebyshev T_n moved to [0, 1]: all n roots and n + 1 extremes are known.
+/// Chebyshev polynomial T_n, shifted to [0, 1]: its n roots and n + 1 extremes are known.
 Poly chebyshev(int n) {
   Poly before{1.0}, now{-1.0, 2.0};
   for (int k = 1; k < n; ++k) {
@@ -116,7 +117,7 @@ TEST(SignChanges, AllRootsOfAChebyshevPolynomialInOrder) {
     ASSERT_EQ(roots.size(), static_cast<std::size_t>(degree));
     for (int k = 0; k < degree; ++k) {
       const double x = std::cos(pi * (degree - k - 0.5) / degree), s = (x + 1) / 2;
-      const double slope = 2 * degree / std::sqrt(1 - x * x);  // |T_n'| at its roots, d/ds
+      const double slope = 2 * degree / std::sqrt(1 - x * x);  // |dT_n/ds| at the roots
       EXPECT_NEAR(roots[k], s, 8 * (degree + 1) * eps * magnitude_of(c, degree) / slope) << degree;
     }
   }
@@ -168,7 +169,7 @@ TEST(Extremes, NoSampleOfTheCurveLiesOutside) {
     }
     EXPECT_GE(low, e.low - error) << "seed " << seed << " polynomial " << n;
     EXPECT_LE(high, e.high + error);
-    // A grid of 1/500 misses an extreme by at most |y''|/8 /500^2 <= 16*15*sum/8/250000.
+    // A grid of 1/500 misses an extreme by at most |y''|/8/500^2 <= 16*15*sum/8/250000.
     EXPECT_NEAR(low, e.low, 240.0 / 8 / 250000 * magnitude_of(c, degree) * 4);
   }
 }

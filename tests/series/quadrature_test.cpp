@@ -16,7 +16,7 @@ using Poly = Coefficients<double>;
 constexpr double eps = 0x1p-52;
 constexpr std::uint32_t seed = 11;
 
-/// Integral of s^power over [0, 1] by the formula.
+/// Integral of s^power over [0, 1] by the Gauss rule.
 template <int points>
 long double power_integral(int power) {
   long double sum = 0;
@@ -25,7 +25,7 @@ long double power_integral(int power) {
   return sum;
 }
 
-/// The formula's error for s^(2 points): (points!)^4 / ((2 points + 1) ((2 points)!)^2).
+/// The rule's error for s^(2 points): (points!)^4/((2 points + 1) ((2 points)!)^2).
 long double first_error(int points) {
   long double root = 1;  // (points!)^2 / (2 points)!
   for (int k = 1; k <= points; ++k) root *= static_cast<long double>(k) / (points + k);
@@ -34,8 +34,8 @@ long double first_error(int points) {
 
 template <int points>
 void expect_gauss() {
-  // Literals of 21 digits have errors of 5e-22 at most, and a node's power s^j has j times that. Sums have 8
-  // terms in long double.
+  // Literals of 21 digits have errors of at most 5e-22, and a node's power s^j has j times this error. A sum
+  // has 8 terms in long double.
   const long double tolerance = 64 * 0x1p-63L;
   for (int j = 0; j < 2 * points; ++j)
     EXPECT_NEAR(static_cast<double>(power_integral<points>(j) * (j + 1) - 1), 0.0,
@@ -59,8 +59,8 @@ TEST(Gauss, IsExactUpToItsDegreeAndMissesTheNextByWhatTheoryKnows) {
 }
 
 TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
-  // The rounding of a long double of 64 or 113 bits to a double must not depend on the last bit: the values
-  // are not near a tie.
+  // The conversion of a literal to double must not depend on whether long double has 64 or 113 bits: the
+  // values are not near a tie.
   const auto far_from_tie = [](long double v) {
     const double d = static_cast<double>(v);
     const long double ulp = std::nextafter(d, 2.0) - d;
@@ -74,8 +74,8 @@ TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
     });
 }
 
-/// The Taylor series of a solution: c_j = a_j x^j/j!, |a_j| <= 1, the last at rounding level, as in the
-/// engine's series.
+/// The Taylor series of a solution, as in the solver: c_j = a_j x^j/j!, |a_j| <= 1; the last term is at
+/// rounding level.
 Poly solution_series(std::mt19937_64& random, int degree) {
   std::uniform_real_distribution<double> any(-1, 1);
   double rate = 0x1p-53;
@@ -98,14 +98,14 @@ TEST(Gauss, AFewPointsAreEnoughForProductsOfSolutions) {
       const auto s = nodes_up_to<points>(to);
       return to * weighted_sum<points>(values_at<points>(a, degree, s), values_at<points>(b, degree, s));
     });
-    // The values are exact to 4 eps each (terms fall quickly), products and sums to as much again, on the
-    // scale 1.
+    // The values have errors of at most 4 eps each (the terms fall quickly); products and sums add as much
+    // again. The scale is 1.
     EXPECT_NEAR(sum, product_integral(a, b, degree, to), 16 * eps) << "seed " << seed << " pair " << n;
   }
 }
 
-/// Evaluates even and odd powers separately where the degree needs this number of points; an odd degree has a
-/// zero highest even power.
+/// Value of a series as the solver's code computes it. If the degree needs this number of points, even and
+/// odd powers are evaluated separately; for an odd degree the highest even power is zero.
 template <int points, class Real>
 Real fitting_value(const Coefficients<Real>& c, int degree, Real x) {
   constexpr int most = 2 * points;
@@ -120,8 +120,8 @@ Real fitting_value(const Coefficients<Real>& c, int degree, Real x) {
   return even + odd * x;
 }
 
-/// One instruction computes two numbers, and each has the bits of a separate computation. With an odd count
-/// the unused lane is in no sum.
+/// SIMD instructions compute two numbers at once; each must have the bits of a separate computation. With an
+/// odd number of points, no sum includes the unused lane.
 template <int points, class Real>
 void expect_bits_of_single_numbers(std::mt19937_64& random) {
   std::uniform_real_distribution<double> any(-1, 1);
@@ -146,13 +146,14 @@ void expect_bits_of_single_numbers(std::mt19937_64& random) {
   }
   EXPECT_EQ(weighted_sum<points>(v), sum) << points;
   EXPECT_EQ(weighted_sum<points>(v, u), products) << points;
-  // The weights sum up to one, and the values to 17 at most: the other order costs a few roundings.
+  // The weights sum to one and the values to at most 17: the other order of the sum causes a few rounding
+  // errors.
   const auto w_v = weighted<points>(v);
   const auto w_vu = w_v * u;
   const Real rounding = 17 * 17 * points * std::numeric_limits<Real>::epsilon();
   EXPECT_LE(std::fabs(total(w_v) - sum), rounding) << points;
   EXPECT_LE(std::fabs(total(w_vu) - products), rounding) << points;
-  // Each total equals its separate computation.
+  // Each total equals a separately computed total.
   const auto two = totals(w_vu, w_v);
   EXPECT_EQ(two[0], total(w_vu)) << points;
   EXPECT_EQ(two[1], total(w_v)) << points;
@@ -180,7 +181,8 @@ TEST(Nodes, HaveTheBitsOfSingleNumbersInFloat) { expect_bits_of_single_numbers<f
 TEST(Nodes, HaveTheBitsOfSingleNumbersInLongDouble) { expect_bits_of_single_numbers<long double>(); }
 
 TEST(Gauss, OnePointFewerWouldNotDo) {
-  // The cosh-like series has no alternating signs: at degree 8, 3 points miss a remainder that 4 do not.
+  // The cosh-like series has terms of one sign: at degree 8, 3 points miss a remainder that 4 points do not
+  // miss.
   Poly c{};
   double rate = std::pow(0x1p-53 * 40320, 1.0 / 8), term = 1;
   for (int j = 0; j <= 8; ++j, term *= rate / j) c[j] = term;
@@ -199,7 +201,7 @@ TEST(WholeIntegral, AgreesWithTheDivisions) {
     const int degree = static_cast<int>(random() % (max_degree + 1));
     Poly c{};
     for (int j = 0; j <= degree; ++j) c[j] = any(random);
-    // Two roundings per term and one per sum, both ways, of at most 1 + 1/2 + .. + 1/17 < 3.5.
+    // Both methods have two roundings per term and one per sum; the sum is at most 1 + 1/2 + .. + 1/17 < 3.5.
     EXPECT_NEAR(whole_integral(c, degree), integral(c, degree, 1.0), (degree + 3) * 3.5 * eps)
         << "seed " << seed << " polynomial " << n;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed point in a scenario: the bases hold the drive's values, or check() refuses.
+// Fixed point in a scenario: the bases exceed all of the drive's values, or check() refuses the scenario.
 #include "sixstep/study/compile/arithmetic.hpp"
 
 #include <gmock/gmock.h>
@@ -31,8 +31,8 @@ TEST(Arithmetic, FloatingPointComputesInSI) {
 }
 
 TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
-  // drive_in() is the drive that `sixstep export header` writes: in the bases of its product, which follow
-  // from the product's converters.
+  // drive_in() returns the drive that `sixstep export header` writes. It has the bases of the product drive,
+  // which follow from the board's converters.
   const Scenario s = product_scenario(control::Mode::speed, 100.0);
   const auto compiled = study::compile(s);
   const auto drive = study::drive_in<control::Q15>(s, *compiled);
@@ -46,17 +46,18 @@ TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
 }
 
 TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
-  // The largest error is 10 A measured less a reference of -5 A; the end of Q31 is one digit below its base.
+  // The largest error is 15 A: 10 A measured less a reference of -5 A. The largest Q31 number is one digit
+  // below 1, the base.
   const rig::Bases u = units<control::Q31>(current_square());
   EXPECT_NEAR(u.current_A, 15.0, 15.0 * 0x1p-30);
   EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
   EXPECT_EQ(u.setpoint, u.current_A);
-  // Q30 has two bits before the point: with half the base it has the same limits.
+  // Q30 represents numbers below 2: with half the base it has the same range.
   EXPECT_NEAR((units<control::Q30>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
 }
 
-/// Each format holds the drive's over-speed threshold, whether this is above or below the speed that the bus
-/// allows, 716 rad/s.
+/// Each format can represent the over-speed threshold, above and below 716 rad/s, the speed that the bus
+/// allows.
 TEST(Arithmetic, AnyOverSpeedFits) {
   for (const double over : {400.0, 716.0, 717.0, 800.0, 900.0})
     for (const auto arithmetic : {study::Arithmetic::q14, study::Arithmetic::q15, study::Arithmetic::q31}) {
@@ -88,7 +89,7 @@ TEST(Arithmetic, AGivenFullScaleIsWhatTheEndsStandFor) {
 TEST(Arithmetic, WhatDoesNotFitIsAProblemBeforeTheRun) {
   Scenario s = current_square();
   s.control.arithmetic = Arithmetic::q15;
-  s.control.full_scale.current_A = 8.0;  // 10 A measured against -5 A do not fit
+  s.control.full_scale.current_A = 8.0;  // an error of 15 A (10 A measured, -5 A reference) exceeds the base
   const auto run = study::run(s);
   ASSERT_FALSE(run);
   EXPECT_EQ(run.problems()[0].where, "control.arithmetic");
@@ -110,7 +111,8 @@ TEST(Arithmetic, AnIntegralThatSeesNoDigitIsAProblem) {
   EXPECT_TRUE(study::run(s));
 }
 
-/// The message's own numbers are a bound: what it names fits, and a hundredth beyond it does not.
+/// The numbers in the message are a bound: a frequency with the named number is accepted, and one that is 1 %
+/// beyond it is refused.
 TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
   for (const study::FirmwareKind drive : {study::FirmwareKind::product, study::FirmwareKind::lean}) {
     Scenario s = product_scenario(control::Mode::speed, 100.0);
@@ -166,8 +168,8 @@ TEST(Arithmetic, EveryModeRunsInEveryFormat) {
 }
 
 TEST(Arithmetic, FullDutyIsWholeWhereTheFormatHasIt) {
-  // Q1.14 represents 1: it has no off-time, and so the trajectory of double. Q15 ends one digit below: one
-  // off-time per period.
+  // Q14 represents 1: there is no off-time, and the trajectory equals that of double. The largest Q15 number
+  // is one digit below 1: each period has an off-time.
   Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   const auto wide = study::run(s);
   s.control.arithmetic = Arithmetic::q14;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// check() finds each contradiction, names its key, and accepts a good scenario.
+// check() finds each contradiction, names its key, and accepts a valid scenario.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -205,10 +205,10 @@ TEST(Check, AMovingReferenceHasNoStepsToTakeFiguresOf) {
     s.reference = {.shape = Shape::ramp, .end = 5.0, .end_s = 10e-3};
     ask(s, measure(metric, study::Signal::current));
     EXPECT_THAT(places(s), ::testing::ElementsAre("compare[0].metric"));
-    s.compare[0].measure.from_s = 10e-3;  // the signal is constant there
+    s.compare[0].measure.from_s = 10e-3;  // the reference is constant from 10 ms on
     EXPECT_THAT(places(s), ::testing::IsEmpty());
     s.compare[0].measure.from_s.reset();
-    s.compare[0].measure.level = 5.0;  // or the scenario gives the level
+    s.compare[0].measure.level = 5.0;  // alternatively, the scenario states the level
     EXPECT_THAT(places(s), ::testing::IsEmpty());
   }
 }
@@ -237,7 +237,8 @@ TEST(Check, DutyBeyondOneIsNamedByTheKeyThatHoldsIt) {
   EXPECT_THAT(places(s), ::testing::Not(::testing::IsEmpty()));
   s.reference = {.shape = Shape::sine, .offset = 0.5, .amplitude = 0.6, .frequency_Hz = 100.0};
   EXPECT_THAT(places(s), ::testing::ElementsAre("reference.amplitude"));
-  s.reference = {.shape = Shape::ramp, .end = 2.0, .end_s = 40e-3};  // the ramp is at 1 when the run ends
+  s.reference = {.shape = Shape::ramp, .end = 2.0, .end_s = 40e-3};  // the ramp has reached 1 when the run
+                                                                     // ends
   EXPECT_THAT(places(s), ::testing::IsEmpty());
   s.at.push_back({.time_s = 1e-3, .reference = study::Reference{.value = -1.1}});
   EXPECT_THAT(places(s), ::testing::ElementsAre("at[0].reference.value"));

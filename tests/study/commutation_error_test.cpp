@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commutation error equals its cause: the probes' offset, their delay, or the time between an edge and
-// the sample.
+// The commutation error is compared with its cause: the probes' offset, their delay, or the time between an
+// edge and the sample.
 #include <gtest/gtest.h>
 
 #include "sixstep/base/angle.hpp"
@@ -63,8 +63,8 @@ TEST(CommutationError, IsTheAngleOfTheDelay) {
   EXPECT_NEAR(e.rms, e.worst, 1e-6);
 }
 
-// The error at samples lies between 0 and the angle of one period. A uniform distribution has the rms of that
-// angle over sqrt(3), which 30 commutations give to a fifth.
+// With commutation at the samples, the error is between 0 and the angle of one period. The rms of a uniform
+// distribution is this angle divided by sqrt(3); 30 commutations determine it within a fifth.
 TEST(CommutationError, IsSpreadOverAPeriodAtSamples) {
   Scenario s = turned(61);
   s.pwm.commutation = CommutationAt::sample;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The duty step at commutation on the switching motor removes the dip that theory gives for an unchanged
-// duty, and reduces the torque's ripple with a current loop.
+// The duty step at commutation, on the switching motor. It must remove the current dip that theory predicts
+// for an unchanged duty, and reduce the torque ripple with a current loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,21 +41,22 @@ void ask_torque(Scenario& s, MetricKind metric, double from_s) {
   ask(s, figure);
 }
 
-/// The staying phase's current, A, when the leaving one has reached zero. u is the voltage between the
-/// entering and the staying phase (model.md 1, the leaving terminal at the lower rail).
+/// Current, A, of the staying phase when the leaving phase's current has reached zero. E is the back-EMF of a
+/// phase, I the current before the commutation, u the voltage between the entering and the staying phase. See
+/// model.md 1; the leaving terminal is at the lower rail.
 double after_commutation_A(double E, double I, double u) {
   const double leaving = (u + 2 * E) / (3 * R), staying = (4 * E - u) / (3 * R);
   const double faded = leaving / (leaving + I);  // exp(-t R/L) when the leaving current is zero
   return (I + staying) * faded - staying;
 }
 
-/// The least current at the first commutation after the start: the loop has settled, and its duty is constant
-/// from then on.
+/// The smallest current at the first commutation after the start. Before it the loop has settled, and from
+/// then on its duty is constant.
 double least_current_A(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s,
                        double current_A) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
   const double sector_s = base::sector_rad / (8 * speed_rad_s);
-  s.sheet.flat_deg = 170;  // the flat tops last over the leaving phase's decay
+  s.sheet.flat_deg = 170;  // the flat tops last longer than the leaving phase's decay
   s.pwm.period_s = 0.5e-6;
   s.control.current.settle_s = 0.3 * sector_s;
   s.duration_s = 1.9 * sector_s;
@@ -86,7 +87,7 @@ TEST(CommutationStep, LeavesNothingOfTheDipThatTheoryForetells) {
       }
 }
 
-/// Above 4 E + 3 R I = U a full duty is too small, and overlapping holds the current.
+/// If 4 E + 3 R I exceeds U, even full duty is too small; overlapping keeps the current.
 TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
   for (const double speed_rad_s : {370.0, 430.0})
     for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper, PwmPattern::on_pwm}) {
@@ -100,7 +101,7 @@ TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
     }
 }
 
-/// The torque's ripple with the drive's own loop at its usual period.
+/// The torque ripple with the drive's current loop at its usual period.
 double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A,
                  int delay_periods, study::Arithmetic arithmetic = study::Arithmetic::float64) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
@@ -112,8 +113,8 @@ double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double spee
   return out ? out->comparisons[0].measured : 0.0;
 }
 
-/// Overlapping also reduces the ripple with the loop at speeds where a full duty is too small, as far as the
-/// bus allows.
+/// At speeds where full duty is too small, overlapping also reduces the ripple with the current loop, as far
+/// as the bus allows.
 TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
   for (const double speed_rad_s : {350.0, -400.0, 450.0, -500.0})
     for (const int delay_periods : {0, 1}) {
@@ -128,8 +129,8 @@ TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
     }
 }
 
-/// The step reduces the ripple where a commutation takes several periods, leaves it about equal where it
-/// takes one, and does not change a braked motor's run.
+/// The step reduces the ripple if a commutation lasts several periods. It leaves the ripple about equal if a
+/// commutation lasts one period. It does not change the run of a braked motor.
 TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
   using enum PwmPattern;
   for (const double speed_rad_s : {50.0, -150.0, 300.0})
@@ -147,7 +148,8 @@ TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
       }
 }
 
-/// The torque's ripple in the chip's arithmetic equals that in double, to the torque of 0.02 A.
+/// The torque ripple in the chip's arithmetic is compared with the ripple in double; the bound is the torque
+/// of 0.02 A.
 TEST(CommutationStep, InTheNumbersOfAChip) {
   for (const study::Arithmetic arithmetic :
        {study::Arithmetic::float32, study::Arithmetic::q15, study::Arithmetic::q31})
@@ -155,9 +157,9 @@ TEST(CommutationStep, InTheNumbersOfAChip) {
                 ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1), 0.02 * K_t);
 }
 
-/// The remark appears exactly where the run equals the plain one bit for bit. The leaving phase's current
-/// lasts L I/u at most, u = 2 E + 3 R I/2; the drive skips commutations that are shorter than its command's
-/// delay, and those of a braked or resting motor.
+/// The remark appears exactly in runs that equal the plain run bit for bit. The leaving phase's current lasts
+/// L I/u at most, u = 2 E + 3 R I/2. The drive applies no step to commutations that are shorter than the
+/// command's delay, nor in a braked or resting motor.
 TEST(CommutationStep, TellsARunInWhichItNeverActs) {
   for (const double speed_rad_s : {0.0, 60.0, 300.0})
     for (const double current_A : {0.5, 3.0, -3.0})
@@ -185,8 +187,8 @@ TEST(CommutationStep, TellsARunInWhichItNeverActs) {
       }
 }
 
-/// A pattern that chops the staying leg gives a larger peak and a deeper dip of the current than PWM-ON does,
-/// and a remark states this.
+/// With a pattern that chops the staying leg, the current has a larger peak and a deeper dip than with
+/// PWM-ON; a remark says so.
 TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   struct Seen {
     double least_Nm, most_A;
@@ -222,8 +224,8 @@ TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   }
 }
 
-/// An overlap longer than a sector lowers the torque below that of the duty step. The speed from which it does follows
-/// from the leaving current's fall, U - 2 E - 3 R I/2, and the run names it.
+/// With an overlap longer than a sector, the torque is below that of the duty step. The speed limit follows
+/// from the rate at which the leaving current falls, U - 2 E - 3 R I/2. Above it the run has a remark.
 TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
   const double current_A = 5.0;
   const double limit_rad_s = (U - 1.5 * R * current_A) / (8 * L * current_A / base::sector_rad + K_t);
@@ -250,8 +252,8 @@ TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
   }
 }
 
-/// Where the duty is 1 with the duty step and without it, the bits are the same, and the run says so, whatever the
-/// pattern; below that speed it acts.
+/// If the duty is 1 with and without the duty step, the bits are the same, and the run says so for each
+/// pattern. At a lower speed the step has an effect.
 TEST(CommutationStep, IsIdleWhereTheDutyIsOneAnyway) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper})
     for (const double speed_rad_s : {200.0, 640.0}) {
@@ -273,7 +275,7 @@ TEST(CommutationStep, IsIdleWhereTheDutyIsOneAnyway) {
     }
 }
 
-/// A drive without a duty of its own, or without a pair to hold it, is refused.
+/// A scenario is refused if its drive does not compute a duty or does not drive a pair.
 TEST(CommutationStep, IsRefusedWhereNothingHolds) {
   const auto told = [](const Scenario& s) {
     const base::Problems problems = study::check(s);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[at]]: a change during a run acts at its instant, by the law, and under any of its names.
+// [[at]]: a change during a run acts at its instant, follows the physical law, and has the same effect under
+// each of its names.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +41,7 @@ TEST(Events, WhatHasAKeyOfItsOwnIsTheSameEventToTheBit) {
                   {.time_s = 0.06, .load = {.torque_Nm = 0.01}}};
   const std::uint64_t digest = outcome_of(by_keys).digest;
   EXPECT_EQ(outcome_of(by_events).digest, digest);
-  while (!by_events.at.empty()) {  // and each of them counts
+  while (!by_events.at.empty()) {  // each event changes the run
     by_events.at.pop_back();
     EXPECT_NE(outcome_of(by_events).digest, digest) << by_events.at.size();
   }
@@ -67,7 +68,7 @@ TEST(Events, AStepOfAStiffSupplyDrivesTheHeldMotorFromThereOn) {
 
 TEST(Events, ASourceBehindItsResistanceIsFollowedAndMayCeaseToSink) {
   // No current is drawn: the bus follows the source with R C = 1 ms. While the source cannot sink, a bus
-  // above it is constant.
+  // voltage above the source's voltage is constant.
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.duration_s = 5e-3;
   s.supply = {.voltage_V = 24.0, .resistance_ohm = 0.5, .capacitance_F = 2e-3};
@@ -102,7 +103,8 @@ TEST(Events, AClampTakesTheKineticEnergyAndLetsGoFromRest) {
   const study::Outcome out = outcome_of(s);
   ASSERT_TRUE(out.energy);
   EXPECT_LT(std::fabs(out.energy->mechanical_residual), 1e-12);
-  // The load's work and the stored energy go into friction and clamp, except the kinetic energy at the end.
+  // The load's work and the stored energy become friction and clamp losses, except the kinetic energy at the
+  // end.
   EXPECT_GT(out.energy->friction, 0.5 * J * 190.0 * 190.0);
 }
 
@@ -119,8 +121,8 @@ TEST(Events, AClearedFaultLetsTheProductDriveRunAgain) {
   const auto out = study::run(s, {.on_event = std::ref(again)});
   ASSERT_TRUE(out && out->trip);
   EXPECT_EQ(out->trip->reasons.at(0), "under-voltage");
-  // The speed returns to the reference, except for the ripple of a speed by edges: a count of 1 MHz in 1309
-  // us.
+  // The speed returns to the reference within the ripple of a speed that is measured by edges: one count of 1
+  // MHz in 1309 us.
   EXPECT_NEAR(again.last_speed, 100.0, 2.0);
   s.at[2].request = study::DriveRequest::off;  // the drive stays off without clearing
   ASSERT_TRUE(study::run(s, {.on_event = std::ref(never)}));

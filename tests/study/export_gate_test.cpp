@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gate refuses each thing that a run leaves unmeasured, where the drive reads it and only there.
+// The export gate refuses each quantity that the drive reads but the run does not measure, and no others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ std::vector<std::string> wheres(const base::Problems& problems) {
   return out;
 }
 
-/// A scenario with a requirement and a board's measurements.
+/// A scenario with a requirement and with a board's measurements.
 Scenario on_a_board(Mode mode) {
   Scenario s = maxon_scenario(mode, mode == Mode::duty ? 0.5 : 3.0);
   s.sensors = board_sensors();
@@ -66,7 +66,7 @@ TEST(ExportGate, IdealSensorsAreRefusedWhereTheDriveReadsThem) {
   EXPECT_THAT(unmeasured(s), IsEmpty()) << "nothing is read";
 }
 
-/// The first message names everything: after its cure neither the check nor the gate refuses anything.
+/// The first message is complete: after its cure, neither the check nor the gate refuses anything.
 TEST(ExportGate, TheCureOfAnotherSensorIsAllThatHasToChange) {
   const Scenario usual = on_a_board(Mode::position);
   for (const study::RotorSensing rotor :
@@ -120,7 +120,8 @@ TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
   EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
 }
 
-/// In every kind of chopping a reversal changes a leg from one switch to the other, which needs a dead time.
+/// With every kind of chopping, a reversal changes a leg from one switch to the other, which needs a dead
+/// time.
 TEST(ExportGate, ADriveWithoutDeadTimeIsRefused) {
   for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
     for (const auto chopping :
@@ -191,7 +192,7 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
-/// The timer counts whole microseconds: it makes a dead time of 0.4 us zero, and one of 1.4 us 1 us.
+/// The timer counts whole microseconds: it rounds a dead time of 0.4 us to zero and one of 1.4 us to 1 us.
 TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   Scenario s = on_a_board(Mode::current);
   s.pwm.timer_Hz = 1e6;
@@ -209,7 +210,7 @@ TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   }
 }
 
-/// The converter's range ends below the current: the lean drive has no fault that would report it.
+/// The converter's range ends at the current. The lean drive has no fault that would report this.
 TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);
   s.duration_s = 5e-3;
@@ -223,7 +224,7 @@ TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("above which the drive measures no more"));
 }
 
-/// The drive reads a bus of 24 V as the 12 V at which its converter ends.
+/// The drive reads a bus of 24 V as 12 V, where its converter's range ends.
 TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);
   s.duration_s = 5e-3;
@@ -239,8 +240,8 @@ TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
     }
 }
 
-/// J/2 (500^2 - 71^2) goes into C/2 (U^2 - 24^2), less the winding's loss: the bus is between 24 V and that
-/// U.
+/// The kinetic energy J/2 (500^2 - 71^2), less the losses in the winding, charges the capacitor by C/2 (U^2 -
+/// 24^2): the bus is between 24 V and this U.
 TEST(ExportGate, ABusThatBrakingRaisesStandsAgainstIt) {
   Scenario s = on_a_board(Mode::speed);
   s.reference = {};
@@ -287,8 +288,8 @@ TEST(ExportGate, ALimitOfTheBusBeyondItsConverterIsRefused) {
   }
 }
 
-/// The scenario never stops the drive, but the first test on the bench does: 0.6 J of the rotor return to 0.1
-/// mF, which takes 0.03 J up to the threshold, unless the supply sinks them.
+/// The scenario never stops the drive, but the first test on the bench does. The rotor's 0.6 J would return
+/// to 0.1 mF, which stores only 0.03 J up to the threshold, unless the supply sinks the energy.
 TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
   Scenario s = braking_onto_a_small_bus();
   for (const bool sinks : {true, false}) {
@@ -301,7 +302,7 @@ TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
     ASSERT_THAT(wheres(run->unheld), ElementsAre("protection.brake_current_A"));
     EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("a stop at 0.5 s in a fault: over-voltage"));
   }
-  s.protection.off_at_s = 0.4;  // the run shows it, and its requirements judge it
+  s.protection.off_at_s = 0.4;  // the run includes the stop, and its requirements cover it
   const auto shown = study::clear_for_export(s);
   ASSERT_TRUE(shown);
   EXPECT_TRUE(shown->outcome.trip);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thresholds that never act, act too late, or stop a sound run: the run does not reach them, so that only the
-// gate reports them.
+// Thresholds of the protection that never act, act too late, or stop a sound run. The run does not reach
+// them, so that only the export gate reports them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::vector<std::string> unmeasured(const Scenario& s) {
   return out;
 }
 
-/// The torque limit is 0.195 N m, which is 5.82 A.
+/// The torque limit is 0.195 N m, which corresponds to 5.82 A.
 Scenario limited_by_torque() {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.pwm.delay_periods = 1;
@@ -41,7 +41,7 @@ Scenario limited_by_torque() {
   return s;
 }
 
-/// A held rotor takes the speed loop's limit, 0.195 N m / 33.5 mNm/A, and no more.
+/// A held rotor draws at most the speed loop's limit, 0.195 N m/(33.5 mNm/A).
 TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.protection.stall_s = 0.1;
@@ -52,7 +52,7 @@ TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
     for (const base::Problem& p : told)
       EXPECT_THAT(to_string(p), ::testing::HasSubstr("5.82 A, control.speed.torque_limit_Nm over K_t"));
   }
-  s.control.current.limit_A = 10.0;  // the torque limit is the lower one
+  s.control.current.limit_A = 10.0;  // the torque limit is the lower limit
   s.protection.stall_current_A = 8.0;
   EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_current_A"));
   s.control.mode = Mode::current;  // the reference is the largest command
@@ -62,7 +62,8 @@ TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
   EXPECT_THAT(unmeasured(s), IsEmpty());
 }
 
-/// The drive's largest command is the smallest of its limits; a threshold below it stops a sound run.
+/// The smallest of the drive's limits is its largest command. A threshold below this current stops a sound
+/// run.
 TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.protection.stall_current_A.reset();
@@ -84,8 +85,8 @@ TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   EXPECT_EQ(told(3.1), "");
 }
 
-/// The longest stall that the winding stands follows from the thermal model: I^2 R heats the winding from
-/// cold to its limit in the closed form's time. This time is finite, and longer than without any cooling.
+/// The longest stall that the winding withstands follows from the thermal model: the closed-form time in
+/// which I^2 R heats the cold winding to its limit. This time is finite, and longer than without any cooling.
 TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   Scenario s = product_scenario(Mode::current, 15.0);
   s.pwm.delay_periods = 1;
@@ -100,7 +101,7 @@ TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   const double capacity = thermal->winding_s / thermal->winding_housing_K_W;
   const double watts = 15.0 * 15.0 * 1.03;
   const double uncooled_s = capacity * (thermal->max_winding_degC - 25) / watts;
-  // Warm copper has more loss: up to 1.4 times at 125 degC.
+  // Warm copper has a higher loss: up to 1.4 times at 125 degC.
   for (const double stall_s : {uncooled_s / 1.5, uncooled_s * 1.5}) {
     s.protection.stall_s = stall_s;
     if (stall_s < uncooled_s)
@@ -110,8 +111,8 @@ TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   }
 }
 
-/// A winding with a lower heat capacity at the other end of its ranges: the shorter time decides, and it bounds
-/// the accepted time from below by the heating without any cooling there.
+/// At the other end of the thermal ranges, the winding's heat capacity is lower. The shorter time is the
+/// limit. Its lower bound is the time of heating without any cooling at this end.
 TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
   Scenario s = limited_by_torque();
   s.protection.stall_current_A = 4.0;
@@ -130,7 +131,7 @@ TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
   s.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
   s.sheet.thermal_resistance_winding_housing_K_W->range = base::Interval{4.0, 5.3};
   const double by_ends_s = first_refused();
-  // Without cooling and with copper as cold as at the start nothing lasts longer, with its final loss nothing shorter.
+  // Heating without cooling, with the copper loss at the final temperature, is the shortest possible time.
   EXPECT_LT(by_ends_s, 0.6 * by_values_s);
   EXPECT_GT(by_ends_s, 11.7 / 5.3 * 100 / (1.393 * watts));
   s.sheet.thermal_time_constant_winding_s = base::Quantity{11.7, "", ""};
@@ -138,7 +139,8 @@ TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
   EXPECT_NEAR(first_refused() / by_ends_s, 1, 1e-5) << "a motor file with these values says the same";
 }
 
-/// An accepted offset uses up the converter's range in one direction: what is left must show the over-current.
+/// An accepted offset reduces the converter's range in one direction: the remaining range must include the
+/// over-current.
 TEST(ExportProtection, AnAcceptedOffsetLeavesTheRangeThatTheOverCurrentNeeds) {
   Scenario s = limited_by_torque();
   const double range_A = *s.sensors.current_range_A;
@@ -152,7 +154,7 @@ TEST(ExportProtection, AnAcceptedOffsetLeavesTheRangeThatTheOverCurrentNeeds) {
     }
 }
 
-/// Gate charges over the driver's current give the time until a switch is off.
+/// The gate charge divided by the driver's current is the time until a switch is off.
 TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.bridge.gate_current_A = 0.1;
@@ -163,7 +165,7 @@ TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
     EXPECT_EQ(unmeasured(s).empty(), dead_s > 150e-9) << dead_s;
     EXPECT_EQ(study::short_dead_time(s), "") << "the charges decide";
   }
-  s.bridge.gate_drain_charge_C = 50e-9;  // 550 ns: the cure is longer
+  s.bridge.gate_drain_charge_C = 50e-9;  // 550 ns: the cure must be a longer dead time
   s.bridge.dead_time_s = 500e-9;
   const base::Problems refused = study::never_measured(s);
   ASSERT_EQ(refused.size(), 1u);
@@ -180,7 +182,8 @@ TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
   EXPECT_NE(study::short_dead_time(s), "");
 }
 
-/// Each check that lacks a line of the sheet is named, and is not where the sheet has the line.
+/// The gate names each check for which the sheet lacks a line, and does not name it if the sheet has the
+/// line.
 TEST(ExportProtection, AChecksMissingLineIsNamed) {
   using ::testing::HasSubstr;
   Scenario s = limited_by_torque();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reasons against a header although the run meets every requirement: its design's verdict, or a loop that is
-// unstable behind a large inertia; and the cures remove them.
+// Reasons to refuse a header although the run meets every requirement: the verdict on the design, or a loop
+// that is unstable with a large inertia. The advised cures must remove these reasons.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(ExportVerdict, WhatItsDesignFoundStandsAgainstIt) {
 }
 
 /// The loop as a recurrence, sample by sample: i' = a i + (1 - a)/R u, u' = u + d1 e + d0 e_before, with
-/// `late` periods of delay.
+/// `late` periods of delay. The result is true if the current grows.
 bool grows(double d1, double d0, double R, double L, double T, int late) {
   const double a = std::exp(-R * T / L), b = (1 - a) / R;
   double i = 1.0, u = 0.0, e_before = 0.0, waits = 0.0, first = 0.0, last = 0.0;
@@ -69,7 +69,7 @@ TEST(ExportVerdict, ALoopIsUnstableWhereItsRecurrenceGrows) {
   EXPECT_LT(unstable, 13);
 }
 
-/// A steady speed hides an oscillating current.
+/// A steady speed hides a current that oscillates.
 TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.1;
@@ -92,8 +92,8 @@ TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
   }
 }
 
-/// The drive brakes from 300 rad/s with a bus that cannot sink: the advised cures work, and the others would
-/// not.
+/// The drive brakes with a bus that cannot sink. The advised cure, a larger capacitor, works; a smaller
+/// braking current does not.
 TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
   Scenario s = braking_onto_a_small_bus();
   s.supply.sinks = false;
@@ -113,7 +113,7 @@ TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
   EXPECT_THAT(unheld(s), IsEmpty());
 }
 
-/// The cure for a coarse converter equals the check's own requirement.
+/// A stall current lowered as the cure says must satisfy the check, also with a coarse converter.
 TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
   for (const int bits : {12, 6, 5, 4}) {
     Scenario s = product_scenario(Mode::speed, 100.0);
@@ -142,8 +142,9 @@ TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
   }
 }
 
-/// Braking and the windings' energy raise the bus until shortly after the trip. Then the load turns the coasting rotor
-/// backwards, J dw/dt = M - B w, until its back-EMF is above that: the message names the cause of the run's highest voltage.
+/// Braking and the energy of the windings raise the bus until shortly after the trip. The load then turns the
+/// coasting rotor backwards, J dw/dt = M - B w. If its back-EMF raises the bus further, the message must name
+/// the load as the cause of the highest voltage.
 TEST(ExportVerdict, ABusThatALoadRaisesAfterATripIsNotBlamedOnBraking) {
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.pwm.delay_periods = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A product's extras inside the loops (control/drive_extras.hpp), from a scenario, in full switching
-// simulation of the reference motor: each test compares with the run without them.
+// simulation of the reference motor. Each test compares a run with the extra and a run without it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// Integral gain of the current loop as designed, per sample.
+/// Integral gain of the designed current loop, per sample.
 double K_i(const Scenario& s) {
   const auto compiled = study::compile(s);
   return compiled->drive.current.d1 + compiled->drive.current.d0;
@@ -42,9 +42,9 @@ double K_i(const Scenario& s) {
 
 TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
   // The current is 5 A into the held rotor, u = R i = 5.15 V. The bus falls from 36 V to 24 V less the drop
-  // over 1 ohm: tau = 20 ms. With the nominal bus the loop must command u 24 V/U, which rises by u 24 V
-  // |U'|/U^2, and the integral follows a ramp with a steady error of its slope T/K_i. At 5 ms, with 0.86 A
-  // drawn: U = 23.14 V + 12.86 V exp(-1/4).
+  // over 1 ohm, with tau = 20 ms. With the nominal bus the loop must command u 24 V/U, which rises at the
+  // rate u 24 V |U'|/U^2. The steady error of the integral behind this ramp is the ramp's slope times T/K_i.
+  // At 5 ms, with 0.86 A drawn: U = 23.14 V + 12.86 V exp(-1/4).
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
   s.initial.angle_rad = 0.02;
@@ -65,9 +65,9 @@ TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
 }
 
 TEST(Extras, BackEmfFeedForwardTakesTheRampOfTheSpeedFromTheLoop) {
-  // The current is 5 A into the free rotor: the back-EMF rises by K_t^2 i/J, and the integral lags by K_t^2
-  // i/J T/K_i. Commutations saturate the loop and cost more, but equally in both runs: the samples' mean
-  // shows the difference.
+  // The current is 5 A into the free rotor. The back-EMF rises at the rate K_t^2 i/J, and the integral lags
+  // by K_t^2 i/J T/K_i. Commutations saturate the loop and cost more current, but equally in both runs: the
+  // difference of the samples' means shows the lag.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.duration_s = 30e-3;
   study::Measure mean = window(MetricKind::mean, Signal::current, 2e-3, 30e-3);
@@ -82,8 +82,8 @@ TEST(Extras, BackEmfFeedForwardTakesTheRampOfTheSpeedFromTheLoop) {
 }
 
 TEST(Extras, ASlewedSetpointAsksForItsSlopeOfTorque) {
-  // 1000 rad/s^2: J w' + B w, over the middle of the ramp. The speed follows within its ripple of some 0.5
-  // rad/s, which is 1 % of the slope over 60 ms at either end.
+  // A slope of 1000 rad/s^2 needs the torque J w' + B w, measured over the middle of the ramp. The speed
+  // follows within its ripple of some 0.5 rad/s, which is 1 % of the ramp's 60 ms at either end.
   Scenario s = maxon_scenario(Mode::speed, 100.0);
   s.duration_s = 0.15;
   ask(s, window(MetricKind::mean, Signal::torque, 20e-3, 80e-3));
@@ -105,7 +105,8 @@ TEST(Extras, LimitsOfCurrentAndTorqueAreTheReference) {
 }
 
 TEST(Extras, OwnTorqueDoesNotPassTheLimitOfSpeed) {
-  // 2 A without a load. K = J/(K_t 1 ms) against friction: w = w_limit K K_t/(K K_t + B).
+  // 2 A without a load. The speed limit's gain is K = J/(K_t 1 ms). With friction B the speed is w = w_limit
+  // K K_t/(K K_t + B).
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.duration_s = 0.1;
   ask(s, window(MetricKind::mean, Signal::speed, 0.08, 0.1));
@@ -116,11 +117,12 @@ TEST(Extras, OwnTorqueDoesNotPassTheLimitOfSpeed) {
   ASSERT_TRUE(out);
   std::printf("speed %.6g, at most %.6g rad/s\n", out->comparisons[0].measured, out->comparisons[1].measured);
   const double K_K_t = J / 1e-3;
-  // The loop holds the sample, which is up to half a ripple, U T/(8 L), below the mean current: over K_t K.
+  // The loop controls the sampled current, which is up to half a ripple, U T/(8 L), below the mean current.
+  // The speed error is half the ripple divided by K.
   const double half_ripple_A = 24.0 * T / (8 * L);
   EXPECT_NEAR(out->comparisons[0].measured, 100.0 * K_K_t / (K_K_t + B), half_ripple_A * K_t / K_K_t);
-  // The reference falls as the speed rises; the current lags by its settling time and overshoots by less than
-  // full torque gives in that time.
+  // The reference falls as the speed rises. The current lags by its settling time: the overshoot is less than
+  // the speed that full torque adds in this time.
   EXPECT_LT(out->comparisons[1].measured, 100.0 + K_t * 2.0 / J * 1e-3);
 }
 
@@ -141,12 +143,12 @@ TEST(Extras, SmoothChoppingHasNoStepAtDutyZero) {
   const double soft = current_at(d, false) - current_at(-d, false);
   const double smooth = current_at(d, true) - current_at(-d, true);
   std::printf("from -%g to %g: soft %.4g A, smooth %.4g A\n", d, d, soft, smooth);
-  // The current rises anew at each commutation with tau = L/R, 0.085 of a sector, and the measured value is
-  // half of two phases meanwhile. Soft chopping changes from no current to a short circuit of the windings
-  // (model.md 4b).
+  // After each commutation the current rises with tau = L/R, 0.085 of a sector; meanwhile the measured
+  // current is half of the sum of two phases. At duty 0, soft chopping changes from no current to the current
+  // of short-circuited windings (model.md 4b).
   const double commutation = L / R / (M_PI / 24 / 20.0);
   EXPECT_NEAR(soft, K_t * 20.0 / R, commutation * K_t * 20.0 / R);
-  // Smooth chopping changes by the current of 2 d U.
+  // With smooth chopping the current changes by 2 d U/R.
   EXPECT_NEAR(smooth, 2 * d * 24.0 / R, commutation * 2 * d * 24.0 / R);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive without a sensor on its rotor: its angle of the magnet is compared with the
-// motor's.
+// The field-oriented drive without a sensor on its rotor: its estimate of the magnet's angle is compared with
+// the motor's angle.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ using control::EstimatorPhase;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// A machine with interior magnets: 251601's size, L_d 0.24, L_q 0.34 mH, iron that saturates.
+/// A machine with interior magnets: the size of 251601, L_d 0.24 mH, L_q 0.34 mH, iron that saturates.
 Scenario inner_magnets(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -94,8 +94,8 @@ double found_at_s(const std::vector<Look>& looks) {
   return INFINITY;
 }
 
-/// Injection finds the rotor's angle and north at any angle, and moves the rotor by no more than the pulses'
-/// oscillation.
+/// Injection finds the angle and the north pole from any angle. It moves the rotor by no more than the
+/// oscillation that the pulses cause.
 TEST(FieldEstimate, InjectionFindsAngleAndNorthFromAHundredRandomAngles) {
   constexpr unsigned seed = 20261126;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -116,7 +116,7 @@ TEST(FieldEstimate, InjectionFindsAngleAndNorthFromAHundredRandomAngles) {
   }
 }
 
-/// With L_d above L_q the pulse's response is reversed.
+/// If L_d exceeds L_q, the pulse's response has the other sign.
 TEST(FieldEstimate, InjectionFindsARotorWhoseFluxAxisIsTheLargerOne) {
   for (const double angle : {0.05, 0.4, 0.75}) {
     Scenario s = inner_magnets(Mode::current, 0.0);
@@ -127,8 +127,8 @@ TEST(FieldEstimate, InjectionFindsARotorWhoseFluxAxisIsTheLargerOne) {
   }
 }
 
-/// A speed loop with the estimate: from standstill through the handover, back through standstill, and in the
-/// other direction.
+/// A speed loop with the estimated angle: from standstill through the handover, back through standstill, then
+/// in the other direction.
 template <class Scalar>
 std::vector<Look> reverses(FieldAngle angle, bool real) {
   Scenario s = inner_magnets(Mode::speed, 0.0);
@@ -153,10 +153,10 @@ TEST(FieldEstimate, ItIsHandedFromInjectionToTheFluxAndBack) {
   for (const bool real : {false, true}) {
     const std::vector<Look> looks = reverses<double>(FieldAngle::injection_observer, real);
     ASSERT_FALSE(looks.empty());
-    // The angle lags by the loop's design value, 5 degrees, during acceleration, and by up to as much again
-    // at the handover. Dead time makes voltages that the observer does not measure, 4/3 U t_d/T = 0.32 V: at
-    // 200 rad/s, 3.35 V of back-EMF, this adds 5.5 degrees and the converters' noise. An angle within that
-    // bound gives a mean speed over 50 ms to 2 * 0.1 rad/(8 * 0.05 s).
+    // During acceleration the angle lags by the loop's design value, 5 degrees, and at the handover by up to
+    // 5 degrees more. Dead time causes voltages that the observer does not measure, 4/3 U t_d/T = 0.32 V. At
+    // 200 rad/s, with a back-EMF of 3.35 V, this adds 5.5 degrees and the converters' noise. The resulting
+    // error of a mean speed over 50 ms is below 2 * 0.1 rad/(8 * 0.05 s).
     EXPECT_LT(worst_off_deg(looks, 0.09, 0.55), real ? 16.0 : 10.0) << real;
     for (const auto& [from_s, to_s, speed] :
          {std::tuple{0.2, 0.25, 200.0}, std::tuple{0.35, 0.4, -200.0}, std::tuple{0.5, 0.55, 20.0}}) {
@@ -177,8 +177,8 @@ TEST(FieldEstimate, FloatFollowsAsDoubleDoes) {
   EXPECT_LT(worst, 0.5);
 }
 
-/// A round rotor starts at any angle against friction: a current turns it, then the observer follows its
-/// flux, in either direction.
+/// A round rotor starts at any angle against friction: a rotating current vector turns it, then the observer
+/// follows its flux, in either direction.
 TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   constexpr unsigned seed = 1126;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -207,7 +207,7 @@ TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   }
 }
 
-/// The 251601 with a winding that is warmer than the drive's model: the loop holds the current at any R.
+/// The 251601 with a winding that is warmer than the drive's model. The loop controls the current at any R.
 Scenario observed_251601(double load_Nm, double warmer_K) {
   Scenario s = maxon_scenario(Mode::speed, 200.0);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -230,7 +230,7 @@ Scenario observed_251601(double load_Nm, double warmer_K) {
   return s;
 }
 
-/// 3/2 p psi 2.33 A is 0.0585 N m; the drive guarantees 0.6 of it: 0.0351 N m.
+/// 3/2 p psi 2.33 A is 0.0585 N m. The drive guarantees to start against 0.6 of this torque, 0.0351 N m.
 TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
   for (const double load_Nm : {0.03, 0.035})
     for (const double warmer_K : {0.0, 40.0})
@@ -244,7 +244,7 @@ TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
       }
 }
 
-/// The load exceeds the current's torque: the drive reports it after four starts.
+/// The load exceeds the torque of the start current: the drive reports a fault after four starts.
 TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   Scenario s = observed_251601(0.06, 0.0);
   s.duration_s = 4.0;
@@ -256,8 +256,8 @@ TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   EXPECT_LT(out->simulated_s, 3.0);
 }
 
-/// A zero reference brakes the rotor on purpose: the drive starts it repeatedly, and it follows the later
-/// reference.
+/// A zero reference brakes the rotor on purpose. The drive starts the rotor repeatedly without a fault, and
+/// the rotor follows the later reference.
 TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
   Scenario s = observed_251601(0.005, 0.0);
   s.reference = {};
@@ -270,7 +270,8 @@ TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
   EXPECT_NEAR(looks.back().true_speed_rad_s, 200.0, 5.0);
 }
 
-/// Samples in the middle of the period: the voltage there is half of two commands.
+/// Samples are in the middle of the period: the voltage before a sample is half of one command and half of
+/// the next.
 TEST(FieldEstimate, TheObserverSeesFromTheMiddleOfThePeriodToo) {
   Scenario s = inner_magnets(Mode::speed, 200.0);
   s.control.field.angle = FieldAngle::observer;
@@ -323,8 +324,8 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
                  "control.field.injection_V", "injected nowhere");
 }
 
-/// The iron of the motor does not saturate, although the drive was designed for iron that does: the drive
-/// reports it and stops.
+/// The motor's iron does not saturate, although the drive was designed for iron that saturates. The drive
+/// reports this and stops.
 TEST(FieldEstimate, ADriveThatSeesNoNorthGivesUp) {
   Scenario s = inner_magnets(Mode::current, 1.0);
   s.designed_for = Nominal{s.sheet, s.supply, s.load};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive in a scenario: its poles are the designed ones, decoupling, circle, weakening and
-// torque per ampere equal their laws, with real sensors and refusals. data/scenarios/reference/G15.toml has a
-// trajectory of an independent solver.
+// The field-oriented drive in a scenario. Its poles are compared with the designed poles; decoupling, voltage
+// circle, field weakening and torque per ampere are compared with their laws. Real sensors and refusals are
+// tested too. data/scenarios/reference/G15.toml has a trajectory of an independent solver.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ using namespace sixstep::study;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// The 251601 with a sine of the same peak, 20 kHz, a delay of one period.
+/// The 251601 with a sinusoidal back-EMF of the same peak, 20 kHz, and a delay of one period.
 Scenario field_oriented(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -60,8 +60,8 @@ std::vector<Tick> ticks_of(const Scenario& s) {
   });
 }
 
-/// The plant of a locked rotor is R and L, and a voltage's pulses are in the middle of each period. A voltage
-/// over the whole period would differ by (T R/L)^2/24 of a change: 3e-4 of a period's change.
+/// The plant of a locked rotor is R and L. The pulses of a voltage are centred in each period; a voltage over
+/// the whole period would change the current by 3e-4 more, (T R/L)^2/24 of a period's change.
 TEST(FieldOriented, ACurrentStepHasThePolesThatWereDesigned) {
   for (const int delay : {0, 1}) {
     Scenario s = field_oriented(Mode::current, 2.0);
@@ -84,7 +84,7 @@ TEST(FieldOriented, ACurrentStepHasThePolesThatWereDesigned) {
 
 constexpr double bandwidth_Hz = 100;
 
-/// The largest |i_d| while i_q jumps at a speed that a dynamometer holds.
+/// The largest |i_d| after a step of i_q, at a speed that an external drive keeps.
 double largest_i_d(bool decoupling) {
   Scenario s = field_oriented(Mode::current, 0.0);
   s.reference = {};
@@ -102,10 +102,11 @@ double largest_i_d(bool decoupling) {
   return largest;
 }
 
-/// Without decoupling the axes are one complex current: (L s + R + j w_e L) i = L w_b (s + R/L)/s (i* - i),
-/// whose step response has the poles of s^2 + (R/L + w_b + j w_e) s + w_b R/L. The delay adds a part 1.5 T
-/// w_b. With decoupling the added voltage is 1.5 periods old: the error is 1.5 T times the slope of I w_e
-/// w_b/((s + R/L)(s + w_b)^2), and with s/(s + w_b)^2 at most 1/(e w_b) less than 1.5 T w_e I/e.
+/// Without decoupling both axes are one complex current: (L s + R + j w_e L) i = L w_b (s + R/L)/s (i* - i).
+/// The poles of its step response are the roots of s^2 + (R/L + w_b + j w_e) s + w_b R/L. The delay adds a
+/// part of 1.5 T w_b. With decoupling the added voltage is 1.5 periods old: the error is 1.5 T times the
+/// slope of I w_e w_b/((s + R/L)(s + w_b)^2). It is less than 1.5 T w_e I/e, because s/(s + w_b)^2 is at most
+/// 1/(e w_b) in time.
 TEST(FieldOriented, DecouplingHoldsTheOtherAxisAtSpeed) {
   using Number = std::complex<double>;
   const double w_e = 8 * 400.0, w_b = 2 * base::pi * bandwidth_Hz, a = 0.515 / 0.286e-3, step_A = 6.0,
@@ -135,7 +136,7 @@ TEST(FieldOriented, TheVectorStaysWithinTheCircleOfTheBus) {
 }
 
 /// A free rotor without load reaches the speed at which the magnet's back-EMF equals the radius of the
-/// voltage circle. With field weakening it exceeds this speed.
+/// voltage circle. With field weakening the rotor exceeds this speed.
 TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
   Scenario s = field_oriented(Mode::speed, 1100.0);
   s.duration_s = 0.4;
@@ -153,8 +154,8 @@ TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
     EXPECT_LE(std::hypot(tick.reference.d, tick.reference.q), 20.0 * 1.001);
 }
 
-/// A salient rotor gets more torque from the same reference where a part of the current is along the magnet.
-/// The law gives |i|.
+/// With the same reference, a salient rotor has more torque if a part of the current is on the d axis. The
+/// reference is i_q.
 TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   Scenario s = field_oriented(Mode::current, 12.0);
   s.sheet.inductance_mH = std::nullopt;
@@ -176,7 +177,7 @@ TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   EXPECT_GT(with, 1.1 * without);
 }
 
-/// The torque is 3/2 p psi i_q at any angle: its only ripple is the switching's.
+/// The torque is 3/2 p psi i_q at any angle; only the switching causes a ripple.
 TEST(FieldOriented, TheSpeedCascadeReachesItsSpeedInBothFloats) {
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32}) {
     Scenario s = field_oriented(Mode::speed, 300.0);
@@ -219,7 +220,8 @@ TEST(FieldOriented, RunsOnWhatABoardMeasures) {
   }
 }
 
-/// The columns equal the drive's values at its last sample, row by row, and the figures are of them.
+/// The recorded columns equal the drive's values at its last sample, row by row. The figures of merit use the
+/// same values.
 TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   Scenario s = field_oriented(Mode::current, 0.0);
   s.reference = {};
@@ -255,8 +257,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
     }
     EXPECT_NEAR(out->comparisons[k].measured, sum / 80, 1e-13 * 24) << s.record.columns[k];
   }
-  // Without a given level, the level of i_q is the setpoint. The last sample beyond 2 % of a step holds for
-  // its whole period.
+  // If the level is not given, the level of i_q is the setpoint. The last sample more than 2 % of the step
+  // away applies to its whole period.
   double last_out_s = 0.0;
   for (const Tick& t : ticks)
     if (t.t_s >= 1e-3 && std::fabs(t.measured.q - 3.0) > 0.02 * 2.0) last_out_s = t.t_s + 50e-6 - 1e-3;
@@ -264,8 +266,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   EXPECT_NEAR(out->comparisons[6].measured, last_out_s, 1e-12);
 }
 
-/// A hand brake with 7 pole pairs, 5.12 mWb and 22.3 uH on 60 V, driven to a speed at which its magnet makes
-/// 35.84 V a phase.
+/// A hand brake with 7 pole pairs, 5.12 mWb and 22.3 uH at 60 V. An external drive turns it until the
+/// magnet's back-EMF is 35.84 V per phase.
 Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   Scenario s = field_oriented(Mode::current, reference_A);
   s.sheet.pole_pairs = 7;
@@ -282,8 +284,8 @@ Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   return s;
 }
 
-/// The plant includes pulses; short_bus_test.cpp has the law. The least current is (35.84 - 34.64) V/|Z| =
-/// 7.6 A. Without the limitation it was 460 A.
+/// The plant includes pulses; short_bus_test.cpp has the law. The smallest possible current is (35.84 -
+/// 34.64) V/|Z| = 7.6 A. Without the limitation the current was 460 A.
 TEST(FieldOriented, TurnedBeyondTheBusItHoldsItsCurrent) {
   for (const double reference_A : {0.0, 80.0, -80.0})
     for (const std::optional<double> weakening_A : {std::optional<double>{}, std::optional<double>{5.0}}) {

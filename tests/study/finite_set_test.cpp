@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice among the states of three legs, in a scenario: the currents' distance from their reference, the
-// turn-ons per second, the rise time of a step, and the effect of a delay.
+// The finite-set law, which selects one of the states of three legs, in a scenario: the distance of the
+// currents from their reference, the turn-ons per second, the rise time of a step, and the effect of a delay.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,11 +27,12 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr double T = 20e-6, U = 24.0, R = 0.515, L = 0.286e-3, K_e = 0.01675;
-/// b is the current of a voltage over a period, A/V. band_A is the largest distance from any reference to the
-/// nearest of the seven currents.
+/// b: current that one volt causes over a period, A/V. band_A: largest distance between a reference and the
+/// nearest of the seven possible currents.
 const double b = (1 - std::exp(-R * T / L)) / R, band_A = 2 / (3 * std::numbers::sqrt3) * b * U;
 
-/// The 251601 with a sine of the same peak, and so much inertia that its speed is constant; 50 kHz.
+/// The 251601 with a sinusoidal back-EMF of the same peak, 50 kHz. The inertia is so large that the speed is
+/// constant.
 Scenario finite_set(double reference, double speed_rad_s, int delay) {
   Scenario s = maxon_scenario(Mode::current, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -60,7 +61,7 @@ std::vector<Seen> seen_of(const Scenario& s) {
   });
 }
 
-/// The largest distance of a sample from its reference, from 2 ms on.
+/// The largest distance of a sampled current from its reference, from 2 ms on.
 double farthest_A(const Scenario& s) {
   double most = 0.0;
   for (const Seen& x : seen_of(s))
@@ -69,14 +70,14 @@ double farthest_A(const Scenario& s) {
   return most;
 }
 
-/// The error of voltage and back-EMF from the rotation by x = w_e T within a period, x^2/24.
+/// Error that the rotation x = w_e T within a period causes: x^2/24 of the voltage and the back-EMF.
 double turning_A(double speed_rad_s) {
   const double x = 8 * speed_rad_s * T;
   return x * x / 24 * b * U;
 }
 
-/// The triangles' radius bounds the distance while the holding voltage R I + w K_e is below the bus's hexagon
-/// by that radius.
+/// The radius of the triangles bounds the distance if the steady voltage R I + w K_e is inside the bus's
+/// hexagon by at least this radius.
 TEST(FiniteSet, TheCurrentsStayWithinTheTrianglesOfTheBus) {
   for (const int delay : {0, 1})
     for (const double w : {-100.0, 20.0, 100.0}) {
@@ -94,7 +95,7 @@ TEST(FiniteSet, ADelayThatIsNotMadeUpForIsWorse) {
   EXPECT_GT(farthest_A(s), 1.5 * band_A);
 }
 
-/// The law has no integral: the mean current is only within the band, and so is the mean torque.
+/// The law has no integral: only within the band do the mean current and the mean torque equal the reference.
 TEST(FiniteSet, MeanCurrentAndTorqueAreThoseAskedForWithinTheBand) {
   for (const int delay : {0, 1}) {
     Scenario s = finite_set(4.0, 100.0, delay);
@@ -108,7 +109,7 @@ TEST(FiniteSet, MeanCurrentAndTorqueAreThoseAskedForWithinTheBand) {
   }
 }
 
-/// A switch turns on at most every second period.
+/// A switch turns on at most in every second period.
 TEST(FiniteSet, NoSwitchIsFasterThanHalfTheSamples) {
   double fastest = 0.0;
   for (const double w : {20.0, 100.0, 400.0})
@@ -122,7 +123,7 @@ TEST(FiniteSet, NoSwitchIsFasterThanHalfTheSamples) {
   EXPECT_GT(fastest, 0.1 / T) << "it does switch";
 }
 
-/// A law without pulses has the mean switching frequency of its three upper switches.
+/// Without PWM pulses, the drive's switching frequency is the mean of its three upper switches.
 TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   Scenario s = finite_set(4.0, 60.0, 1);
   for (const Signal what : {Signal::current, Signal::gate_T1, Signal::gate_T3, Signal::gate_T5})
@@ -132,8 +133,8 @@ TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   EXPECT_NEAR(f[0], (f[1] + f[2] + f[3]) / 3, 1e-9 / T);
 }
 
-/// A weight on a leg's switching reduces its turn-ons. The nearest state costs at most three switched legs,
-/// which bounds the distance.
+/// A weight on the switching of a leg reduces its turn-ons. The nearest state costs at most three switched
+/// legs, which bounds the distance.
 TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   double last = 1 / T;
   for (const double weight : {0.0, 0.6, 1.2}) {
@@ -147,9 +148,9 @@ TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   }
 }
 
-/// With the rotor locked the current rises by the bus voltage: between U/sqrt 3 less R i in the direction of
-/// the smallest reach and 2/3 U in that of the largest. A PI at a twentieth of the control frequency is
-/// slower.
+/// With a locked rotor the bus voltage limits the rate of rise: from U/sqrt 3 less R I in the direction of
+/// the smallest reach, to 2/3 U in the direction of the largest. A PI controller with a bandwidth of a
+/// twentieth of the control frequency is slower.
 TEST(FiniteSet, AStepTakesWhatTheBusAllows) {
   const double I = 8.0;
   const auto rise_s = [&](FieldLaw law, int delay) {
@@ -183,8 +184,8 @@ TEST(FiniteSet, NoStateBeyondThePeakIsTakenWhileAnotherIsLeft) {
   EXPECT_GT(sum / n, 5.0 - 2 * band_A);
 }
 
-/// L_q = 2 L_d: the band is that of the smaller inductance. The model omits half of a period's change by
-/// saliency.
+/// L_q = 2 L_d: the smaller inductance determines the band. The model omits half of the change that saliency
+/// causes in a period.
 TEST(FiniteSet, ASalientRotorStaysWithinTheBandOfItsSmallerInductance) {
   Scenario s = finite_set(4.0, 60.0, 1);
   s.sheet.inductance_mH = std::nullopt;
@@ -195,7 +196,7 @@ TEST(FiniteSet, ASalientRotorStaysWithinTheBandOfItsSmallerInductance) {
   EXPECT_LE(farthest_A(s), designed.band_A + 2 * (turning_A(60) + salient));
 }
 
-/// The shape's current gives the trapezoid's torque, within the band.
+/// Currents that follow the shape of the trapezoidal back-EMF give the requested torque within the band.
 TEST(FiniteSet, FollowsTheShapeOfATrapezoid) {
   const double f1 = 4 / base::pi * 0.5 / (base::pi / 6);
   const auto torque = [&](bool harmonic) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The analogue front end of a scenario, in the loop: the effect of a slow amplifier on a held current, and of
-// a divider's capacitor on a bus step.
+// The analogue front end of a scenario, in the loop: the effect of a slow amplifier on a controlled current,
+// and of a divider's capacitor on a bus step.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr double T = 30e-6, tau = 0.572e-3 / 1.03, full_A = 24 / 1.03;
 
 double lag_s(double bandwidth_Hz) { return 1 / (2 * base::pi * bandwidth_Hz); }
 
-/// The drive holds 5 A in the held rotor, centred and sampled in the middle, with 16 bits.
+/// The drive controls 5 A in the held rotor: centred pulses, sampled in the middle, 16 bits.
 Scenario held_at_5_A(CurrentMeasurement currents, double range_A) {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
@@ -47,8 +47,8 @@ double mean_of(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// The steady ripple of the held motor with the mean d U/R: it rises towards U/R in the on-time and falls
-/// towards zero otherwise, with L/R, and passes a first-order lag.
+/// The steady ripple of the held motor, with the mean d U/R, after a first-order lag. The current rises
+/// towards U/R in the on-time and falls towards zero in the off-time, with L/R.
 class Ripple {
  public:
   Ripple(double mean_A, double lag) : lag_(lag), on_s_(mean_A / full_A * T) {
@@ -56,13 +56,13 @@ class Ripple {
     top_ = full_A * (1 - a) / (1 - a * b);
     foot_ = top_ * b;
   }
-  /// A phase's current at time t after its pulse begins.
+  /// A phase's current, after the lag, at time t after the beginning of its pulse.
   double phase_at(double t) const {
     double x = 0;
     for (int n = 0; n < 2000; ++n) x = behind(behind(x, full_A, foot_, on_s_), 0, top_, T - on_s_);
     return behind(x, full_A, foot_, t);
   }
-  /// The DC link's current, which is zero in the rest of the period.
+  /// The DC link's current after the lag; the link's current is zero in the rest of the period.
   double link_at(double t) const {
     double x = 0;
     for (int n = 0; n < 2000; ++n) x = behind(x, full_A, foot_, on_s_) * std::exp(-(T - on_s_) / lag_);
@@ -78,8 +78,9 @@ class Ripple {
   double lag_, on_s_, top_ = 0, foot_ = 0;
 };
 
-/// The integral holds the mean reading at 5 A, which is exactly a count. Each reading is within half a count
-/// of the converter's input: so is the mean, to the hundredth by which the ripple may shift it.
+/// The integral controls the mean reading to 5 A, which is a whole number of counts. Each reading is within
+/// half a count of the converter's input, and so is the mean. One hundredth is added for the shift that the
+/// ripple may cause.
 constexpr double held_within = 1.01 * 20.48 / (1 << 16);
 
 TEST(FrontEnd, ASlowAmplifierReadsTheRippleLate) {
@@ -92,8 +93,8 @@ TEST(FrontEnd, ASlowAmplifierReadsTheRippleLate) {
   }
 }
 
-/// A pulse in the link begins at zero. After half a pulse the amplifier still lags, and the reading is too
-/// small by that lag.
+/// A pulse in the link starts from zero. After half a pulse the amplifier still lags, and the reading is too
+/// small by this lag.
 TEST(FrontEnd, TheLinksAmplifierHasToCatchUp) {
   Scenario s = held_at_5_A(CurrentMeasurement::dc_link, 20.48);
   s.sensors.current_bandwidth_Hz = 300e3;
@@ -103,7 +104,7 @@ TEST(FrontEnd, TheLinksAmplifierHasToCatchUp) {
   EXPECT_GT(mean, 5.01);
 }
 
-/// The sample is at the pulse's beginning, the ripple's minimum.
+/// The sample is at the beginning of the pulse, which is the ripple's minimum.
 TEST(FrontEnd, TheProductDriveSeesTheSameAmplifier) {
   Scenario s = product_scenario(Mode::current, 3.0);
   s.duration_s = 40e-3;
@@ -113,12 +114,12 @@ TEST(FrontEnd, TheProductDriveSeesTheSameAmplifier) {
   m.from_s = 25e-3;
   ask(s, m);
   s.sensors.current_bandwidth_Hz = 30e3;
-  const double count = 2 * 20.48 / (1 << 16);  // A; 3 A are a whole number of counts
+  const double count = 2 * 20.48 / (1 << 16);  // A; 3 A is a whole number of counts
   EXPECT_NEAR(Ripple(mean_of(s), lag_s(30e3)).phase_at(0), 3.0, 1.01 * count / 2);
 }
 
-/// From 24 V to 40 V the divider reads 40 - 16 exp(-t/tau): it passes 35 V after tau ln(16/5), and the fault
-/// then counts its samples.
+/// After a step from 24 V to 40 V the divider reads 40 - 16 exp(-t/tau). It exceeds 35 V after tau ln(16/5);
+/// the fault then counts its samples.
 TEST(FrontEnd, ADividersCapacitorHidesAJumpOfTheBus) {
   for (const double bandwidth : {300.0, 1000.0}) {
     Scenario s = product_scenario(Mode::current, 3.0);
@@ -137,7 +138,8 @@ TEST(FrontEnd, ADividersCapacitorHidesAJumpOfTheBus) {
     ASSERT_TRUE(out->trip);
     const double passes = 15e-3 + lag_s(bandwidth) * std::log(16.0 / 5);
     EXPECT_GE(out->trip->at_s, passes + 2 * T - 1e-9) << bandwidth;
-    EXPECT_LE(out->trip->at_s, passes + 3 * T + 1e-6) << bandwidth;  // 1 us: a count of 0.9 mV at 5 V/tau
+    EXPECT_LE(out->trip->at_s, passes + 3 * T + 1e-6) << bandwidth;  // 1 us: one count is 0.9 mV, at a slope
+                                                                     // of 5 V/tau
   }
 }
 
@@ -150,7 +152,7 @@ TEST(FrontEnd, ADelayIsShorterThanAPeriod) {
   EXPECT_THAT(to_string(out.problems()[0]), HasSubstr("below pwm.period_s"));
 }
 
-/// An ideal measurement has neither amplifier nor divider.
+/// An ideal measurement has no amplifier and no divider.
 TEST(FrontEnd, IdealMeasurementIsNotTouched) {
   Scenario plain = held_at_5_A(CurrentMeasurement::ideal, 20.48), slow = plain;
   slow.sensors.current_bandwidth_Hz = 100;

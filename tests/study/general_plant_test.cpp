@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenarios that the general kernel runs, its inputs, and the run's outputs from it: energy balance,
-// figures, columns, checks.
+// Which scenarios run in the general kernel, its inputs, and the run's outputs: energy balance, figures of
+// merit, columns, checks.
 #include "sixstep/study/compile/general_plant.hpp"
 
 #include <gmock/gmock.h>
@@ -46,8 +46,8 @@ TEST(GeneralPlant, RunsAllOfThemWithBooksThatClose) {
   }
 }
 
-/// The returned energy is in the capacitor, C (u^2 - U^2)/2, or became heat in the resistor. At 24 V the
-/// source supplies a small part of it.
+/// The returned energy is stored in the capacitor, C (u^2 - U^2)/2, or becomes heat in the brake resistor.
+/// While the bus is at 24 V, the source supplies a small part.
 TEST(GeneralPlant, ABrakeResistorTakesWhatTheCapacitorDoesNotKeep) {
   Scenario s = maxon_scenario(control::Mode::current, -2.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -69,7 +69,8 @@ TEST(GeneralPlant, ABrakeResistorTakesWhatTheCapacitorDoesNotKeep) {
   EXPECT_NEAR(out->energy->brake_resistor, fed - out->energy->supplied - kept, 1e-5);
 }
 
-/// U over 2 R gives the winding's first heating, before heat flows to the housing, and the current follows R.
+/// The current U/(2 R) determines the initial heating of the winding, before heat flows to the housing; the
+/// current then follows R.
 TEST(GeneralPlant, ALockedRotorWarmsUpAsTheSheetSays) {
   Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   s.supply.voltage_V = 3;
@@ -89,7 +90,7 @@ TEST(GeneralPlant, ALockedRotorWarmsUpAsTheSheetSays) {
   ASSERT_TRUE(model);
   const double R = 2 * out->motor.machine.R_ohm, hot = 1 + design::copper_per_K * 5;
   const double I = 3 / (R * hot), P = I * I * R * hot, C_w = model->winding_s / model->winding_housing_K_W;
-  const double rise = P / C_w * 2;  // the heat before any flows to the housing
+  const double rise = P / C_w * 2;  // the temperature rise before heat flows to the housing
   ASSERT_EQ(row.size(), 4u);
   EXPECT_NEAR(row[1] - 30, rise, 0.1 * rise);
   EXPECT_GT(row[1], 30.5);
@@ -122,8 +123,8 @@ TEST(GeneralPlant, TellsWhatTheSwitchesLose) {
   s.require.push_back(high);
   const auto out = study::run(s);
   ASSERT_TRUE(out) << base::to_string(out.problems()[0]);
-  // The rotor is locked in sector 0 and a is chopped softly: it turns on at the ripple's minimum and off at
-  // its maximum, once a period.
+  // The rotor is locked in sector 0, and leg a is chopped softly: its upper switch turns on at the ripple's
+  // minimum and off at its maximum, once per period.
   const double bottom = out->verdicts[1].measured, top = out->verdicts[2].measured, per = 24.0 / 48 / 10;
   EXPECT_NEAR(out->verdicts[0].measured, (35e-6 * bottom + 20e-6 * top) * per / 30e-6, 1e-9);
   ASSERT_EQ(out->devices.size(), 6u);
@@ -131,7 +132,7 @@ TEST(GeneralPlant, TellsWhatTheSwitchesLose) {
   EXPECT_GT(out->devices[1].diode_W, 1) << "a freewheels on its lower diode";
   EXPECT_GT(out->devices[1].recovery_W, 0);
   EXPECT_EQ(out->devices[1].turn_on_W, 0);
-  const study::DeviceLoss& lower = out->devices[1];  // its diode is part of the same chip
+  const study::DeviceLoss& lower = out->devices[1];  // the diode and the switch are on the same chip
   EXPECT_NEAR(lower.junction_degC, 25 + 2 * (lower.conduction_W + lower.diode_W + lower.recovery_W), 1e-9);
   double all = 0;
   for (const auto& d : out->devices) all += (d.conduction_W + d.diode_W) * 0.03;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes with placement errors in whole runs: the torque lost, equivalent placements, the drive's
+// Hall probes with placement errors in whole runs: the lost torque, equivalent placements, the drive's
 // reaction to glitches, and refused placements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ using control::HallArrangement;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// An external drive turns the motor slowly over six electrical turns, so that i follows d U - e, except
-/// during L/R = 0.56 ms after each edge. Complementary chopping is linear, so that a slow PWM gives the same
+/// An external drive turns the motor slowly over six electrical turns: i follows d U - e, except during L/R =
+/// 0.56 ms after each edge. The effect of complementary chopping is linear, so that a slow PWM has the same
 /// means.
 Scenario on_a_bench(double w_rad_s) {
   Scenario s = maxon_scenario(Mode::duty, 0.1);
@@ -38,9 +38,9 @@ Scenario on_a_bench(double w_rad_s) {
 
 double mean_torque(Scenario s) { return outcome_of(s).comparisons[0].measured; }
 
-/// The torque over a sector as driven: the pair's back-EMF per K_e w is 2 on the flat tops. At x beyond the
-/// sector's end, or before its beginning, one phase is x/30 degrees down its ramp. Torque is proportional to
-/// f i, i to d U - f K_e w.
+/// The mean torque over the sector in which a pair is driven, relative. f, the pair's back-EMF divided by K_e
+/// w, is 2 on the flat tops. At x degrees beyond the sector's end, or before its beginning, one phase is x/30
+/// down its ramp. The torque is proportional to f i, and i to d U - f K_e w.
 double torque_of(double offset_deg, double w_rad_s) {
   double sum = 0;
   constexpr int steps = 6000;
@@ -60,13 +60,13 @@ TEST(HallOffset, CostsWhatTheRampsTake) {
     s.sensors.hall_offset_deg = offset;
     EXPECT_TRUE(needs_general_plant(s));
     const double expected = torque_of(offset, w) / torque_of(0, w);
-    // L/R is 2e-3 of a sector; the effect of a commutation differs by less than half of that.
+    // L/R is 2e-3 of a sector; a commutation changes the result by less than half of this.
     EXPECT_NEAR(mean_torque(s) / plain, expected, 1e-3) << offset;
   }
 }
 
-// At an offset of 90 degrees the torques over a sector add up to zero. At 180 degrees the torque drives
-// backward, and the back-EMF increases the current.
+// At an offset of 90 degrees the torques over a sector sum to zero. At 180 degrees the torque acts backwards,
+// and the back-EMF increases the current.
 TEST(HallOffset, TurnsTheTorqueRound) {
   const double plain = mean_torque(on_a_bench(0.5));
   Scenario s = on_a_bench(0.5);
@@ -77,11 +77,12 @@ TEST(HallOffset, TurnsTheTorqueRound) {
   EXPECT_NEAR(mean_torque(s) / plain, -(d_U + e) / (d_U - e), 1e-3);
 }
 
-// A delay is an angle at constant speed, and so is half of a hysteresis.
+// At constant speed a delay is an angle, and so is half of a hysteresis.
 TEST(HallDelay, IsAnOffsetAtConstantSpeed) {
   const double w = 200, delay_s = 50e-6, deg = 8 * w * delay_s * 180 / base::pi;
   Scenario late = on_a_bench(w);
-  late.initial.angle_rad = 40 * base::pi / 180 / 8;  // within sector 0, with its edge at either angle
+  late.initial.angle_rad = 40 * base::pi / 180 / 8;  // within sector 0, and before the edge with either
+                                                     // offset
   Scenario askew = late, sticky = late;
   late.sensors.hall_delay_s = delay_s;
   askew.sensors.hall_offset_deg = deg;
@@ -92,7 +93,7 @@ TEST(HallDelay, IsAnOffsetAtConstantSpeed) {
   EXPECT_NEAR(mean_torque(sticky), torque, 1e-9);
 }
 
-/// The general kernel, with probes at the sectors' edges: 1e-9 deg is 1e-14 s at 100 rad/s.
+/// Lists all probes with a placement error of zero: the run uses the general kernel.
 Scenario in_place(Scenario s) {
   s.sensors.hall_edges_deg = std::vector<double>(6, 0.0);
   return s;
@@ -129,7 +130,7 @@ TEST(HallGlitches, AreDrawnBySeedAndSeenByTheDrive) {
   EXPECT_EQ(first.digest, again.digest);
   s.sensors.seed = 1;
   EXPECT_NE(outcome_of(s).digest, first.digest);
-  // A glitch read in the interrupt is an impossible code or a jump; two stable samples suppress it.
+  // A glitch that the interrupt reads is an impossible code or a jump. Two stable samples suppress it.
   ASSERT_TRUE(first.trip);
   s.sensors.hall_stable_samples = 2;
   EXPECT_FALSE(outcome_of(s).trip);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents that follow the shape of the back-EMF, in a scenario: the torque has no ripple of the shape on the
-// trapezoid machine, and the copper loss equals its law.
+// Currents that follow the shape of the back-EMF, in a scenario. On the trapezoid machine the torque has no
+// ripple from the shape, and the copper loss is compared with its law.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ constexpr double I = 4.0, K_e = 0.01675, R = 0.515, L = 0.286e-3, T = 50e-6;
 const double fundamental = 4 / base::pi * 0.5 / (base::pi / 6);
 const double torque_Nm = 1.5 * K_e * fundamental * I;
 
-/// The 251601 with a large inertia, so that its speed is nearly constant.
+/// The 251601 with so large an inertia that its speed is nearly constant.
 Scenario trapezoid(double speed_rad_s, bool harmonic) {
   Scenario s = maxon_scenario(Mode::current, I);
   s.control.drive = FirmwareKind::field;
@@ -53,8 +53,8 @@ Torque torque_of(const Scenario& s) {
   return {f[0], f[1], f[2], f[3], f[4]};
 }
 
-/// The bound on the switching's torque: the vector v that holds the current acts in the middle of each
-/// period, and until then at most a quarter of v T is missing. The shape's largest |g| is 4/3 over the
+/// Bound on the torque ripple from switching. The vector v that keeps the current acts in the middle of each
+/// period; before it, at most v T/4 is missing. The largest |g| of the shape is 4/3, divided by the
 /// fundamental.
 double switching_Nm(double speed_rad_s) {
   const double v = std::hypot(R * I + K_e * std::fabs(speed_rad_s) * 4 / 3, speed_rad_s * 8 * L * I);
@@ -70,14 +70,14 @@ TEST(HarmonicCurrent, TheTrapezoidsTorqueLosesTheShapesRipple) {
     EXPECT_LT(with.most, torque_Nm + switching) << w;
     EXPECT_GT(with.least, torque_Nm - switching) << w;
     EXPECT_LT(with.ripple, 0.6 * without.ripple) << w;
-    if (std::fabs(w) > 50) continue;  // beyond, the loop reduces the shape's ripple itself
+    if (std::fabs(w) > 50) continue;  // at higher speeds the loop also reduces the ripple from the shape
     EXPECT_NEAR(without.most, torque_Nm * 4 / 3 / fundamental, switching) << w;
     EXPECT_NEAR(without.least, torque_Nm * 2 / std::numbers::sqrt3 / fundamental, switching) << w;
   }
 }
 
-/// The mean of 1/|g|^2 along the hexagon is f_1^2 sqrt 3 pi/8: 0.55 % more copper loss than the constant i_q
-/// of the same torque. The switching's ripple heats equally in both.
+/// The mean of 1/|g|^2 along the hexagon is f_1^2 sqrt 3 pi/8: the copper loss is 0.55 % higher than with a
+/// constant i_q of the same torque. The switching ripple causes equal losses in both cases.
 TEST(HarmonicCurrent, CostsNoMoreCopperLossThanTheClosedForm) {
   const double constant_W = 1.5 * R * I * I,
                part = fundamental * fundamental * std::numbers::sqrt3 * base::pi / 8;
@@ -90,9 +90,10 @@ TEST(HarmonicCurrent, CostsNoMoreCopperLossThanTheClosedForm) {
   }
 }
 
-/// Without decoupling there is no feed-forward: the loop follows with its own bandwidth, and its lag is
-/// compensated by a lead. At a corner the reference's slope changes by 4/pi 9/16 f_1 w_e I A/s along the
-/// shape; the lag tau with its lead makes 1/e of tau times that, in torque by 4/3 over f_1.
+/// Without decoupling there is no feed-forward: the loop follows with its bandwidth, and a lead compensates
+/// its lag. At a corner of the shape the slope of the reference changes by 4/pi 9/16 f_1 w_e I, in A/s. The
+/// lag tau with its lead leaves 1/e of tau times this change as current error. The torque error has the
+/// additional factor 4/3, divided by f_1.
 TEST(HarmonicCurrent, TheLoopAloneFollowsWithinItsLag) {
   const double z = std::exp(-base::pi / 10), lag_s = T / (z * (1 - z));
   for (const double w : {20.0, 50.0}) {
@@ -106,8 +107,8 @@ TEST(HarmonicCurrent, TheLoopAloneFollowsWithinItsLag) {
   }
 }
 
-/// A fifth harmonic of 5 %: the torque of i_q alone ripples by it, as cos 6 theta, and that of the shape's
-/// current does not. The general kernel runs this machine.
+/// A fifth harmonic of 5 %: with a constant i_q the torque has a ripple of 5 % as cos 6 theta; with the
+/// shape's current it has none. This machine runs in the general kernel.
 TEST(HarmonicCurrent, FollowsHarmonicsOfASineToo) {
   const auto fifth = [](bool harmonic) {
     Scenario s = trapezoid(20, harmonic);
@@ -141,7 +142,7 @@ TEST(HarmonicCurrent, DoubleAndFloatMakeTheSameTorque) {
   EXPECT_NEAR(narrow.ripple, wide.ripple, 1e-3 * torque_Nm);
 }
 
-/// A cascade's current stays within its limit for any shape, and the loop holds the speed.
+/// The current of a cascade stays within its limit for any shape, and the loop keeps the speed.
 TEST(HarmonicCurrent, TheSpeedLoopKeepsTheLimitOfTheCurrent) {
   Scenario s = trapezoid(0.0, true);
   s.initial.speed_rad_s = 0;

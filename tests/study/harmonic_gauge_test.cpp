@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distortion equals Fourier series in closed form.
+// The distortion is compared with closed-form Fourier series.
 #include "sixstep/study/measure/harmonic_gauge.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using control::Mode;
 
 constexpr double eps = 0x1p-52;
 
-/// The rotor coasts without friction, all gates off, too slow for the diodes to conduct: constant speed.
+/// The rotor coasts at constant speed: no friction, all gates off, and too slow for the diodes to conduct.
 Scenario coasting(design::BackEmfShape shape, double flat_deg, double speed) {
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.sheet.back_emf = shape;
@@ -27,15 +27,16 @@ Scenario coasting(design::BackEmfShape shape, double flat_deg, double speed) {
   return s;
 }
 
-/// Peak 1, flat over w: the fundamental is 4/pi sin(a)/a with a half the ramps' width, the mean square (w + 2
-/// a/3)/pi.
+/// Trapezoid with peak 1 and flat tops of width w; a is half the width of a ramp. The fundamental is 4/pi
+/// sin(a)/a, the mean square (w + 2 a/3)/pi.
 double trapezoid_thd(double flat_deg) {
   const double w = flat_deg * base::pi / 180, a = (base::pi - w) / 2;
   const double fundamental = 4 / base::pi * std::sin(a) / a, square = (w + 2 * a / 3) / base::pi;
   return std::sqrt(square / (fundamental * fundamental / 2) - 1);
 }
 
-/// A fit of n rows keeps the signal to a few roundings each (Higham, 19.3); 20 ms have fewer than this.
+/// A fit of n rows has an error of a few roundings per row (Higham, 19.3); 20 ms have fewer rows than this
+/// number.
 constexpr double rows = 8 * 700;
 
 TEST(Distortion, OfASineIsNone) {
@@ -46,7 +47,7 @@ TEST(Distortion, OfASineIsNone) {
     Measure m = measure(MetricKind::thd, Signal::emf_c);
     m.frequency_Hz = 300.0 * 8 / (2 * base::pi);
     ask(s, m);
-    m.frequency_Hz = *m.frequency_Hz / 3;  // at a third of the frequency all is distortion
+    m.frequency_Hz = *m.frequency_Hz / 3;  // at a third of the frequency, the whole signal is distortion
     ask(s, m);
     const std::vector<double> thd = figures_of(s);
     for (std::size_t n = 0; n < 5; ++n) EXPECT_LE(thd[n], rows * eps) << n << " at " << speed;
@@ -65,11 +66,12 @@ TEST(Distortion, OfATrapezoidIsItsSeries) {
     EXPECT_NEAR(thd[0], trapezoid_thd(flat), rows * eps) << flat;
     EXPECT_NEAR(thd[1], trapezoid_thd(flat), rows * eps) << flat;
   }
-  // The third harmonics of two trapezoids of 120 deg cancel: the line voltage has steps of 60 deg, 1, 2, 1,
-  // -1, -2, -1 with ramps. Its closed form is the same sum without the harmonics 3, 9, 15 ...
+  // The third harmonics of two trapezoids of 120 deg cancel. The line voltage has steps of 60 deg, 1, 2, 1,
+  // -1, -2, -1, connected by ramps. Its closed form is the same sum without the harmonics 3, 9, 15 ...
   Scenario s = coasting(design::BackEmfShape::trapezoid, 120.0, 250.0);
   ask(s, measure(MetricKind::thd, Signal::line_ab));
-  double square = 0.0;  // harmonic n of the trapezoid over its first: sin(n a)/(sin(a) n^2), a = 30 deg
+  double square = 0.0;  // harmonic n of the trapezoid divided by the fundamental: sin(n a)/(sin(a) n^2), a =
+                        // 30 deg
   for (int n = 5; n < 200000; n += 2)
     if (n % 3 != 0) square += std::pow(std::sin(n * base::pi / 6) / (std::sin(base::pi / 6) * n * n), 2);
   EXPECT_NEAR(figures_of(s)[0], std::sqrt(square), rows * eps);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The columns of the plant's slow states show the row's instant, at any step of their solution.
+// The columns of the plant's slow states are the values at the row's instant, for any step of the slow
+// solution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +38,7 @@ Scenario cools_down(double step_s) {
   return s;
 }
 
-/// Each thermal step without a power is exact, so that the record must not depend on the step.
+/// Without losses each thermal step is exact: the record must not depend on the step.
 TEST(HeldColumns, TemperaturesWithoutAPowerDoNotDependOnTheThermalStep) {
   const auto fine = rows_of(cools_down(1e-3));
   ASSERT_EQ(fine.size(), 15u);
@@ -51,7 +52,8 @@ TEST(HeldColumns, TemperaturesWithoutAPowerDoNotDependOnTheThermalStep) {
   }
 }
 
-/// U over 2 R: at constant R the winding warms by the power up to each instant, also within a step.
+/// The current is U/(2 R). At constant R the power warms the winding up to each instant, also within a
+/// thermal step.
 TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
   const auto warmed = [](double step_s) {
     Scenario s = cools_down(step_s);
@@ -66,14 +68,13 @@ TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
   ASSERT_EQ(fine.size(), coarse.size());
   const double rise = fine.back()[1] - 25;
   EXPECT_GT(rise, 0.2);
-  // Copper's R rises by 0.4 % per K: the coarse step keeps R for its length, which changes the power by less
-  // than that.
+  // R of copper rises by 0.4 % per K. With the coarse step R is constant over the step, which changes the
+  // power by less than this.
   for (std::size_t n = 0; n < fine.size(); ++n)
     EXPECT_NEAR(coarse[n][1], fine[n][1], 0.00393 * rise * rise) << "row " << n;
 }
 
-/// C_1 dv_1/dt = i_src - v_1/R_1: integrating the recorded source current gives the recorded final value of
-/// v_1.
+/// C_1 dv_1/dt = i_src - v_1/R_1: the integral of the recorded source current i_src gives the recorded v_1.
 TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   Scenario s = maxon_scenario(control::Mode::duty, 0.5);
   for (const AsksForGeneral& ask : asks_for_general)
@@ -89,8 +90,8 @@ TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   EXPECT_EQ(rows[0][2], 0.0);
   last_A = rows[0][1];
   for (std::size_t n = 1; n < rows.size(); ++n) {
-    // The trapezoidal rule suffices: 1 us is short against R_1 C_1 = 5 ms and against the change that the bus
-    // capacitor allows.
+    // The trapezoidal rule is exact enough: 1 us is short compared with R_1 C_1 = 5 ms and with the time
+    // constant of the bus capacitor.
     const double mean_A = (last_A + rows[n][1]) / 2, tau_s = 5e-3, h = 1e-6;
     v += h * (mean_A / 0.05 - v / tau_s) / (1 + h / (2 * tau_s));
     last_A = rows[n][1];

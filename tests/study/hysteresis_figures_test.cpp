@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Excess above and shortfall below the band are zero for a comparator on the board, and up to a sample's
-// change for one in the controller.
+// The band's excess and shortfall are zero for a comparator on the board. For a comparator in the controller
+// they are up to the current's change per sample.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST(HysteresisFigures, EventComparatorsKeepTheBand) {
 }
 
 TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
-  // The current at standstill rises by 24 V * 30 us/0.572 mH = 1.26 A per sample: a figure of the band would
+  // At standstill the current rises by 24 V * 30 us/0.572 mH = 1.26 A per sample: figures of the band would
   // mislead.
   Scenario s = current_square();
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2, .comparator = Comparator::sampled};
@@ -44,8 +44,8 @@ TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
   EXPECT_EQ(out.problems().front().where, "compare[0].metric");
 }
 
-/// The held rotor's current is between 4.8 and 5.2 A: it rises at U - R i, falls at -R i, with hard chopping
-/// at -U - R i. One comparator and two switch at the same frequency.
+/// The held rotor's current is between 4.8 and 5.2 A. L di/dt is U - R i when it rises, -R i when it falls,
+/// or -U - R i with hard chopping. One comparator switches at the same frequency as two.
 TEST(HysteresisFigures, TheFrequencyIsThatOfTheWindingInTheBand) {
   constexpr double U = 24, R = 1.03, L = 0.572e-3, low = 4.8, high = 5.2, from_s = 5e-3, to_s = 25e-3;
   for (const auto chopping : {control::Chopping::soft, control::Chopping::hard})

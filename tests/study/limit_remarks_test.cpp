@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A remark names each limit of the model that the run exceeds, with its numbers, and none that it keeps.
+// A remark names each limit of the model that the run exceeds, with its numbers, and no other limit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The number after a word in the first remark that has it.
+/// The number after a text in the first remark that contains it.
 double number_behind(const std::vector<std::string>& remarks, const std::string& word) {
   for (const std::string& text : remarks)
     if (const std::size_t at = text.find(word); at != std::string::npos)
@@ -31,7 +31,7 @@ double number_behind(const std::vector<std::string>& remarks, const std::string&
   return NAN;
 }
 
-/// The rotor is held at 20 A, with a battery of `Ah` ampere hours.
+/// A drive that keeps 20 A in a held rotor, with a battery of `Ah` ampere hours.
 Scenario on_battery(double Ah, double charge) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.load.locked = true;
@@ -46,7 +46,7 @@ Scenario on_battery(double Ah, double charge) {
   return s;
 }
 
-/// The instant is where the integral of the source's current equals the battery's charge, for any current.
+/// At the reported instant the integral of the source's current must equal the battery's charge.
 TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   Scenario s = on_battery(1e-3, 0.5);
   const auto remarks = outcome_of(s).remarks;
@@ -58,14 +58,15 @@ TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
 }
 
-/// The band that a remark names makes the frequency that it names, and a run with this band has no remark.
+/// The band that a remark proposes must give the frequency that it states. A run with a slightly larger band
+/// has no remark.
 TEST(LimitRemarks, AHysteresisThatNoBridgeSwitchesIsTold) {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
   s.duration_s = 20e-3;
   s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.01};
   const auto fast = outcome_of(s);
-  // The current rises and falls by two bands with U - R I and R I; the duty is R I/U.
+  // The current rises and falls by two bands, at the rates (U - R I)/L and R I/L; the duty is R I/U.
   const double d = 5.0 * 1.03 / 24, foretold_Hz = 24 / (0.572e-3 * 2 * 0.01) * d * (1 - d);
   const double told_Hz = 1e3 * number_behind(fast.remarks, "chop at ");
   EXPECT_NEAR(told_Hz / foretold_Hz, 1, 0.1);
@@ -79,7 +80,8 @@ TEST(LimitRemarks, AHysteresisThatNoBridgeSwitchesIsTold) {
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("comparators chop"))));
 }
 
-/// A cold run whose mean loss the winding withstands by the sheet's values but not by the worse ends.
+/// A run from cold. The winding withstands its mean loss by the sheet's values, but not at the worse ends of
+/// their ranges.
 TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   Scenario s = maxon_scenario(Mode::current, 10.0);
   s.load.locked = true;
@@ -90,7 +92,7 @@ TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   s.sheet.thermal_time_constant_winding_s = base::Quantity{10.0, "", ""};
   s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
   s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
-  // 206 J into 2.5 J/K are less than 100 K, into 1 J/K more.
+  // 206 J heat 2.5 J/K by less than 100 K, and 1 J/K by more.
   const auto told = [&s] {
     const auto remarks = outcome_of(s).remarks;
     return std::any_of(remarks.begin(), remarks.end(),
@@ -129,7 +131,7 @@ TEST(LimitRemarks, ARotorFasterThanItsSheetAllows) {
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("the sheet allows"))));
 }
 
-/// The rotor brakes into a capacitor alone: its energy is at most C U^2/2 + J w^2/2.
+/// The rotor brakes into a capacitor: the capacitor's energy is at most C U^2/2 + J w^2/2.
 TEST(LimitRemarks, ABusThatIsPumpedUp) {
   Scenario s = maxon_scenario(Mode::current, -5.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -159,13 +161,13 @@ TEST(LimitRemarks, ABusThatIsPumpedUp) {
   silent(chopper);
 }
 
-/// The same run with a warming motor and held current shows when its winding passes the limit. The remark's
-/// copper grows warm, so that with R at the sheet's temperature the limit comes a little later.
+/// The same run with a warming motor and the same current shows when the winding exceeds the limit. The
+/// remark uses R of warm copper: with R at the sheet's temperature the limit is reached a little later.
 TEST(LimitRemarks, AWindingThatWouldNotStandIt) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.sheet = curve_sheet();
   s.sheet.nominal_current_A->frame = "terminal";
-  s.supply.voltage_V = 48;  // holds 20 A also through a warm winding
+  s.supply.voltage_V = 48;  // enough for 20 A also in a warm winding
   s.load.locked = true;
   s.duration_s = 2.0;
   const auto remarks = outcome_of(s).remarks;

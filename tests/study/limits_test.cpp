@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of current, speed and bus hold in full switching simulation, and unreachable ones are refused.
+// Limits of current, speed and bus are kept in full switching simulation; unreachable limits are refused.
 // tests/fuzz/limits_test.cpp tests them with random scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ std::string refusal(const Scenario& s) {
   return out ? "not refused" : to_string(out.problems()[0]);
 }
 
-/// Full current. Where the sample shows the ripple's minimum of 0 A, the limit of speed leaves short pulses,
-/// which still drive the rotor.
+/// Full current. If the sample is at the ripple's minimum of 0 A, the speed limit permits short pulses, which
+/// still drive the rotor.
 TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     Scenario s = maxon_scenario(Mode::current, 6.99);
@@ -72,14 +72,15 @@ TEST(Limits, TheBusStaysWithinItsBoundInEveryChopping) {
       s.pwm.delay_periods = delay;
       const double most = figure(s, MetricKind::maximum, Signal::bus_voltage);
       std::printf("limit 30 V, at most %.6g V\n", most);
-      // The bound is the switch-off of 6.25 A at the limit, with 20 V of back-EMF: the bus rises by sqrt((30
-      // - 20)^2 + L I^2/C) - 10 V, and by one period of that current.
+      // The bound adds two parts to 30 V for the switch-off of 6.25 A at the limit, with 20 V of back-EMF.
+      // The winding's energy raises the bus by sqrt((30 - 20)^2 + L I^2/C) - 10 V. One period of this current
+      // adds I T/C.
       EXPECT_LE(most, 20 + std::sqrt(100 + 0.572e-3 * 6.25 * 6.25 / 10e-3) + 6.25 * 30e-6 / 10e-3);
     }
 }
 
-/// After a switch-off at 30 V the winding's 5 A still charge the 220 uF, with 20 V of back-EMF: to 20 V +
-/// sqrt((30 - 20)^2 + L I^2/C) V = 33 V.
+/// After a switch-off of 5 A at 30 V, with 20 V of back-EMF, the winding's energy charges the 220 uF to 20 V
+/// + sqrt((30 - 20)^2 + L I^2/C) = 33 V.
 TEST(Limits, ABusThatCannotHoldItsLimitIsRefusedWithWhatWould) {
   Scenario s = braking(Chopping::hard);
   s.supply.capacitance_F = 220e-6;
@@ -107,7 +108,7 @@ TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
 }
 
 /// A salient rotor runs, but the drive does not guarantee its limits, because the bounds are not proved for
-/// such a rotor. A message names each limit.
+/// salient rotors. A message names each limit.
 TEST(Limits, OfASalientRotorAreNotPromised) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.sheet.inductance_mH.reset();
@@ -162,7 +163,7 @@ TEST(Product, AThresholdBeyondTheConverterIsRefused) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.sensors.current_offset_A = 0.1;
   s.protection.stall_s = 0.1;
-  s.protection.stall_current_A = 20.3;  // 20.47 less 0.1
+  s.protection.stall_current_A = 20.3;  // 20.47, the largest reading, less the offset of 0.1
   EXPECT_TRUE(study::check(s).empty());
   for (const double beyond : {20.4, 30.0}) {
     s.protection.stall_current_A = beyond;
@@ -180,7 +181,7 @@ TEST(Product, AThresholdBeyondTheConverterIsRefused) {
   EXPECT_EQ(study::check(s).size(), 1u);
 }
 
-/// No loop runs while the windings are shorted.
+/// While the windings are shorted, no loop runs.
 TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.12;
@@ -193,8 +194,9 @@ TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   EXPECT_EQ(figure(s, MetricKind::maximum, Signal::speed_reference, 0.1002), 0.0);
 }
 
-/// The line breaks just after its own edge: the sector between this edge and the false one has no length, and
-/// so any speed. The fault is the line, not over-speed.
+/// If the line breaks just after one of its edges, the sector between this edge and the false edge is
+/// arbitrarily short, and the measured speed arbitrarily high. The drive must report the line, not
+/// over-speed.
 TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.over_speed_rad_s = 300.0;
@@ -202,7 +204,7 @@ TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   int named = 0, runs = 0;
   for (int n = 0; n < 60; ++n)
     for (const int line : {1, 2, 3}) {
-      // A turn of 6 sectors takes 7.85 ms.
+      // A turn of 6 sectors lasts 7.85 ms.
       s.sensors.hall_break = {.at_s = 0.3 + n * 7.85e-3 / 60,
                               .line = line,
                               .level = n % 2 ? study::Level01::low : study::Level01::high};
@@ -219,7 +221,7 @@ TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   EXPECT_GT(named, runs * 9 / 10);
 }
 
-/// K e = 19 at the start, in a range that ends at 16 times the output.
+/// K e = 19 at the start, in a format whose range ends at 16 times the output.
 TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.15;
@@ -236,7 +238,7 @@ TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   }
 }
 
-/// The derivative part is kp T_d a = 1.8 of full torque.
+/// The derivative part is kp T_d a = 1.8 times full torque.
 TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.3;
@@ -257,7 +259,8 @@ TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   s.control.speed.anti_windup = 0.0;
   EXPECT_THAT(refusal(s), HasSubstr("lets the integral grow without a limit"));
   s.control.speed.anti_windup = std::nullopt;
-  s.sensors.rotor = study::RotorSensing::hall;  // its speed may change by the full range in one step
+  s.sensors.rotor = study::RotorSensing::hall;  // the speed from Hall edges may change by the full range in
+                                                // one step
   EXPECT_THAT(refusal(s), HasSubstr("a longer filter of the derivative"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scale with lines along a linear motor: its drive's position is exact to a quarter of a pitch; and the
-// refusals.
+// A scale with lines along a linear motor. The drive's position is exact within a quarter of a line pitch.
+// The refusals are tested too.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 constexpr double pitch_m = 20e-6, pole_pitch_m = 12e-3, p = base::pi / pole_pitch_m;
 
-/// The unrolled motor of the cascade, with magnets whose period of 24 mm has 1200 lines of the scale.
+/// The linear version of the cascade's motor. One period of its magnets, 24 mm, has 1200 lines of the scale.
 Scenario on_a_scale(Scenario s) {
   s.sheet = unrolled(s.sheet, pole_pitch_m / (base::pi / 8));
   s.sheet.pole_pitch_mm->value = 1e3 * pole_pitch_m;
@@ -35,11 +35,12 @@ Scenario on_a_scale(Scenario s) {
   return s;
 }
 
-/// The position reading for 1 m: the linear motor's metre is the rotary motor's radian, in degrees.
+/// The position reading for 1 m: one metre of the linear motor corresponds to one radian of the rotary motor,
+/// here in degrees.
 constexpr double deg = 180 / base::pi;
 
-// In each sample the position is that of the quarter of a line, the speed that between two edges, and the
-// sector that of the magnets.
+// At each sample, the position is that of the quarter of a line, the speed is measured between two edges, and
+// the sector is that of the magnets.
 TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
   const Scenario s = on_a_scale(cascade());
   for (const double v : {0.11, -0.73}) {
@@ -47,7 +48,7 @@ TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
     config.shaft = shaft_sensor_config(s);
     config.period_s = s.pwm.period_s;
     config.capture_Hz = 1e8;
-    const double x_0 = v > 0 ? -3e-3 : 4e-3, h = s.pwm.period_s;  // across the index
+    const double x_0 = v > 0 ? -3e-3 : 4e-3, h = s.pwm.period_s;  // the motion passes the index
     const auto slide = [&](double t) {
       const double e = p * (x_0 + v * t);
       const auto sector = static_cast<std::int64_t>(std::floor(e / base::sector_rad));
@@ -64,13 +65,13 @@ TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
       rig::ShaftPorts copy = ports;
       indexes += copy.index_passed();
       decoder.sense(m, sample, ports, static_cast<std::uint32_t>(std::floor(t * config.capture_Hz)));
-      // Angles have steps of 2^-16 of a period, rounded down like the quarter.
+      // Angles have steps of 2^-16 of a magnets' period; they are rounded down, as are the quarters.
       const double below = x - m.position_deg / deg, unit = 2 * pole_pitch_m / 65536;
       ASSERT_GT(below, -1e-12) << n;
       ASSERT_LT(below, pitch_m / 4 + unit + 1e-12) << n;
       if (n > 20) {
-        // The bound is one timer tick over the time between the last edges of two samples. This time is at
-        // least the sampling period less the time between two edges.
+        // The bound is one timer count, divided by the time between the last edges of two samples. This time
+        // is at least the sampling period less the time between two edges.
         const double apart = h - pitch_m / 4 / std::fabs(v);
         if (apart > 0) {
           ASSERT_NEAR(m.speed_rad_s, v, std::fabs(v) * 2 / (apart * config.capture_Hz)) << n;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor equals the rotary one with pi/tau pole pairs, kg for kg m2 and N for N m: bit for bit, with
-// other words.
+// A linear motor is compared with the rotary motor of pi/tau pole pairs, with kg for kg m2 and N for N m: the
+// results have the same bits, and the texts have other terms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::vector<Scenario> drives() {
 TEST(LinearMotor, RunsTheBitsOfTheTurningOne) {
   for (const Scenario& turning : drives()) {
     Scenario linear = on_a_line(turning);
-    for (double& order : linear.sheet.cogging_orders) order /= 8;  // per two pole pitches
+    for (double& order : linear.sheet.cogging_orders) order /= 8;  // order per two pole pitches
     const auto a = study::run(turning), b = study::run(linear);
     ASSERT_TRUE(a && b) << base::to_string((a ? b : a).problems()[0]);
     EXPECT_EQ(b->motor.machine.pole_pairs, 8.0);
@@ -51,7 +51,8 @@ TEST(LinearMotor, RunsTheBitsOfTheTurningOne) {
 }
 
 TEST(LinearMotor, NeedNotHaveAWholeNumberOfPolePairsInAMetre) {
-  // Unrolled at the radius r: v = r w, F = T/r, m = J/r^2. Powers of two add no rounding.
+  // The rotary motor with the radius r corresponds to v = r w, F = T/r, m = J/r^2. With powers of two, no
+  // rounding is added.
   const double r = 0x1p-6;
   Scenario turning = maxon_scenario(control::Mode::duty, 0.5), linear = on_a_line(turning);
   linear.sheet.pole_pitch_mm->value = 1e3 * (base::pi / 8) * r;

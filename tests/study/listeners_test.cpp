@@ -16,7 +16,7 @@ using control::Mode;
 double asked(const Outcome& out, std::size_t n = 0) { return out.comparisons.at(n).measured; }
 
 TEST(Listeners, KeepGoingDoesNotChangeABit) {
-  // The slices of a listener's calls restart the expansion where they end between events.
+  // A slice of the run that ends between two events restarts the expansion.
   Scenario s = maxon_scenario(Mode::duty, 0.7);
   s.duration_s = 50e-3;
   ask(s, measure(MetricKind::final_value, Signal::speed));
@@ -33,7 +33,7 @@ TEST(Listeners, KeepGoingSwallowsNoSample) {
   s.duration_s = 40e-3;
   Measure m = measure(MetricKind::final_value, Signal::current);
   m.sampled = true;
-  m.from_s = 30e-3;  // a tick, at which a slice of the run may end
+  m.from_s = 30e-3;  // a tick; a slice of the run may end there
   m.to_s = 30.01e-3;
   ask(s, m);
   const auto alone = run(s), watched = run(s, {.keep_going = [](double) { return true; }});
@@ -42,7 +42,8 @@ TEST(Listeners, KeepGoingSwallowsNoSample) {
   EXPECT_EQ(asked(*alone), asked(*watched));
 }
 
-/// Rows of every event: the largest step back of time, and the largest jump of u_a between rows of one time.
+/// Rows of every event: the largest backward step of time, and the largest jump of u_a between rows with
+/// equal time.
 struct Rows {
   double last = 0, worst_back = 0, jump = 0, u_before = 0, t_before = -1;
   void operator()(Row row) {

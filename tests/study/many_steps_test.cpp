@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference may have any number of steps: a segment costs the figure of the present step only.
+// A reference may have any number of steps: in a segment, only the figure of merit of the present step is
+// computed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,12 +21,12 @@ double cpu_seconds(const study::Scenario& s) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-/// The minimum of three: other load on the machine makes a run longer, never shorter.
+/// The minimum of three runs: other load on the machine makes a run longer, never shorter.
 double least_cpu_seconds(const study::Scenario& s) {
   return std::min({cpu_seconds(s), cpu_seconds(s), cpu_seconds(s)});
 }
 
-// A call of all 4000 gauges in each segment took forty times as long.
+// When each segment called all 4000 gauges, the run took forty times as long.
 TEST(ManySteps, CostNoMoreThanTheRunBetweenThem) {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
   s.load.locked = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of whole runs equal closed forms and the energy balance.
+// Figures of merit of whole runs are compared with closed forms and with the energy balance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using control::Mode;
 
 constexpr double eps = 0x1p-52;
 
-/// The rotor is locked at 69 deg electrical, where the pair a, c has R_tt and L_tt alone.
+/// The rotor is locked at 69 deg electrical, where only the pair a, c conducts, with R_tt and L_tt.
 Scenario locked(double duty) {
   Scenario s = maxon_scenario(Mode::duty, duty);
   s.load.locked = true;
@@ -35,17 +35,18 @@ TEST(Measures, RiseOfAStalledMotorIsTauLnNine) {
   rise.level = U / R;
   rise.start = 0.0;
   ask(s, rise);
-  // The slope at 90 % is 0.1 of the full step per tau.
+  // The slope at 90 % is 0.1 of the full step, per tau.
   EXPECT_NEAR(figures_of(s)[0], tau * std::log(9.0), 64 * eps * tau / 0.1);
 }
 
-/// The steady current of a chopped coil: towards U/R for d T, towards 0 for the rest.
+/// The steady current of a chopped coil: it rises towards U/R for d T and falls towards 0 for the rest.
 struct ChoppedCoil {
   double d;
   double low = U / R * std::exp(-(1 - d) * T / tau) * std::expm1(-d * T / tau) / std::expm1(-T / tau);
   double high = U / R * std::expm1(-d * T / tau) / std::expm1(-T / tau);
 
-  /// The integral of (i - d U/R)^2 over each interval: i = end + (begin - end) e^{-t/tau}.
+  /// The integral of (i - d U/R)^2 over an interval of exponential current, i = end + (begin - end)
+  /// e^{-t/tau}.
   double square(double begin, double end, double length) const {
     const double a = end - d * U / R, b = begin - end, x = length / tau;
     return a * a * length - 2 * a * b * tau * std::expm1(-x) - b * b * tau / 2 * std::expm1(-2 * x);
@@ -57,18 +58,18 @@ TEST(Measures, RippleOfAChoppedCoilIsTheTriangles) {
   for (const double d : {0.5, 0.2}) {
     Scenario s = locked(d);
     s.pwm.chopping = control::Chopping::complementary;
-    s.duration_s = 900 * T;  // 48 tau: the start's remainder is below eps^1.3
+    s.duration_s = 900 * T;  // 48 tau: the remainder of the start is below eps^1.3
     for (const MetricKind kind : {MetricKind::peak_to_peak, MetricKind::ripple_rms, MetricKind::mean})
       ask(s, over(kind, Signal::current, 800 * T, 900 * T));
     ask(s, over(MetricKind::ripple_rms, Signal::line_ca, 800 * T, 900 * T));
     const std::vector<double> figures = figures_of(s);
     const ChoppedCoil coil{d};
-    // The error of the current itself is some roundings of its size.
+    // The current has an error of some roundings of its size.
     EXPECT_NEAR(figures[0], coil.high - coil.low, 64 * eps * U / R);
     EXPECT_NEAR(figures[1], coil.rms(), 64 * eps * U / R);
     EXPECT_NEAR(figures[2], d * U / R, 64 * eps * U / R);
     EXPECT_NEAR(figures[3], U * std::sqrt(d * (1 - d)), 1e-9) << "edges on a grid of 1e-12 s in 3e-3 s";
-    // The textbook's straight lines: U d (1 - d) T/L. Their error is of second order in T/tau.
+    // The textbook's straight lines give U d (1 - d) T/L. Their error is of second order in T/tau.
     const double triangle = U * d * (1 - d) * T / L, missed = T / tau * T / tau;
     EXPECT_NEAR(figures[0], triangle, triangle * missed);
     EXPECT_NEAR(figures[1], triangle / std::sqrt(12.0), triangle * missed);
@@ -106,7 +107,7 @@ TEST(Measures, EnergiesAreTheBooks) {
   const double should[] = {
       book.supplied, book.supplied - book.devices, book.air_gap, book.load, book.copper, book.devices,
       book.friction};
-  // The gauge compensates its rounding; the mean is a plain sum: a rounding per segment.
+  // The gauge compensates its rounding. The mean is a plain sum with one rounding per segment.
   const double bound = 16 * eps * book.moved, plain = static_cast<double>(out->segments) * eps * book.moved;
   const auto figure = [&](std::size_t n) { return out->comparisons[n].measured; };
   for (std::size_t n = 0; n < std::size(powers); ++n) {
@@ -115,8 +116,8 @@ TEST(Measures, EnergiesAreTheBooks) {
     EXPECT_NEAR(figure(4 * n + 2) + figure(4 * n + 3), should[n], 2 * bound) << fact_of(powers[n]).word;
     EXPECT_EQ(out->comparisons[4 * n].unit, "J");
   }
-  // The load's own friction is work on the load: the balance counts all of the output but the motor's
-  // friction.
+  // The friction of the load is work on the load: in the energy balance, all output except the motor's
+  // friction counts.
   EXPECT_GT(figure(4 * std::size(powers)), (book.load + book.kinetic) / book.supplied + 0.005);
 }
 
@@ -132,7 +133,7 @@ TEST(Measures, EfficiencyIsOutOverInWhicheverWayItFlows) {
   const auto [motor, forward] = efficiency(s);
   EXPECT_NEAR(forward, (motor.load + motor.kinetic) / motor.supplied, 64 * eps);
   EXPECT_GT(forward, 0.3);
-  // Complementary chopping with a duty below that of the speed: the bus takes energy back.
+  // Complementary chopping with a duty below the back-EMF's share of the bus: energy returns to the bus.
   s.pwm.chopping = control::Chopping::complementary;
   s.load.torque_Nm = 0.0;
   s.initial.speed_rad_s = 600.0;
@@ -143,13 +144,13 @@ TEST(Measures, EfficiencyIsOutOverInWhicheverWayItFlows) {
   EXPECT_NEAR(back, brake.supplied / (brake.load + brake.kinetic), 64 * eps);
   EXPECT_GT(back, 0.3);
   EXPECT_LT(back, 1.0);
-  // The motor drives against its rotation: shaft and bus both feed the losses.
+  // The motor drives against its rotation: the energy of shaft and bus covers the losses.
   s.reference.value = -1.0;
   const auto [plug, none] = efficiency(s);
   ASSERT_GT(plug.supplied, 0.0);
   ASSERT_LT(plug.kinetic, 0.0);
   EXPECT_EQ(none, 0.0);
-  // No energy flows: the figure has no value.
+  // No energy flows: the efficiency has no value.
   s.control.mode = Mode::off;
   s.supply = {};
   s.initial.speed_rad_s = 0.0;
@@ -188,7 +189,7 @@ TEST(Measures, DutyHasTheSignOfThePair) {
 TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
   Scenario s = current_square();  // levels of 5 ms, the last tenth is 0.5 ms
   s.reference.high = 2.0;
-  s.reference.low = -10.0;  // the EMF prevents it: the largest error is the negative one
+  s.reference.low = -10.0;  // the back-EMF prevents -10 A: the largest error is negative
   ask(s, measure(MetricKind::steady_error, Signal::current));
   ask(s, measure(MetricKind::largest_error, Signal::current));
   Measure m = measure(MetricKind::steady_error, Signal::current);
@@ -212,7 +213,7 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
     }
     largest = std::max({largest, figures[5 + 6 * n] - level, level - figures[6 + 6 * n]});
   }
-  // The windows' ends in seconds are rounded at 2e-2 s, against 5e-4 s.
+  // The windows' ends are times of some 2e-2 s, whose rounding is compared with windows of 5e-4 s.
   EXPECT_NEAR(figures[0], error[0], 1e-11);
   EXPECT_NEAR(figures[1], largest, 1e-11);
   EXPECT_NEAR(figures[2], error[1], 1e-11);
@@ -222,8 +223,8 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
 }
 
 TEST(Measures, BandFiguresKeepToTheirWindow) {
-  // The rotor turns backwards, and the EMF drives the current while the bridge freewheels: the current leaves
-  // the band until the rotor stops.
+  // The rotor turns backwards, and the back-EMF drives the current while the bridge freewheels: the current
+  // is outside the band until the rotor stops.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.initial.speed_rad_s = -600.0;
   s.duration_s = 40e-3;
@@ -307,7 +308,7 @@ TEST(Measures, EachHasANameAndAUnit) {
     const Measure m = measure(kind, Signal::copper_loss);
     EXPECT_GT(figure_name(m).size(), 9u) << word;
     EXPECT_FALSE(figure_unit(m).empty()) << word;
-    const std::size_t unit = word.rfind('_');  // the figure's unit is in the word
+    const std::size_t unit = word.rfind('_');  // the unit of the figure is part of the word
     if (unit == std::string_view::npos) continue;
     for (const char* suffix : {"s", "A", "Hz", "J"}) {
       if (word.substr(unit + 1) == suffix) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values from a program instead of a file: the same table checks them.
+// Scenarios whose values come from a program instead of a file: the same table checks the values.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -81,7 +81,7 @@ TEST(Numbers, OfADesignsWishAreHeldToTheTable) {
   });
 }
 
-/// NaN loses every comparison, so that the other values' extremes would become the figure.
+/// Every comparison with NaN is false: without a check, the extremes of the other values would be the figure.
 TEST(Numbers, AFigureOfWhichAPartIsNoNumberHasNoValue) {
   for (const study::MetricKind metric :
        {study::MetricKind::maximum, study::MetricKind::minimum, study::MetricKind::mean,
@@ -111,7 +111,7 @@ TEST(Numbers, AFigureOfWhichAPartIsNoNumberHasNoValue) {
 
 TEST(Numbers, OfASheetThatLiesAreRefused) {
   design::Sheet s = testing::maxon_sheet();
-  s.inductance_mH->value = 1e6;  // 1 kH with an ohm
+  s.inductance_mH->value = 1e6;  // 1 kH: a time constant far above 100 s
   const auto slow = design::motor_model(s);
   ASSERT_FALSE(slow);
   EXPECT_NE(first(slow.problems()).find("no motor is above 100 s"), std::string::npos)

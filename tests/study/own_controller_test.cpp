@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's controller in a scenario: the library's drive through that interface equals the built-in one bit
-// for bit, numbers and board reach its design, and an answer that no timer can produce ends the run with a
-// message.
+// A user's controller in a scenario. The library's drive through this interface equals the built-in drive bit
+// for bit. The controller's design receives its numbers and the board's values. An answer that no timer can
+// produce ends the run with a message.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ TEST(OwnController, TheLibrarysDriveByThisDoorHasItsBits) {
   EXPECT_EQ(turned, 16);
 }
 
-/// The answer that a test sets, and the design's inputs.
+/// The answer that a test sets, and the last inputs of the design and of the step.
 sixstep_answer told{};
 sixstep_given last_given{};
 sixstep_measured last_seen{};
@@ -132,7 +132,7 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
             "control.own puppet cannot have five; change the scenario or the controller's numbers");
 }
 
-/// The magnet's direction is as exact as the sensors: Hall codes give it to a sector of 60 degrees.
+/// The magnet's direction is as exact as the sensors: Hall codes determine it within a sector of 60 degrees.
 TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   told = {};
   const auto electrical_deg = [](study::RotorSensing rotor, rig::HallAngleFrom angle) {
@@ -153,7 +153,7 @@ TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   EXPECT_NEAR(electrical_deg(study::RotorSensing::hall, rig::HallAngleFrom::angle), is, 0.5);
 }
 
-/// The first answer of each run is checked in step 1. The message has field and value of the answer.
+/// The run checks the first answer in step 1. The message has the field and the value of the answer.
 TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   const auto fault = [](const sixstep_controller& is, const sixstep_answer& answer) {
     told = answer;
@@ -205,7 +205,8 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   EXPECT_EQ(fault(legs_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
 }
 
-/// The remark begins a quarter above the given limit: with the rotor held the current is the duty times U/R.
+/// The remark appears from a quarter above the given limit. With the rotor held, the current is the duty
+/// times U/R.
 TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
   const auto remarks = [](double duty, std::optional<double> range_A) {
     Scenario s = with(&pair_puppet, cascade());
@@ -232,7 +233,8 @@ TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
   EXPECT_EQ(remarks(0.303, 0.3 * stall_A), std::pair(0, 1));
 }
 
-/// A key that no value for the controller is computed from is named; the controller gets the same with and without it.
+/// A remark names each key that affects no value for the controller: the controller receives the same values
+/// with and without the key.
 TEST(OwnController, KeysThatNothingReachesItFromAreNamed) {
   told = {};
   const auto remarks = [](const Scenario& s) {
@@ -303,7 +305,7 @@ TEST(OwnController, WhatItSaysOfItselfIsLookedAt) {
             (Places{"parameter[0].name", "parameter[1].meaning", "parameter[1].preset"}));
 }
 
-/// A copied session continues equally: state and config are copied as bytes.
+/// A copied session continues equally: the controller's state and configuration are copied as bytes.
 TEST(OwnController, ASessionIsCutWhereOneLikes) {
   const Scenario s = with(sixstep_own_controller(), cascade());
   auto session = study::Session::open(s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop with a profile on the simulated motor: its lag with and without feed-forward, its end,
-// the shaft's jerk, the defaults from the sheet, and the refusals.
+// The position loop with a profile on the simulated motor: its lag with and without feed-forward, the end of
+// the move, the shaft's jerk, the defaults from the sheet, and the refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ using ::testing::HasSubstr;
 
 constexpr double J = 1.35e-5, B = 7.3e-6, K_t = 0.0335, degrees = 180 / base::pi;
 constexpr double v = 100.0, a = 3000.0, smoothing = 5e-3, gain = 0.5, way_deg = 3600.0;
-/// The cruise is from v/a + a/j to v/a + a/j before the end of d/v + v/a + a/j.
+/// The move lasts d/v + v/a + a/j (distance d, jerk j; a/j is the smoothing). It cruises from v/a + a/j after
+/// its start to v/a + a/j before its end.
 constexpr double cruises_from_s = 0.0384, cruises_to_s = 0.628, lands_s = 0.6667;
 
 Scenario move(bool feed_forward, FirmwareKind drive = FirmwareKind::lean) {
@@ -54,10 +55,11 @@ struct Moved {
   double lag_deg, speed_error_rad_s, current_A, highest_deg, landed_deg, at_the_end_deg;
 };
 Moved moved(Scenario s) {
-  ask(s,
-      over(MetricKind::mean, Signal::position_error, cruises_from_s + 0.36, cruises_to_s));  // 10/K_p later
+  ask(s, over(MetricKind::mean, Signal::position_error, cruises_from_s + 0.36, cruises_to_s));  // from 10/K_p
+                                                                                                // after the
+      // cruise begins
   Measure error = over(MetricKind::mean, Signal::speed_error, 8e-3, 0.03);
-  error.sampled = true;  // the reference holds for a period, while the speed changes
+  error.sampled = true;  // the reference is constant over a period, while the speed changes
   ask(s, error);
   ask(s, over(MetricKind::mean, Signal::current, 8e-3, 0.03));
   ask(s, over(MetricKind::maximum, Signal::position, 0.0));
@@ -67,8 +69,8 @@ Moved moved(Scenario s) {
   return {f[0], f[1], f[2], f[3], f[4], f[5]};
 }
 
-/// A proportional position loop moves at v only with an error of v/K_p. With feed-forward the remaining error
-/// is from losses that the sheet omits.
+/// A proportional position loop moves at v only with an error of v/K_p. With feed-forward only the losses
+/// that the sheet omits cause an error.
 TEST(PositionProfile, ALagOfVOverTheGainWithoutFeedForwardAndNoneWithIt) {
   for (const FirmwareKind drive : {FirmwareKind::lean, FirmwareKind::field}) {
     const Moved without = moved(move(false, drive)), with = moved(move(true, drive));
@@ -85,7 +87,7 @@ TEST(PositionProfile, ALagOfVOverTheGainWithoutFeedForwardAndNoneWithIt) {
   }
 }
 
-/// The feed-forward gives the torque J a + B w before the speed loop has an error.
+/// The feed-forward supplies the torque J a + B w before the speed loop has an error.
 TEST(PositionProfile, TheSpeedLoopIsLeftWithNothing) {
   const Moved without = moved(move(false)), with = moved(move(true));
   const double mean_w = 0.5 * a * (8e-3 + 0.03 - smoothing);
@@ -108,7 +110,8 @@ struct SpeedWatch {
   }
 };
 
-/// The largest change of the shaft's acceleration from one window to the next, each a difference of speeds 2 ms apart.
+/// The largest change of the shaft's acceleration from one window to the next, divided by the window. The
+/// acceleration is the difference of speeds 2 ms apart.
 double jerk_of_shaft(const Scenario& s) {
   const auto compiled = compile(s);
   EXPECT_TRUE(compiled);
@@ -137,8 +140,8 @@ TEST(PositionProfile, TheShaftKeepsTheJerk) {
   EXPECT_GT(stepped, 10 * profiled);
 }
 
-/// The profile runs in single precision, in the product drive with its registers, and with a duty instead of
-/// a current.
+/// The profile with single precision, in the product drive with registers, and with a duty instead of a
+/// current as output.
 TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   Scenario single = move(true);
   single.control.arithmetic = Arithmetic::float32;
@@ -158,8 +161,8 @@ TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   }
 }
 
-/// The defaults are four fifths of the torque limit, nine tenths of the speed that the bus allows at that
-/// torque, and the speed loop's settling time.
+/// The defaults: the acceleration uses four fifths of the torque limit; the speed is nine tenths of the speed
+/// that the bus allows at this torque; the smoothing is the speed loop's settling time.
 TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   Scenario s = move(true);
   s.control.position.profile = {};
@@ -181,7 +184,7 @@ TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   EXPECT_FALSE(compile(s)->drive.extras.position.on) << "a speed is not its to shape";
 }
 
-/// The limits change during the move: position and speed do not jump, and the move reaches its end.
+/// The limits change during the move. Position and speed must not jump, and the move must reach its end.
 TEST(PositionProfile, OtherLimitsInFlight) {
   Scenario s = move(true, FirmwareKind::field);
   s.control.position.profile.speed_rad_s.reset();

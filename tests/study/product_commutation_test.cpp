@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product drive changes the pair ahead of the Hall edge, at it, or delayed by its filter, which
-// suppresses glitches. Full switching simulation.
+// The product drive changes the pair before the Hall edge, at the edge, or after the delay of its filter,
+// which suppresses glitches. Full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,11 +21,11 @@ using study::Scenario;
 using ::testing::HasSubstr;
 
 constexpr double T = 30e-6, w = 500.0;
-constexpr double edge_s = base::pi / 24 / w;  // 8 pole pairs: a sector of the shaft
-constexpr double tick = T / edge_s;           // the angle of a control period, in sectors
-constexpr double count = 1e-6 / edge_s;       // the capturing timer's count, in sectors
+constexpr double edge_s = base::pi / 24 / w;  // duration of a sector with 8 pole pairs
+constexpr double tick = T / edge_s;           // a control period, in sectors
+constexpr double count = 1e-6 / edge_s;       // a count of the capture timer, in sectors
 
-/// A flywheel holds the speed at full duty: gates change with the pair only.
+/// The inertia keeps the speed at full duty: gates change only with the pair.
 Scenario flywheel() {
   Scenario s = product_scenario(Mode::duty, 1.0);
   s.initial.speed_rad_s = w;
@@ -34,8 +34,8 @@ Scenario flywheel() {
   return s;
 }
 
-/// The position of the pair's changes, in sectors after the Hall edge, negative ahead of it. The first turn,
-/// whose direction is unknown, is left out.
+/// Positions of the pair's changes, in sectors after the Hall edge; negative before the edge. The first turn
+/// is omitted, because its direction is not known yet.
 std::vector<double> changes(const Scenario& s) {
   static const std::size_t gates = column("gate_T1"), angle = column("angle_rad");
   std::vector<double> after;
@@ -60,10 +60,10 @@ TEST(ProductCommutation, WithoutAdvanceThePairChangesAtTheEdge) {
 }
 
 TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
-  // The advance is 15 electrical degrees at every speed, 0.01 more per rad/s, at most 18: at the first tick
-  // from there on. The angle since the last edge is a ratio of counts, each a difference of two that were
-  // rounded down. 16-bit fixed point rounds it and the advance to a digit of 2^-14 each, and represents the
-  // duty 1.
+  // The advance is a constant angle plus a gain times the speed, up to a limit; the pair changes at the first
+  // tick after this angle. The angle since the last edge is a ratio of counts, each the difference of two
+  // rounded-down counts. 16-bit fixed point rounds this angle and the advance to a digit of 2^-14 each. Q14
+  // represents the duty 1.
   struct Case {
     double angle_deg, gain, limit_deg, expected_deg;
   };
@@ -73,7 +73,7 @@ TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
       Scenario s = flywheel();
       s.control.arithmetic = a;
       s.control.advance = {c.angle_deg, c.gain, c.limit_deg};
-      // The gain multiplies the measured speed, which is w to a count in a sector.
+      // The gain multiplies the measured speed, which is w within one count in a sector.
       const double wanted = c.expected_deg / 60, of_speed = c.gain * w / 60 * count;
       const double error = 2 * count + of_speed + 0x1p-13;
       const std::vector<double> after = changes(s);
@@ -98,7 +98,7 @@ TEST(ProductCommutation, TheHallFilterDelaysAnEdgeByItsSamplesLessOne) {
   }
 }
 
-/// The speed is 100 rad/s, and H1 is high for 50 us in sector 3: 111, which is no sector's code.
+/// At 100 rad/s, H1 is high for 50 us in sector 3. The code 111 is not the code of any sector.
 Scenario glitch(bool there, int samples) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.2;
@@ -117,7 +117,7 @@ Scenario glitch(bool there, int samples) {
     EXPECT_TRUE(out);
     return at;
   }();
-  s.duration_s = sector_3_s + 20e-3;  // ten edges and more of each line
+  s.duration_s = sector_3_s + 20e-3;  // at least ten edges of each line
   s.sensors.hall_stable_samples = samples;
   const auto line = [&](double at_s, study::PinLevel level) {
     study::At at;
@@ -131,7 +131,7 @@ Scenario glitch(bool there, int samples) {
 }
 
 TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
-  // 50 us contain two samples at most.
+  // A control period is 30 us: 50 us contain at most two samples.
   const auto taken = study::run(glitch(true, 1));
   ASSERT_TRUE(taken && taken->fault);
   EXPECT_THAT(taken->fault->limit, HasSubstr("Hall"));
@@ -144,8 +144,9 @@ TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
   ASSERT_FALSE(study::run(filtered, {.on_record = keep(with)})->fault);
   ASSERT_FALSE(study::run(whole, {.on_record = keep(without)})->fault);
   ASSERT_EQ(with.size(), without.size());
-  // The runs are equal except for rounding: the glitch's two edges split segments. 2e-13 of the largest value
-  // is the reference cases' bound; a fault or a wrong pair changes the currents by amperes.
+  // The runs are equal except for rounding, because the glitch's two edges split segments. The bound of the
+  // reference cases is 2e-13 of the largest value; a fault or a wrong pair would change the currents by
+  // amperes.
   for (std::size_t c = 0; c < 5; ++c) {
     double largest = 0.0;
     for (const std::vector<double>& row : without) largest = std::max(largest, std::fabs(row[c]));
@@ -156,7 +157,7 @@ TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
 
 TEST(ProductCommutation, SaysWhatCannotBe) {
   Scenario s = flywheel();
-  s.sensors.hall_stable_samples = 7;  // 210 us; a sector at 700 rad/s lasts 187
+  s.sensors.hall_stable_samples = 7;  // 210 us; at 700 rad/s a sector lasts 187 us
   s.control.advance = {25.0, 0.0, 20.0};
   std::string all;
   for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";

@@ -20,10 +20,10 @@ using study::Signal;
 using ::testing::HasSubstr;
 
 constexpr double T = 30e-6;
-// 64 samples of calibration after the first tick, which finds the request to run.
+// 64 samples of calibration after the first tick, at which the drive receives the request to run.
 constexpr double calibrated_s = 64 * T;
 
-/// Runs with a witness: no leg ever has both switches on.
+/// Runs with a witness, which checks that no leg has both switches on.
 study::Outcome run_watched(const Scenario& s, Witness& w) {
   auto out = study::run(s, {.on_event = [&w](study::Row row) { w(row); }});
   if (!out) {
@@ -55,8 +55,8 @@ TEST(Product, StartsByCalibrationAndAlignmentAndHoldsTheSpeed) {
     EXPECT_FALSE(out.fault) << to_string(*out.fault);
     EXPECT_DOUBLE_EQ(w.first_on(), calibrated_s)
         << "off until the offsets are known, then the pair that pulls";
-    // The bound is the lean drive's (sensors_test.cpp): one count in 1309 per sector, and the ripple within
-    // it.
+    // The bound is that of the lean drive (sensors_test.cpp): one timer count in 1309 per sector, and the
+    // speed ripple within a sector.
     EXPECT_NEAR(out.comparisons[0].measured, 100.0, 100.0 * (1.0 / 1309 + 0.004));
   }
 }
@@ -69,7 +69,7 @@ TEST(Product, RunsAtOnceWhereNoAlignmentIsAsked) {
 
 TEST(Product, ARotorThatDoesNotComeWherePulledIsAFault) {
   Scenario s = product_scenario(Mode::speed, 100.0);
-  s.load.locked = true;  // in sector 0, between 2 and 1 sectors off
+  s.load.locked = true;  // in sector 0; the alignment pulls it to another angle
   s.protection.align = {.current_A = 3.0, .longest_s = 5e-3, .settled_s = 1e-3, .sector = 0};
   Witness w;
   const study::Outcome out = run_watched(s, w);
@@ -78,7 +78,7 @@ TEST(Product, ARotorThatDoesNotComeWherePulledIsAFault) {
   EXPECT_NEAR(w.off_for_good(), calibrated_s + 5e-3, 2 * T);
 }
 
-/// The values of controller and plant at every tick.
+/// The recorded values of controller and plant from a time on.
 std::vector<double> recorded(const Scenario& s, double from_s) {
   std::vector<double> all;
   const auto out = study::run(s, {.on_record = [&](study::Row row) {
@@ -91,10 +91,10 @@ std::vector<double> recorded(const Scenario& s, double from_s) {
 }
 
 TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
-  // The speed steps from rest to 100 rad/s, then to 102, after the calibration of offsets. Until then one
-  // bridge is off, and the other is at duty 0 with a rotor at rest: both have no current. After it both run
-  // the same loops on the same counts and captured edges; only an error in one of the two paths could make a
-  // difference. (On the grid; the trace's bus voltage is stiff.)
+  // After the calibration of the offsets the speed steps from rest to 100 rad/s, later to 102. During the
+  // calibration one bridge is off and the other has duty 0 with a rotor at rest: both have no current.
+  // Afterwards both drives run the same loops on the same counts and captured edges: any difference is an
+  // error in one of the two programs. (The rows are on a grid; the bus voltage is stiff.)
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32}) {
     Scenario product = product_scenario(Mode::speed, 0.0);
     product.duration_s = 0.3;
@@ -113,9 +113,9 @@ TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
 }
 
 TEST(Product, FollowsTheStepsOf74AsTheIdealDrive) {
-  // The speeds are 100, 102, 104 and 102 rad/s, with means after each transient. Speed by edges has an exact
-  // mean except for a timer count in a sector of 1309 (100 rad/s) and the ripple within a sector, as above;
-  // the current has 16 bits, 0.6 mA a count.
+  // The speeds are 100, 102, 104 and 102 rad/s; each mean begins after the transient. The mean of a speed by
+  // edges is exact within a timer count in a sector of 1309 counts (100 rad/s) and the ripple within a
+  // sector, as above. The current has 16 bits, 0.6 mA per count.
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.duration_s = 1.6;
   s.sensors.adc_bits = 16;
@@ -160,7 +160,7 @@ TEST(Product, ABrokenHallLineStopsTheBridgeAndIsNamed) {
 }
 
 TEST(Product, OverCurrentOfAHeldRotorStopsTheBridge) {
-  // Full duty into a held rotor: i = U/R (1 - exp(-t/tau)) passes 15 A at tau ln(1/(1 - 15 R/U)).
+  // Full duty into a held rotor: i = U/R (1 - exp(-t/tau)) exceeds 15 A after tau ln(1/(1 - 15 R/U)).
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::q14}) {
     Scenario s = product_scenario(Mode::duty, 1.0);
     s.control.arithmetic = a;
@@ -172,7 +172,7 @@ TEST(Product, OverCurrentOfAHeldRotorStopsTheBridge) {
     EXPECT_THAT(out.fault->limit, HasSubstr("over-current"));
     const double passes_s = 0.572e-3 / 1.03 * std::log(1 / (1 - 15.0 * 1.03 / 24.0));
     const double since = w.off_for_good() - w.first_on(), rise_A = (24.0 - 15.0 * 1.03) / 0.572e-3 * T;
-    // A reading rounds by half a count of 10 mA, which is 1 us; the trip then waits for the next sample.
+    // A reading is rounded by half a count of 10 mA, which is 1 us. The trip then waits for the next sample.
     EXPECT_GE(since, passes_s - 1e-6);
     EXPECT_LE(since, passes_s + T + 1e-6);
     EXPECT_LE(w.most_A, 15.005 + rise_A);
@@ -202,8 +202,9 @@ TEST(Product, OverVoltageByRegenerationLetsTheMotorCoast) {
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("over-voltage"));
-  // The bound has half a count of 10 mV and three samples, in which 5 A with the design's overshoot and a
-  // period's ripple charge 10 mF. The windings' energy then, L i^2/2, goes to the bus too: C U dU.
+  // The bound has half a count of 10 mV, and three samples in which 5 A with the design's overshoot and a
+  // period's ripple charge 10 mF. After the trip the winding's energy L i^2/2 goes to the bus too: it equals
+  // C U dU.
   const double i_A = 5.0 + 0.375 + (30.0 + 0.0335 * 600.0) / 0.572e-3 * T;
   const double late = 3 * T * i_A / 10e-3 + 0.005, rest = 0.572e-3 / 2 * i_A * i_A / (10e-3 * 30.0);
   EXPECT_GT(out.comparisons[0].measured, 30.0 - 0.005);
@@ -215,7 +216,7 @@ TEST(Product, OverVoltageByRegenerationLetsTheMotorCoast) {
 }
 
 TEST(Product, UnderVoltageOfASaggingSourceStopsTheBridge) {
-  // 10 A at full speed reference through 1 ohm: the bus falls towards 24 V - d 10 A, below 20 V.
+  // 10 A through 1 ohm while the drive accelerates: the bus falls towards 24 V - d 10 A (d duty), below 20 V.
   Scenario s = product_scenario(Mode::speed, 300.0);
   s.duration_s = 0.2;
   s.supply = {.voltage_V = 24.0, .resistance_ohm = 1.0, .capacitance_F = 1e-3};
@@ -227,7 +228,8 @@ TEST(Product, UnderVoltageOfASaggingSourceStopsTheBridge) {
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("under-voltage"));
   EXPECT_LT(out.comparisons[0].measured, 20.0 + 0.005);
-  // Three samples take at most 10 A + overshoot from 1 mF, less than 15 A by the other threshold.
+  // In three samples, at most 10 A plus overshoot discharge 1 mF. The other threshold bounds this current to
+  // 15 A.
   EXPECT_GT(out.comparisons[0].measured, 20.0 - 3 * T * 15.0 / 1e-3 - 0.005);
 }
 
@@ -241,8 +243,7 @@ TEST(Product, StallIsToldWithinItsTime) {
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("stall"));
-  // The time is 20 ms from the first sample above 3 A, which the current loop passes within its settling
-  // time.
+  // The time is 20 ms from the first sample above 3 A; the current loop exceeds 3 A within its settling time.
   const double since = w.off_for_good() - w.first_on();
   EXPECT_GE(since, 20e-3 - T);
   EXPECT_LE(since, 20e-3 + 1e-3 + T);
@@ -254,7 +255,7 @@ TEST(Product, StallIsToldWithinItsTime) {
 TEST(Product, OverSpeedOfADrivingLoadStopsTheBridge) {
   Scenario s = at_100_rad_s();
   s.protection.over_speed_rad_s = 150.0;
-  s.control.current.limit_A = 3.0;  // 0.1 N m against 0.3 N m that drive
+  s.control.current.limit_A = 3.0;  // 0.1 N m from the drive; the load drives with 0.3 N m
   s.load.times_s = {0.0, 0.3};
   s.load.torques_Nm = {0.0, -0.3};
   Witness w;
@@ -265,7 +266,8 @@ TEST(Product, OverSpeedOfADrivingLoadStopsTheBridge) {
   for (const Witness::Instant& n : w.seen)
     if (n.any_gate) fastest = std::max(fastest, n.speed);
   EXPECT_GE(fastest, 150.0);
-  // An edge gives the mean speed over the sector before it: one and a half sectors and a sample late.
+  // An edge shows the mean speed over the sector before it: the trip is late by up to one and a half sectors
+  // and a sample.
   const double rad_s2 = 0.3 / 1.35e-5;
   EXPECT_LE(fastest, 150.0 + rad_s2 * (1.5 * M_PI / 24 / 150.0 + T));
 }
@@ -286,8 +288,9 @@ TEST(Product, BrakesThenLetsGoWhenTheRequestEnds) {
   EXPECT_FALSE(out.fault);
   EXPECT_LT(out.comparisons[1].measured, -4.0) << "against the turning";
   EXPECT_NEAR(w.last_speed, 0.0, 1.0);
-  // The drive holds 5 A down to the 154 rad/s at which the short circuit carries them, at most to standstill.
-  // Then w' = -w/tau - c with tau = J R/K_t^2 and the friction's c, and then the edges' time-out.
+  // The drive brakes with 5 A down to 154 rad/s, where the short circuit conducts 5 A, or at most to
+  // standstill. Then w' = -w/tau - c, with tau = J R/K_t^2 and c from the friction, and then the time-out of
+  // the edges.
   const double J = 1.135e-4, K_t = 0.0335, tau = J * 1.03 / (K_t * K_t), c = 0.002 / J,
                from = 5.0 * 1.03 / K_t;
   EXPECT_GT(w.off_for_good(), 0.4 + J * (200.0 - from) / (K_t * 5.0 + 0.002) + 0.05);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every key of a reference has an effect: each changes the reference over time, or a message refuses it by
-// name.
+// Every key of a reference has an effect: it changes the reference over time, or a message names the key and
+// refuses it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::vector<Reference> one_of_each_shape() {
           {.shape = Shape::csv, .times_s = {0.0, 1e-3}, .values = {1.0, 2.0}}};
 }
 
-/// Walks the description: counts the keys, and gives the n-th another valid value.
+/// Visits the description, counts the keys, and sets the n-th key to another valid value.
 class AnotherValue final : public base::Visitor {
  public:
   explicit AnotherValue(std::size_t wanted) : wanted_(wanted) {}
@@ -97,7 +97,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
       AnotherValue walk(n);
       describe(walk, changed);
       keys = walk.n;
-      // The file's content is read before this, and the shape selects the other keys.
+      // The file's content is read before this visit, and the shape selects which of the other keys are used.
       if (walk.key == "shape" || (walk.key == "file" && good.shape == Shape::csv)) continue;
       const base::Problems problems = study::check(with(changed));
       SCOPED_TRACE(walk.key + " of " + std::string(base::word(study::shape_choices, good.shape)));
@@ -113,7 +113,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
   }
 }
 
-/// Each key of the description has a row.
+/// Each key of the description has a row in the table of good references.
 TEST(ReferenceKeys, TheTableHasAllOfThem) {
   std::vector<std::string> described, rows;
   for (std::size_t n = 0, keys = 1; n < keys; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// References that change over time: the controller's value at its ticks equals the closed form bit for bit.
+// References that change over time: the controller's value at its ticks is compared with the closed form.
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ double at(const std::vector<Stretch>& stretches, double t_s) {
   return stretches[n].at(t_s);
 }
 
-/// Each section begins where the one before ends, to the rounding of a few products of the size of `way`.
+/// Each section begins at the end of the section before it, within the rounding of a few products of the size
+/// of `way`.
 void expect_no_jump(const std::vector<Stretch>& stretches, double way) {
   for (std::size_t n = 0; n + 1 < stretches.size(); ++n)
     EXPECT_NEAR(stretches[n].at(stretches[n + 1].at_s), stretches[n + 1].value, 8 * 0x1p-52 * way) << n;
@@ -58,14 +59,14 @@ TEST(ReferenceCourse, ASineCountsItsTurns) {
       {.shape = Shape::sine, .offset = 1.0, .amplitude = 3.0, .frequency_Hz = 1000.0, .phase_deg = 90.0}));
   ASSERT_EQ(stretches.size(), 1u);
   EXPECT_EQ(stretches[0].at(0.0), 4.0);
-  // The bits are equal 1e9 turns later: 1000 Hz times these times is whole.
+  // The bits are equal 1e9 periods later: 1000 Hz times 1e6 s is a whole number.
   EXPECT_EQ(stretches[0].at(1e6), stretches[0].at(0.0));
   for (const double t : {1e-4, 3.3e-4, 7.7e-4})
     EXPECT_NEAR(stretches[0].at(t), 1.0 + 3.0 * std::cos(2 * M_PI * 1000.0 * t), 8 * 0x1p-52 * 4.0);
 }
 
 TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
-  // 90 deg at 30 deg/s and 60 deg/s^2: 0.5 s of acceleration over 7.5 deg, 2.5 s at speed, 0.5 s of
+  // 90 deg at 30 deg/s and 60 deg/s^2: 0.5 s of acceleration over 7.5 deg, 2.5 s at constant speed, 0.5 s of
   // deceleration.
   const Reference far{
       .shape = Shape::trapezoid, .begin_s = 1.0, .end = 90.0, .slope = 30, .acceleration = 60};
@@ -77,7 +78,8 @@ TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
   EXPECT_EQ(at(stretches, 4.0), 82.5);
   EXPECT_EQ(at(stretches, 4.5), 90.0);
   EXPECT_EQ(at(stretches, 9.0), 90.0);
-  // 3.75 deg in the other direction: 0.25 s up to 15 deg/s and 0.25 s down, never at 30.
+  // 3.75 deg in the other direction: 0.25 s of acceleration to 15 deg/s and 0.25 s of deceleration; 30 deg/s
+  // is not reached.
   Reference near = far;
   near.end = -3.75;
   const std::vector<Stretch> there = reference_waveform(with(near));
@@ -89,8 +91,8 @@ TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
 }
 
 TEST(ReferenceCourse, TheChipsOwnProfileOfTheSameLimitsIsThereNoLater) {
-  // control/profile.hpp moves in whole ticks and is documented to be at least as fast as the continuous
-  // profile.
+  // control/profile.hpp moves in whole ticks. Its documentation says that it is at least as fast as the
+  // continuous profile.
   const double T = 1e-3;
   for (const double way : {0.001, 0.37, 3.75, 12.0, 90.0}) {
     const std::vector<Stretch> stretches =
@@ -131,7 +133,7 @@ TEST(ReferenceCourse, RestsWhereItsLastWayEnds) {
   EXPECT_EQ(rests({.shape = Shape::steps, .times_s = {0.0, 9.0}, .values = {5.0, 7.0}}), 0.0);
   EXPECT_EQ(rests({.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 1e-3}), 0.0);
   EXPECT_EQ(rests({.shape = Shape::sine, .amplitude = 1.0, .frequency_Hz = 1.0}), std::nullopt);
-  // The last reference decides, and of the one before only its value at the change.
+  // The last reference decides. Of the reference before it, only the value at the change matters.
   Scenario s = with({.shape = Shape::sine, .amplitude = 1.0, .frequency_Hz = 1.0});
   s.at.push_back({.time_s = 5.0, .reference = Reference{.value = 1.0}});
   EXPECT_EQ(reference_rests_from_s(s), 5.0);
@@ -141,7 +143,7 @@ TEST(ReferenceCourse, RestsWhereItsLastWayEnds) {
 
 TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   Scenario s = with({.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 2.0});
-  // Times count from the event, which replaces the rest of the square.
+  // Times count from the event; its reference replaces the rest of the square.
   s.at.push_back({.time_s = 5.5, .reference = Reference{.shape = Shape::ramp, .end = 6.0, .slope = 5.0}});
   s.at.push_back({.time_s = 8.0, .reference = Reference{.value = 1.0}});
   const std::vector<Stretch> stretches = reference_waveform(s);
@@ -150,7 +152,7 @@ TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   EXPECT_EQ(at(stretches, 7.9), 6.0);
   EXPECT_EQ(at(stretches, 9.0), 1.0);
   EXPECT_EQ(largest_reference(s), 6.0);
-  // The largest reference of a run that ends during a ramp is the one reached.
+  // If a run ends during a ramp, its largest reference is the largest value reached.
   s.at.pop_back();
   s.duration_s = 6.5;
   EXPECT_EQ(largest_reference(s), 4.0);
@@ -166,7 +168,7 @@ std::vector<double> recorded(Scenario s, const char* column, int parts = 1) {
   return seen;
 }
 
-/// The value in the middle of each period, which is that of its tick.
+/// The value in the middle of each period, which is the value from the period's tick.
 std::vector<double> held(const Scenario& s, const char* column) {
   const std::vector<double> rows = recorded(s, column, 2);
   std::vector<double> middles;
@@ -189,7 +191,7 @@ TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
   ASSERT_EQ(wide.size(), 667u);
   for (std::size_t n = 0; n < wide.size(); ++n) {
     const double expected = at(stretches, static_cast<double>(n) * 30'000'000 / 1e12);
-    // The engine's clock gives the time since the section's start to the picosecond.
+    // The rig's clock resolves the time since the section's start to a picosecond.
     EXPECT_NEAR(wide[n], expected, 2 * 3.0 * 2 * M_PI * 333.0 * 1e-12) << n;
     EXPECT_EQ(narrow[n], static_cast<double>(static_cast<float>(wide[n]))) << n;
     EXPECT_NEAR(fixed[n], wide[n], 8.0 * 0x1p-31) << n << ": one digit of at most 8 A full scale";
@@ -202,8 +204,8 @@ TEST(ReferenceCourse, EventComparatorsFollowItFromTickToTick) {
   s.reference = {.shape = Shape::ramp, .begin_s = 1e-3 + 1e-6, .start = 2.0, .end = 5.0, .end_s = 12e-3};
   const std::vector<Stretch> stretches = reference_waveform(s);
   const std::vector<double> seen = held(s, "i_ref_A");
-  // The step at the ramp's start, between two ticks, acts at once; the ramp itself acts at each tick, with
-  // the time since the start to the picosecond.
+  // The step at the ramp's start, between two ticks, acts at once. The ramp then acts at each tick, with the
+  // time since its start to a picosecond.
   for (std::size_t n = 0; n < seen.size(); ++n)
     EXPECT_NEAR(seen[n], at(stretches, static_cast<double>(n) * 30'000'000 / 1e12), 2 * 3.0 / 11e-3 * 1e-12)
         << n;
@@ -220,8 +222,8 @@ TEST(ReferenceCourse, ARampOutOfAFullDutyIsSeenThoughItsTicksWereSkipped) {
 }
 
 TEST(ReferenceCourse, ADutyRampDrivesTheHeldMotorAsTheSamplesSay) {
-  // Soft chopping drives the held rotor from zero current: in a period of duty d the source phase is on for d
-  // T, and the current then freewheels. The chip holds its sample between two ticks.
+  // Soft chopping drives the held rotor from zero current. In a period with duty d the source phase is on for
+  // d T, and then the current freewheels. The chip's duty is constant between two ticks.
   Scenario s = maxon_scenario(Mode::duty, 0.0);
   s.load.locked = true;
   s.initial.angle_rad = 0.02;

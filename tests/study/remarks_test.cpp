@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each remark appears where it is true, with the numbers of a hand calculation, and nowhere else.
+// Each remark appears only where it is true, with the numbers of a hand calculation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<std::string> remarks_on(const Scenario& s) {
   return out->remarks;
 }
 
-/// A torque limit without a speed loop would give a remark.
+/// A drive of any mode without the torque limit, which would cause a remark in modes without a speed loop.
 Scenario drive_of(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   if (mode != Mode::speed && mode != Mode::position) s.control.speed.torque_limit_Nm.reset();
@@ -75,7 +75,7 @@ TEST(Remarks, ValuesOfTheReferenceBehindTheEnd) {
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("2 of the 4 values")));
 }
 
-/// The drive holds 0.3 A, sampled in the middle of a centred pulse.
+/// The drive controls 0.3 A; one shunt is sampled in the middle of a centred pulse.
 Scenario on_one_shunt() {
   Scenario s = held(0.3);
   s.pwm.alignment = study::Alignment::centre;
@@ -87,19 +87,20 @@ Scenario on_one_shunt() {
 
 TEST(Remarks, AShuntThatSeesNoPulse) {
   Scenario s = on_one_shunt();
-  // The current is visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
+  // The current is visible above a duty of 2 us/30 us; at standstill this is 24 V/1.03 ohm/15 = 1.553 A.
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("that is 1.55 A"))));
   s.pwm.chopping = control::Chopping::complementary;
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("that is 1.55 A")));
-  s.pwm.chopping = control::Chopping::hard;  // no current at a duty of one half, where each pulse is seen
+  s.pwm.chopping = control::Chopping::hard;  // there is no current at a duty of one half, at which each pulse
+                                             // is visible
   EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("at rest"))));
   s.pwm.chopping = control::Chopping::soft;
   s.reference.value = 5.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// The bridge's conducting devices take a part of the voltage, and a delayed reading needs a longer pulse.
+/// The voltage drops of the bridge's devices reduce the current, and a delayed reading needs a longer pulse.
 TEST(Remarks, AShuntBehindARealBridge) {
   Scenario s = on_one_shunt();
   const double R = 1.03 / 2, d = 2e-6 / 30e-6;
@@ -126,8 +127,8 @@ TEST(Remarks, AShuntBehindARealBridge) {
   s.sensors.current_bandwidth_Hz.reset();
 }
 
-/// Complementary chopping turns the upper switch on a dead time later: 3 us remain of a pulse of 4 us around
-/// its sample. Their last half, less a dead time, is the microsecond that the amplifier needs.
+/// Complementary chopping turns the upper switch on after a dead time: of a pulse of 4 us around its sample,
+/// 3 us remain. After the dead time, 1 us remains before the sample, the settling time of the amplifier.
 TEST(Remarks, AShuntBehindADeadTime) {
   Scenario s = on_one_shunt();
   s.pwm.chopping = control::Chopping::complementary;
@@ -135,19 +136,19 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 4.0 / 30, 1e-15);
   const double hidden_A = study::unseen_at_rest_A(s, 1.03 / 2);
   EXPECT_NEAR(hidden_A, 24 * 3e-6 / 30e-6 / 1.03, 1e-12);
-  // A current above hidden_A is measured and so held; a smaller one is not.
+  // A current above hidden_A is measured and can be controlled; a smaller current is not measured.
   s.reference.value = 1.1 * hidden_A;
   EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("the shunt"))));
   s.reference.value = 0.5 * hidden_A;
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.133"), HasSubstr("bridge.dead_time_s = 1 us"),
                              HasSubstr("that is 2.33 A"))));
-  s.pwm.chopping = control::Chopping::soft;  // no other switch of the leg to wait for
+  s.pwm.chopping = control::Chopping::soft;  // no other switch of the leg is on before: no dead time
   EXPECT_NEAR(study::least_visible_duty(s), 2.0 / 30, 1e-15);
 }
 
-/// The drive omits a pulse of 3 us although its sample would be valid from 2 us on: half of 3 us is the
-/// settling time of its configuration.
+/// The drive omits pulses below 3 us. The sample of such a pulse would be valid from 2 us on, but half of 3
+/// us is the configured settling time.
 TEST(Remarks, SamplesThatTheDriveTakesTooSoon) {
   Scenario s = on_one_shunt();
   s.pwm.minimum_pulse_s = 3e-6;
@@ -163,8 +164,8 @@ TEST(Remarks, HallEdgesRarerThanTheTimeout) {
   Scenario s = drive_of(Mode::speed, 2.0);
   s.duration_s = 10e-3;
   s.sensors.rotor = study::RotorSensing::hall;
-  // Eight pole pairs have an edge each (pi/3)/(8 x 2) = 65.4 ms; the slowest speed is (pi/3)/8/50 ms = 2.618
-  // rad/s.
+  // With eight pole pairs at 2 rad/s an edge occurs each (pi/3)/(8 x 2) = 65.4 ms. The slowest speed is
+  // (pi/3)/8/50 ms = 2.618 rad/s.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("each 65.4 ms"), HasSubstr("timeout_s = 50 ms"),
                                             HasSubstr("slowest speed that is measured is 2.62 rad/s"))));
   s.reference.value = 5.0;
@@ -201,14 +202,14 @@ TEST(Remarks, GainsPerSecondAreThoseOfASampleTimesThePeriod) {
 TEST(Remarks, ASettlingTimeThatIsSlowerThanTheRotorItself) {
   Scenario s = drive_of(Mode::speed, 100.0);
   s.duration_s = 2e-3;
-  s.control.speed.settle_s = 20.0;  // J/B is 1.85 s: 20 ms were meant
+  s.control.speed.settle_s = 20.0;  // J/B is 1.85 s: the user meant 20 ms
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("negative"), HasSubstr("control.speed.settle_s"))));
   s.control.speed.settle_s = 20e-3;
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// The proportional gain of instability by hand: z - a + b kp = 0 at z = -1 gives kp = (1 + a)/b; with one
-/// period of delay z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
+/// The proportional gain at which the loop becomes unstable, by hand: z - a + b kp = 0 at z = -1 gives kp =
+/// (1 + a)/b. With one period of delay, z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
 TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   const double R = 1.03, L = 0.572e-3, T = 30e-6, a = std::exp(-R * T / L), b = (1 - a) / R;
   for (const bool delayed : {false, true}) {
@@ -217,7 +218,7 @@ TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
       Scenario s = held(5.0);
       s.pwm.delay_periods = delayed ? 1 : 0;
       s.control.current.d1 = part * edge;
-      s.control.current.d0 = -part * edge * (1 - 1e-6);  // almost no integral
+      s.control.current.d0 = -part * edge * (1 - 1e-6);  // almost no integral part
       const auto told = remarks_on(s);
       if (part > 1.0)
         EXPECT_THAT(told, Contains(HasSubstr("current loop is unstable"))) << delayed;
@@ -227,7 +228,7 @@ TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   }
 }
 
-/// Each key alone on a drive without use for it gives a remark, and none where it has an effect.
+/// Each of the keys without effect on the drive gives a remark; a key that has an effect gives none.
 TEST(Remarks, KeysWithoutEffectAreNamed) {
   const std::pair<const char*, void (*)(Scenario&)> keys[] = {
       {"sensors.current_noise_A (sensors.currents is ideal)",
@@ -265,7 +266,7 @@ TEST(Remarks, ABackEmfAboveTheBus) {
   Scenario s = drive_of(Mode::off, 0.0);
   s.duration_s = 2e-3;
   s.initial.speed_rad_s = 800.0;
-  // 33.5 mNm/A give 26.8 V between two terminals at 800 rad/s.
+  // 33.5 mV s/rad give 26.8 V between two terminals at 800 rad/s.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("back-EMF of 26.8 V"), HasSubstr("bus of 24 V"))));
   s.initial.speed_rad_s = 700.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
@@ -286,7 +287,8 @@ TEST(Remarks, AWindingAboveItsLimit) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// A winding just below its limit by the values is beyond it by their ranges; one far below is not.
+/// A winding is just below its limit by the sheet's values, but above it at the ends of their ranges. A
+/// winding far below its limit has no remark.
 TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
   Scenario s = held(10.0);
   s.duration_s = 2.0;
@@ -298,7 +300,7 @@ TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
   s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
   s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
   s.heat.motor = true;
-  // 10 A in 1.03 ohm over two seconds put 206 J into 2.5 J/K, or into 1 J/K.
+  // 10 A in 1.03 ohm over two seconds are 206 J, for a heat capacity of 2.5 J/K or of 1 J/K.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("the winding stayed below 125 degC"),
                                             HasSubstr("thermal_time_constant_winding_s = 4"))));
   s.duration_s = 0.2;
@@ -316,7 +318,7 @@ TEST(Remarks, FewSamplesInACommutationStep) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// Three legs switch in each period, and no current changes its phase at an edge.
+/// Three legs switch in each period; no current is transferred from one phase to another at an edge.
 TEST(Remarks, AFieldOrientedDriveHasNoCommutationSteps) {
   Scenario s = drive_of(Mode::current, 0.0);
   s.sheet.back_emf = design::BackEmfShape::sine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios built in C++ run from end to end.
+// Complete runs of scenarios that are built in C++.
 #include "sixstep/study/run/run.hpp"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(Run, GridHasARowPerPointAndOneAtTheEnd) {
 }
 
 TEST(Run, GridRowsAreRightLimits) {
-  // The duty steps on a grid point: the row there shows the gates after it.
+  // The duty steps on a grid point: the row at this point shows the gates after the step.
   Scenario s = maxon_scenario(Mode::duty, 0.0);
   s.reference.shape = Shape::steps;
   s.reference.times_s = {0.0, 3e-3};
@@ -127,8 +127,8 @@ TEST(Run, GridRowsAreRightLimits) {
 }
 
 TEST(Run, AGridRowOnATickIsBehindItWhereverTheLastEdgeWas) {
-  // Edges fall between picoseconds, so that the time from them to the tick is rounded. The row at the tick
-  // shows the tick's command: each period begins with the upper switch on.
+  // Edges fall between picoseconds, so that the time from an edge to the tick is rounded. The row at the tick
+  // must show the tick's command: each period begins with the upper switch on.
   Scenario s = current_square();
   s.record.grid_s = s.pwm.period_s;
   s.record.columns = {"duty", "gate_T1", "gate_T3", "gate_T5"};
@@ -148,8 +148,8 @@ TEST(Run, SinglePrecisionControlFollowsDouble) {
   s.control.arithmetic = Arithmetic::float32;
   const auto narrow = run(s);
   ASSERT_TRUE(wide && narrow);
-  // 667 samples have a few roundings of 24 V in single precision each; an error in the loop decays faster
-  // than that.
+  // 667 samples have a few single-precision roundings of 24 V each. An error in the loop decays faster than
+  // this sum grows.
   const double bound = 667 * 4 * 0x1p-23 * 24.0 / 1.03;
   EXPECT_NEAR(asked(*wide, 1), asked(*narrow, 1), bound);
   EXPECT_NEAR(asked(*wide, 2), asked(*narrow, 2), bound);
@@ -177,7 +177,7 @@ TEST(Run, StallFollowsTheClosedForm) {
 }
 
 TEST(Run, NoLoadSteadyStateIsTheReferences) {
-  // The values are R2's means over [0.2, 0.3] s.
+  // The expected values are the means of R2 over [0.2, 0.3] s.
   Scenario s = maxon_scenario(Mode::duty, 1.0);
   s.duration_s = 0.3;
   for (const Signal signal : {Signal::speed, Signal::current_magnitude}) {
@@ -238,17 +238,17 @@ TEST(Run, APulseOrGapBelowTheMinimumIsNotSwitched) {
                                                   {0.04, 1.3e-6, 0},
                                                   {0.96, 1.1e-6, 100},
                                                   {0.96, 1.3e-6, 1}}) {
-    Scenario s = maxon_scenario(control::Mode::duty, duty);  // 1.2 us of 30 us
+    Scenario s = maxon_scenario(control::Mode::duty, duty);  // the pulse is 1.2 us of 30 us
     s.pwm.minimum_pulse_s = minimum_s;
-    s.duration_s = 2.99e-3;  // 100 periods begin
+    s.duration_s = 2.99e-3;  // number of started periods: 100
     const auto out = run(s);
     ASSERT_TRUE(out);
     EXPECT_EQ(out->turn_ons, turn_ons) << duty << " " << minimum_s;
   }
 }
 
-/// The switching frequency of a pair and of three legs equals the PWM's: the period that begins at the run's
-/// end does not count.
+/// The switching frequency of a pair and of three legs equals the PWM frequency: the period that begins at
+/// the end of the run does not count.
 TEST(Run, APwmReadsItsOwnFrequency) {
   Scenario pair = maxon_scenario(control::Mode::duty, 0.5);
   pair.duration_s = 3e-3;  // 100 periods

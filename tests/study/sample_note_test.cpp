@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A note appears where a figure of the controller's samples differs from that of the whole signal. Its advice
-// removes the difference.
+// A note appears if a figure of merit of the controller's samples differs from the figure of the whole
+// signal. Its advice removes the difference.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,8 +16,8 @@ using namespace sixstep::testing;
 using study::MetricKind;
 using study::Scenario;
 
-/// The drive holds 2 A in the held rotor: a duty of 0.14, so that the ripple is 24 V 0.12 30 us/(2 0.286 mH)
-/// = 0.15 A.
+/// The drive controls 2 A in the held rotor at a duty of 0.14: the ripple is 24 V 0.12 30 us/(2 0.286 mH) =
+/// 0.15 A.
 Scenario held(MetricKind metric) {
   Scenario s = maxon_scenario(control::Mode::current, 2.0);
   s.load.locked = true;
@@ -36,7 +36,7 @@ study::Outcome ran(const Scenario& s) {
   return *outcome;
 }
 
-/// The requirement is the samples' value, to a fortieth of the current.
+/// The requirement is the figure of the samples, within a fortieth of the current.
 Scenario asked_of_its_samples(MetricKind metric) {
   Scenario s = held(metric);
   s.require[0].min = -1e9;
@@ -73,7 +73,7 @@ TEST(SampleNote, ItsAdviceMakesItGoAway) {
   }
 }
 
-/// No instant of the sample shows the ripple on top of an overshoot at the start.
+/// Wherever the sample is in the period, it does not show the ripple on top of an overshoot at the start.
 TEST(SampleNote, WhereTheSampleStandsAlreadyTheWholeSignalIsLeft) {
   Scenario s = asked_of_its_samples(MetricKind::maximum);
   s.pwm.alignment = study::Alignment::centre;

@@ -21,7 +21,7 @@ using study::Scenario;
 using study::Signal;
 using ::testing::HasSubstr;
 
-/// The drive holds 5 A in the held rotor: only the measurement changes the result.
+/// The drive controls 5 A in the held rotor: only the measurement changes the result.
 Scenario held_at_5_A() {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
@@ -46,8 +46,8 @@ double mean_of(const Scenario& s) {
 }
 
 TEST(Sensors, ConverterHoldsTheCurrentWithinHalfACount) {
-  // The integral holds the mean reading at 5 A, which is exactly a count; every reading is within half a
-  // count of its current.
+  // The integral controls the mean reading to 5 A, which is a whole number of counts. Every reading is within
+  // half a count of its current.
   const double ideal = mean_of(held_at_5_A());
   for (const int bits : {8, 10, 12, 16}) {
     const double lsb = 2 * 20.48 / (1 << bits);
@@ -59,15 +59,15 @@ TEST(Sensors, AGainErrorIsTheCurrentsOwn) {
   Scenario s = with_phases(held_at_5_A(), 16);
   const double ideal = mean_of(held_at_5_A());
   s.sensors.current_gain_error = 0.05;
-  // The loop holds a reading that is 5 % too large at 5 A: the sampled current is 5 A/1.05. The mean is half
-  // a ripple above the samples, and 2 % of duty change that by at most 2 % of itself.
+  // The loop controls a reading that is 5 % too large to 5 A: the sampled current is 5 A/1.05. The mean is
+  // half a ripple above the samples. A change of the duty by 2 % changes the ripple by at most 2 %.
   EXPECT_NEAR(mean_of(s), ideal - 5.0 * (1 - 1 / 1.05), 0.05 * (ideal - 5.0) + 20.48 / (1 << 15));
 }
 
 TEST(Sensors, CalibrationTakesTheOffsetAway) {
   Scenario s = with_phases(held_at_5_A());
   const double plain = mean_of(s);
-  // i_m = (i_a - i_b)/2: equal offsets cancel even without calibration; the shunt has only one (below).
+  // i_m = (i_a - i_b)/2: equal offsets cancel even without calibration. A shunt has only one offset (below).
   s.sensors.current_offset_A = 0.5;
   EXPECT_NEAR(mean_of(s), plain, 20.48 / (1 << 11));
 }
@@ -88,7 +88,8 @@ study::At drifts(double at_s, std::optional<double> offset_A, std::optional<doub
   return at;
 }
 
-/// The drive measured its zero before the drift. Its readings then equal those of an uncalibrated offset.
+/// The drive measured its zero before the drift. After the drift its readings equal those with an offset that
+/// was never calibrated.
 TEST(Sensors, AnAmplifierThatDriftsShiftsEverySampleByJustThat) {
   for (Scenario drifted : {with_phases(held_at_5_A()), with_shunt(held_at_5_A())}) {
     Scenario never_measured = drifted;
@@ -107,9 +108,9 @@ TEST(Sensors, AnAmplifierThatDriftsShiftsEverySampleByJustThat) {
 TEST(Sensors, AnOffsetThatJumpsDuringTheRunMovesTheShuntsCurrentByIt) {
   Scenario s = with_shunt(held_at_5_A());
   s.sensors.adc_bits = 16;
-  s.sensors.current_offset_A = 0.2;  // the drive measured this one
+  s.sensors.current_offset_A = 0.2;  // the drive measured this offset
   const double before = mean_of(s);
-  s.at.push_back(drifts(4e-3, 0.2 + 0.5, {}));  // and knows 0.2 A of this one
+  s.at.push_back(drifts(4e-3, 0.2 + 0.5, {}));  // and still subtracts 0.2 A after the drift
   EXPECT_NEAR(mean_of(s), before - 0.5, 2 * 20.48 / (1 << 15));
   s.at.push_back(drifts(7e-3, 0.2, {}));
   EXPECT_NEAR(mean_of(s), before, 2 * 20.48 / (1 << 15));
@@ -149,8 +150,8 @@ TEST(Sensors, ShuntsOffsetShowsUntilItIsCalibrated) {
 }
 
 TEST(Sensors, OneShuntHoldsTheCurrentOfPhaseSensing) {
-  // The rotor is held, and the pulses are long enough to sample: both measurements give the same sample to
-  // one count of the converter.
+  // The rotor is held, and the pulses are long enough to sample: both kinds of measurement give the same
+  // sample within one count of the converter.
   Scenario ideal = held_at_5_A();
   ideal.pwm.alignment = study::Alignment::centre;
   ideal.pwm.sample = study::SampleAt::middle;
@@ -171,26 +172,26 @@ TEST(Sensors, IdealOnesLeaveTheRunAsItIs) {
   const std::uint64_t plain = study::run(s)->digest;
   s.sensors.seed = 5;
   s.sensors.adc_bits = 8;
-  s.sensors.current_noise_A = 1.0;  // of a converter without a signal
+  s.sensors.current_noise_A = 1.0;  // noise of a converter that ideal measurement does not use
   EXPECT_EQ(study::run(s)->digest, plain);
 }
 
 TEST(Sensors, ErrorsOfTheBusConverterAreTheDutys) {
-  // The duty divides by the bus reading: 5 % too much and 1 V more reduce the voltage by 5 % and 1/25.2,
-  // which the integral restores; the current is unchanged.
+  // The duty is divided by the bus reading. A reading that is 5 % and 1 V too high reduces the voltage by 5 %
+  // and by 1/25.2. The integral restores the voltage, and the steady current is unchanged.
   Scenario s = with_phases(held_at_5_A(), 16);
   s.control.current.measured_bus_from_V = 10.0;
   s.sensors.bus = study::BusSensing::adc;
   s.sensors.bus_range_V = 40.96;
   study::Measure first = measure(MetricKind::maximum, Signal::current);
-  first.to_s = 29e-6;  // s, the end of the first period, before any feedback
+  first.to_s = 29e-6;  // s; the end of the first period, before any feedback
   s.compare.clear();
   ask(s, first);
   const double right = mean_of(s);
   s.sensors.bus_gain_error = 0.05;
   s.sensors.bus_offset_V = 1.0;
-  // The current is the on-time times U/L, less the part that R takes meanwhile: 30 us against 0.56 ms. Half a
-  // count of 16 bits, 0.3 mV, is negligible.
+  // The current is the on-time times U/L. R reduces it only slightly: 30 us are short compared with 0.56 ms.
+  // Half a count of 16 bits, 0.3 mV, is negligible.
   EXPECT_NEAR(mean_of(s) / right, 24.0 / (24.0 * 1.05 + 1.0), 0.03);
 }
 
@@ -205,15 +206,15 @@ Scenario at_100_rad_s() {
 }
 
 TEST(Sensors, SpeedFromHallEdgesHoldsTheSpeed) {
-  // The speed loop is slow: the exact pole placement assumes a speed without delay, but edges give the speed
-  // an electrical turn late.
+  // The speed loop is slow: the exact pole placement assumes a speed without delay, but the speed from edges
+  // is a sector late.
   Scenario s = at_100_rad_s();
   s.control.speed.settle_s = 0.1;
   s.control.speed.damping = 0.9;
   s.sensors.rotor = study::RotorSensing::hall;
   s.sensors.speed_edges = 1;
-  // The mean of 1/T over equal sectors is exact except for the timer's count: 1 in 1309 at 1 MHz. The
-  // integral holds the time mean of the reading at 100; the ripple within a sector, 0.4 %, remains.
+  // The mean of 1/T over equal sectors is exact within a timer count, 1 in 1309 at 1 MHz. The integral
+  // controls the time mean of the reading to 100 rad/s; the ripple within a sector, 0.4 %, remains.
   EXPECT_NEAR(mean_of(s), 100.0, 100.0 * (1.0 / 1309 + 0.004));
 }
 
@@ -228,7 +229,8 @@ TEST(Sensors, CoarseTimerShowsInTheSpeed) {
 }
 
 TEST(Sensors, PositionFromHallEdgesComesToItsTarget) {
-  // The target is the middle of a sector, 7.5 degrees wide, which a rotor at rest anywhere in it reads.
+  // The target is the middle of a sector, which is 7.5 degrees wide. A rotor at rest anywhere in the sector
+  // reads as the middle.
   Scenario s = maxon_scenario(Mode::position, 363.75);
   s.duration_s = 0.6;
   s.control.speed.settle_s = 0.05;
@@ -238,13 +240,13 @@ TEST(Sensors, PositionFromHallEdgesComesToItsTarget) {
   ask(s, measure(MetricKind::final_value, Signal::position));
   const auto out = study::run(s);
   ASSERT_TRUE(out);
-  // Without friction the rotor drifts until an edge shows it, and turns back there: half a sector, and at
-  // most one more.
+  // Without friction the rotor drifts until it passes an edge, and then turns back: the error is up to half a
+  // sector plus one sector.
   EXPECT_NEAR(out->comparisons[0].measured, 363.75, 1.5 * 7.5);
 }
 
 TEST(Sensors, FixedPointReadsTheSameCounts) {
-  // One count of 12 bits over 20.48 A is 10 mA; a digit of Q15 with the bases of the scenario is 0.46 mA.
+  // One count of 12 bits over +-20.48 A is 10 mA. A digit of Q15 with the scenario's bases is 0.46 mA.
   Scenario s = with_phases(held_at_5_A());
   const double wide = mean_of(s);
   for (const Arithmetic a : {Arithmetic::q15, Arithmetic::q31, Arithmetic::float32}) {
@@ -262,14 +264,14 @@ TEST(Sensors, ABrokenLineStopsTheBridgeAndIsNamed) {
       ASSERT_TRUE(out);
       ASSERT_TRUE(out->fault) << line;
       EXPECT_THAT(out->fault->limit, HasSubstr("line H" + std::to_string(line)));
-      // A line that breaks just after its own edge reverses that edge. Its next edge, three sectors later, is
-      // missing; one sector later another line makes the code impossible. These are five sectors of 1.31 ms
-      // at 100 rad/s, less the slowing by the wrong pair.
+      // A line that breaks just after one of its edges reverses this edge. Its next edge, three sectors
+      // later, is missing. One sector later an edge of another line makes the code impossible. This is within
+      // five sectors of 1.31 ms at 100 rad/s, less the slowing by the wrong pair.
       EXPECT_LE(out->simulated_s, 0.1 + 5 * 1.31e-3 * 1.05);
     }
 }
 
-/// The longest time with an impossible code on the pins while the run continued.
+/// Time between the first and the last event with an impossible code on the pins.
 double impossible_for(const Scenario& s) {
   std::size_t column = 0;
   while (study::all_columns()[column].name != "hall") ++column;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session's slices, reads and copies do not change a bit; its changes replay from its scenario.
+// A session's slices, readings and copies do not change a bit. A scenario with the session's changes replays
+// its run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -126,7 +127,7 @@ TEST(Session, ListenersHearTheSame) {
   }
 }
 
-/// The values equal the grid's record of the uninterrupted run, at instants between any two events.
+/// At instants between any two events, the values equal the grid record of the uninterrupted run.
 TEST(Session, ShowsTheInstantAskedForWithoutCuttingASegment) {
   Scenario s = cascade();
   s.record.grid_s = 7.301e-6;  // never on a PWM edge
@@ -177,8 +178,8 @@ TEST(Session, ACopyIsASavedState) {
   }
 }
 
-/// Open loop at full duty skips its ticks: polynomials extend far ahead, and a change must act after their
-/// present segment.
+/// In open loop at full duty the rig skips ticks: its polynomials extend far ahead. A change must act
+/// although it comes during such a segment.
 TEST(Session, AChangeAtSteadyDutyIsSeen) {
   for (const double after_s : {0.0, 1e-3, 3.33e-3}) {
     Session session = opened(full_duty());
@@ -214,7 +215,7 @@ TEST(Session, WhatItWasToldReplaysInEveryFirmwareAndArithmetic) {
       dead.pwm.chopping = AtChopping::complementary;
       told(session, dead);
       session.advance(3.456e-3);
-      (void)session.change(gains(1.5e-3));  // refused, because a hysteresis has no gains
+      (void)session.change(gains(1.5e-3));  // refused, because a hysteresis controller has no gains
       session.advance(4e-3);
       session.advance(s.duration_s);
       EXPECT_TRUE(session.over());
@@ -279,7 +280,7 @@ TEST(Session, WhatIsRefusedChangesNothing) {
   both.control.current.d1 = 1.0;
   both.control.current.d0 = -0.9;
   both.control.current.settle_s = 1e-3;
-  faster.reference = Reference{.value = 1e5};  // beyond the scaling
+  faster.reference = Reference{.value = 1e5};  // exceeds the scaling
   mode.control.mode = AtMode::current;         // without a reference in A
   const struct {
     const At& at;
@@ -299,8 +300,8 @@ TEST(Session, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(closed(session).digest, outcome(s).digest);
 }
 
-/// The window that a limit gives the current follows from the largest reference of the run. A larger
-/// reference would change the drive from the start, and is refused.
+/// The largest reference of the run determines the current's scaling under a limit. A larger reference would
+/// change the drive from the start of the run; it is refused.
 TEST(Session, TheLimitsThatWereFeltStay) {
   Scenario s = maxon_scenario(Mode::current, 4.0);
   s.control.limits.speed_rad_s = 300.0;

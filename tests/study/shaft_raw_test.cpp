@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The outputs of encoders and resolvers, as columns of the trace and as logic lines, equal model.md 10 to the
-// last digits, at the angle in the same row. The edges are at the instants of a uniform rotation.
+// last digits, for the angle in the same row. The edges are at the instants of a uniform rotation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ int for_each_row(const Scenario& s, Look&& look) {
   return rows;
 }
 
-/// Rows lie on the borders too, where the last digit of theta decides.
+/// Whether the angle is on a border between two counts, where the last digit of theta decides.
 bool near_border(double parts) { return std::fabs(parts - std::floor(parts + 0.5)) < 1e-9; }
 
 TEST(RawColumns, AnEncodersLinesAreThoseOfTheirEquation) {
@@ -75,7 +75,8 @@ TEST(RawColumns, AnAbsoluteCodeIsThatOfItsEquation) {
   });
 }
 
-// The excitation has its peaks at a drive's samples, or a chip starts it at t = 0.
+// If the drive samples, the excitation has its peaks at the samples; if a converter chip excites, the
+// excitation starts at t = 0.
 TEST(RawColumns, AResolversVoltagesAreThoseOfTheirEquations) {
   for (const auto reading : {rig::ResolverReading::sampled, rig::ResolverReading::tracking}) {
     Scenario s = turned(RotorSensing::resolver);
@@ -88,7 +89,7 @@ TEST(RawColumns, AResolversVoltagesAreThoseOfTheirEquations) {
       if (of(ColumnId::t) == 0) return;
       const double carrier = two_pi * r.excitation_Hz * of(ColumnId::t) + quarter,
                    phi = 2 * of(ColumnId::angle);
-      // A turn of the excitation is 60 us, the row's instant a whole number of ps.
+      // A period of the excitation is 60 us; the row's instant is a whole number of ps.
       const double tolerance = 1.7 * (two_pi * r.excitation_Hz * 1e-12 + 1e-11);
       EXPECT_NEAR(of(ColumnId::resolver_cos_V), 1.7 * std::sin(carrier + 8 * deg) * std::cos(phi), tolerance);
       EXPECT_NEAR(of(ColumnId::resolver_sin_V),
@@ -137,7 +138,8 @@ TEST(RawColumns, AreRecordedWhereTheSensorIsFitted) {
   EXPECT_EQ(names(RotorSensing::resolver), "resolver_cos_V resolver_sin_V ");
 }
 
-// A logic analyser has each edge at its own picosecond, not at the next event: theta_0 + w t = n 2 pi/4N.
+// In the logic record each edge has its own picosecond, not that of the next event: theta_0 + w t = n 2 pi/(4
+// N).
 TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
   const Scenario s = turned(RotorSensing::encoder);
   std::int64_t n = static_cast<std::int64_t>(std::floor(2000 * theta_0 / two_pi));
@@ -151,7 +153,8 @@ TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
                          if (pins != last && last != 8) {
                            ++edges;
                            ++n;
-                           // The bound is a ps and the rounding of theta, 1e-15 of a few rad over w.
+                           // The bound is one picosecond plus the rounding of theta, 1e-15 of a few rad,
+                           // divided by w.
                            EXPECT_NEAR(static_cast<double>(ps),
                                        (static_cast<double>(n) * two_pi / 2000 - theta_0) / w * 1e12, 3);
                          }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers in whole runs: the drive uses their decoders' values and has the results of ideal
-// sensors; impossible scenarios are refused.
+// Encoders and resolvers in whole runs. The drive uses their decoders' values, and its results are compared
+// with those of ideal sensors. Impossible scenarios are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(ShaftSensors, ACascadeRunsOnEachAsOnIdealOnes) {
     const Outcome out = outcome_of(sensed(s, kind));
     EXPECT_NE(out.digest, ideal.digest);
     EXPECT_NEAR(out.comparisons[0].measured, ideal.comparisons[0].measured, 1.0) << static_cast<int>(kind);
-    // The 12 bits of the resolver's converter add noise to the current.
+    // The resolver's 12-bit converter adds noise to the current.
     EXPECT_NEAR(out.comparisons[1].measured / ideal.comparisons[1].measured, 1, 0.35)
         << static_cast<int>(kind);
   }
@@ -53,7 +53,7 @@ TEST(ShaftSensors, APositionIsHeldToTheirResolution) {
     Scenario s = cascade(0.6);
     s.control.mode = Mode::position;
     s.control.position.gain_rad_s_per_deg = 0.2;
-    s.reference.value = 400;  // over a turn
+    s.reference.value = 400;  // more than one turn
     s.load.coulomb_Nm = 0.002;
     ask(s, measure(MetricKind::final_value, Signal::position));
     EXPECT_NEAR(outcome_of(sensed(s, kind)).comparisons[0].measured, 400, 0.5) << static_cast<int>(kind);
@@ -120,7 +120,7 @@ TEST(RotorDecoders, TellSpeedAngleAndSectorOfASteadyRotor) {
         ports.follow(rig::ShaftMotion<double>{y, sample.shaft.sector, 8, 1.0, sim::to_instant(t),
                                               sim::to_instant(t + T), sim::to_instant(t + T)});
       }
-      // The decoders show a sector's edge up to 0.2 degrees late, of a sector of 7.5 degrees.
+      // The decoders show a sector edge up to 0.2 degrees late; a sector has 7.5 degrees.
       EXPECT_LT(wrong_sectors, 1500 * 0.2 / 7.5) << static_cast<int>(kind) << " at " << w;
     }
 }
@@ -156,7 +156,7 @@ TEST(RotorDecoders, TakeOffWhatAResolverIsKnownToBeWrongBy) {
       const double shown = std::atan2(1.05 * std::cos(20 * deg) * std::sin(theta + 2 * deg),
                                       std::cos(10 * deg) * std::cos(theta));
       const double error_deg = std::remainder(shown - theta, 2 * base::pi) / deg;
-      // A count of 12 bits over 0.8 of the range is 0.035 degrees.
+      // One count of 12 bits, with 0.8 of the range used, is 0.035 degrees.
       EXPECT_NEAR(m.position_deg - theta / deg, calibrated ? 0.0 : error_deg, 0.07) << n << " " << calibrated;
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive that monitors its encoder or resolver names the fault at the closed form's time, and reports none
-// for a sound sensor with any allowed errors and noise. An external drive turns the shaft at constant speed,
-// so that angles have a closed form.
+// A drive that monitors its encoder or resolver names the fault at the time of the closed form. It reports no
+// fault for a sound sensor with any allowed errors and noise. An external drive turns the shaft at constant
+// speed, so that angles have a closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr double w = turned_rad_s, theta_0 = turned_from_rad, deg = base::pi / 180;
 
-/// The time at which the shaft passes the angle in its first turn.
+/// The time, s, at which the shaft passes an angle in its first turn.
 double time_at(double angle_deg) { return (angle_deg * deg - theta_0) / w; }
 
 Scenario turned(RotorSensing rotor, double to_deg) {
@@ -49,8 +49,8 @@ constexpr rig::ResolverReading readings[] = {rig::ResolverReading::sampled, rig:
 
 std::string fault_of(const Outcome& out) { return out.fault ? to_string(*out.fault) : "none"; }
 
-// Without the cosine, the sum of squares is the sine's square alone. It falls below half at 45 degrees before
-// the sine's zero.
+// Without the cosine, the sum of squares is only the sine's square. It falls below one half 45 degrees before
+// the sine is zero.
 TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 200);
@@ -58,8 +58,8 @@ TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
     s.at.back().sensors.broken_winding = Winding::cosine;
     const Outcome out = outcome_of(s);
     EXPECT_THAT(fault_of(out), HasSubstr("cosine winding nothing"));
-    // A count of the converter moves the instant at which the square passes its limit. The fault is the
-    // second of two results, each half a peak late.
+    // A count of the converter moves the instant at which the square falls below its limit. The fault needs
+    // two results, each of which is half a period of the excitation late.
     EXPECT_NEAR(out.simulated_s, time_at(135), 2.5 * s.pwm.period_s + 1.25 / 2048 / w);
     s.at.back().sensors.broken_winding = Winding::sine;
     const Outcome sine = outcome_of(s);
@@ -74,7 +74,7 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     double part;
     const char* text;
   };
-  // Half of the square is an amplitude of 0.707, a quarter more is 1.118.
+  // Half of the square is an amplitude of 0.707; a quarter more than the square is 1.118.
   const Case cases[] = {{0.0, "excitation is lost"},
                         {0.5, "50 % of its amplitude, less"},
                         {0.69, "69 % of its amplitude, less"},
@@ -94,7 +94,7 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     }
 }
 
-// During the gap the speed stays the loop's. After it the angle follows the windings again.
+// During the gap the loop keeps its speed. After the gap the angle follows the windings again.
 TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 300);
@@ -113,8 +113,8 @@ TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   }
 }
 
-// The resolver has the largest allowed errors and noise, over more than a turn: it is lost only where it
-// breaks.
+// The resolver has the largest allowed errors and noise and turns by more than a turn. The drive reports a
+// loss only after the excitation fails.
 TEST(ShaftWatch, AWholeResolverIsNeverLost) {
   for (const auto reading : readings)
     for (const bool calibrated : {false, true}) {
@@ -141,8 +141,8 @@ int missing_of(const Outcome& out) {
   return at == std::string::npos ? 0 : std::atoi(text.c_str() + at + before.size());
 }
 
-// The index finds the counts missing since the line stuck, counted in the shorter direction. The next sample
-// detects the fault.
+// At the index the drive finds the number of counts missing since the line stuck, counted in the shorter
+// direction. It reports the fault at the next sample.
 TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
   for (const EncoderLine line : {EncoderLine::A, EncoderLine::B})
     for (const double stuck_deg : {60.0, 250.0}) {
@@ -157,25 +157,25 @@ TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
     }
 }
 
-// A disturbance gives an index too early, by the rest of the turn. Where this error is within a sector's
-// counts, the drive corrects it, wrongly.
+// A disturbance causes an index that is too early by the rest of the turn. If this error is within the counts
+// of a sector, the drive corrects its count, wrongly.
 TEST(ShaftWatch, AFalseIndexIsNamedWhereItIsMoreThanASectorOff) {
   Scenario s = turned(RotorSensing::encoder, 340);
   s.at.push_back(at_angle(250));
   s.at.back().sensors.false_index = true;
   Outcome out = outcome_of(s);
   EXPECT_NEAR(missing_of(out), (360 - 250.0) / 360 * 4096, 2);
-  s.at.back() = at_angle(355);  // a sector is 7.5 degrees of this shaft
+  s.at.back() = at_angle(355);  // a sector is 7.5 degrees of the shaft
   s.at.back().sensors.false_index = true;
   s.duration_s = time_at(358);
   EXPECT_EQ(fault_of(outcome_of(s)), "none");
-  // The true index then finds as many counts too many.
+  // The true index then finds the same number of counts too many, and the drive corrects them.
   s.duration_s = time_at(362);
   EXPECT_EQ(fault_of(outcome_of(s)), "none");
 }
 
 TEST(ShaftWatch, EdgesThatAreMissedAreMendedWithinASector) {
-  for (const int missed : {60, 120}) {  // of 85.3 counts to a sector
+  for (const int missed : {60, 120}) {  // a sector has 85.3 counts
     Scenario s = turned(RotorSensing::encoder, 380);
     s.at.push_back(at_angle(200));
     s.at.back().sensors.missed_edges = missed;

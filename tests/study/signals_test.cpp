@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cheap bounds of a signal, with which most segments need no search for extremes.
+// The cheap bounds of a signal, which make the search for extremes unnecessary in most segments.
 #include "sixstep/study/measure/signals.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ struct WithinBounds {
                                      b = signal_bounds(segment_view(rig), signal);
       ++segments;
       breaches += !(b.low <= e.low && e.high <= b.high);
-      // The bounds of a straight line are itself and, on the other side, its mirror image: twice as wide.
+      // For a straight line the bounds are the line on one side and its mirror image on the other: twice as
+      // wide as necessary.
       useful += b.high - b.low <= 2.5 * (e.high - e.low) + 1e-9;
     }
   }
@@ -63,9 +64,9 @@ TEST(SignalBounds, NoneForWhatHasNoneAtHand) {
   EXPECT_EQ(signal_bounds(segment_view(rig), Signal::torque).low, -std::numeric_limits<double>::infinity());
 }
 
-/// Compares every signal with the snapshot of the same instant, column by column and power by power.
+/// Compares every signal with the trace's values at the same instant: columns by name, and the powers.
 struct AgainstTheTrace {
-  double worst = 0.0;  ///< difference over the signal's natural size
+  double worst = 0.0;  ///< difference divided by the signal's natural size
   std::string where;
   std::int64_t compared = 0, floating_stars = 0, high_degrees = 0;
 
@@ -106,7 +107,7 @@ struct AgainstTheTrace {
       }
     derived(rig, fact, value, s);
   }
-  /// The signals without a column.
+  /// Compares a signal that has no column with its formula.
   template <class Rig>
   void derived(const Rig& rig, const SignalFact& fact, double value, double s) {
     const auto& c = rig.plant().constants();
@@ -159,7 +160,7 @@ struct AgainstTheTrace {
 };
 
 TEST(Signals, AreWhatTheTraceShows) {
-  // Each of the two computations has some 50 roundings of the signal's size, and omits products below 2^-53.
+  // Both computations have some 50 roundings of the signal's size, and they omit products below 2^-53.
   constexpr double bound = 256 * 0x1p-53;
   const auto watched = [&](Board b, double to_s) {
     b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
@@ -182,7 +183,8 @@ TEST(Signals, AreWhatTheTraceShows) {
     if (flat_deg == 140.0) b.supply = {.V_0_V = 24.0, .R_b_ohm = 0.1, .C_F = 1e-3};
     high_degrees += watched(b, 4e-3).high_degrees;
     b.drive.mode = control::Mode::off;
-    for (const double speed : {500.0, -500.0, 900.0}) {  // at 900 the EMF exceeds the bus: diodes conduct
+    for (const double speed : {500.0, -500.0, 900.0}) {  // at 900 rad/s the back-EMF exceeds the bus: diodes
+                                                         // conduct
       b.start.speed_rad_s = speed;
       const std::int64_t floating_stars = watched(b, 6e-3).floating_stars;
       if (speed < 900.0) {
@@ -193,8 +195,8 @@ TEST(Signals, AreWhatTheTraceShows) {
   EXPECT_GT(high_degrees, 10) << "segments whose products take two pieces";
 }
 
-/// Time, codes and a rotor sensor's outputs change at edges of their own, so that no segment has them as a
-/// polynomial.
+/// Time, codes and the outputs of a rotor sensor change at edges that do not begin a segment. Segments
+/// therefore have no polynomials for these columns.
 TEST(Signals, EveryColumnThatIsACurveHasOne) {
   const std::set<std::string_view> no_curves = {"t_s",           "hall",           "sector",
                                                 "encoder_A",     "encoder_B",      "encoder_Z",
@@ -220,7 +222,7 @@ Gauge seen(MetricKind kind, double level = 0.0) {
   Measure m;
   m.metric = kind;
   Gauge gauge(m, {0.0, 10.0}, level, 0.0);
-  gauge.part({1.0, 2.0}, 1, 0.0, 1.0);  // from 1 to 3
+  gauge.part({1.0, 2.0}, 1, 0.0, 1.0);  // a line from 1 to 3
   return gauge;
 }
 

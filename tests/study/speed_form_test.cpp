@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 
 constexpr double T = 30e-6, K_t = 0.0335, J = 1.35e-5, B = 7.3e-6;
 
-/// The speed at every tick: any difference between two controllers persists in it.
+/// The speed at every tick. Any difference between two controllers remains visible in it.
 std::vector<double> course(Scenario s) {
   s.record.columns = {"speed_rad_s"};
   std::vector<double> all;
@@ -32,7 +32,7 @@ std::vector<double> course(Scenario s) {
   return all;
 }
 
-/// Largest difference over the largest value.
+/// Largest difference divided by the largest value.
 double difference(const Scenario& a, const Scenario& b) {
   const std::vector<double> x = course(a), y = course(b);
   EXPECT_EQ(x.size(), y.size());
@@ -51,7 +51,8 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// The reference is 900 rad/s, which 24 V cannot reach, then 300, with a torque of 0.1 N m: 2.985 A.
+/// The reference is 900 rad/s, which the drive cannot reach at 24 V, then 300 rad/s. The torque limit is 0.1
+/// N m, 2.985 A.
 Scenario out_of_reach() {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.2;
@@ -63,8 +64,8 @@ Scenario out_of_reach() {
   return s;
 }
 
-// The bound on two controllers that compute the same in another order: some ten roundings of 1.1e-16 a tick,
-// in at most 6700 ticks, all with one sign.
+// Bound on the difference of two controllers that compute the same values in another order: some ten
+// roundings of 1.1e-16 per tick, in at most 6700 ticks, all of the same sign.
 constexpr double rounding = 10 * 6700 * 1.1e-16;
 
 TEST(SpeedForm, ShortOfTheLimitBothFormsAreOneController) {
@@ -75,7 +76,8 @@ TEST(SpeedForm, ShortOfTheLimitBothFormsAreOneController) {
 }
 
 TEST(SpeedForm, AnIntegralThatFollowsAtOnceIsTheIncrementalForm) {
-  // K_b = 1: I[n+1] = K_i e + u - K e, so that u[n+1] = u + K (e[n+1] - e) + K_i e, clamped or not.
+  // With K_b = 1, I[n+1] = K_i e + u - K e. Therefore u[n+1] = u + K (e[n+1] - e) + K_i e, with and without a
+  // limit.
   Scenario s = out_of_reach();
   Scenario positional = s;
   positional.control.speed.form = SpeedForm::positional;
@@ -86,11 +88,11 @@ TEST(SpeedForm, AnIntegralThatFollowsAtOnceIsTheIncrementalForm) {
 }
 
 TEST(SpeedForm, AFreeIntegralMakesUpForEveryDegreeItLost) {
-  // The integral ends at the value that holds 300 rad/s, B 300/0.1 N m of the torque; the sum of all errors
-  // is that over K_i, for any course. Between two samples 0.1 N m change the speed by 0.1 T/J at most: the
-  // sum is the angle to half of that for 0.8 s.
+  // The integral ends at the torque for 300 rad/s, B 300/0.1 N m of the limit. The sum of all errors is this
+  // value divided by K_i, for any course. Between two samples, 0.1 N m changes the speed by at most 0.1 T/J:
+  // for 0.8 s, the sum equals the angle within half of this change.
   Scenario s = out_of_reach();
-  s.duration_s = 0.8;  // it oscillates until 0.5 s
+  s.duration_s = 0.8;  // the speed oscillates until 0.5 s
   s.control.speed.form = SpeedForm::positional;
   s.control.speed.anti_windup = 0.0;
   ask(s, measure(MetricKind::final_value, Signal::position));
@@ -103,12 +105,13 @@ TEST(SpeedForm, AFreeIntegralMakesUpForEveryDegreeItLost) {
 }
 
 TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
-  // J w' = T_max K (w_ref - w - T_d w') - B w: tau = J/(T_max K + B) + T_d T_max K/(T_max K + B). The current
-  // follows within the settling time of its loop, 1 ms.
+  // J w' = T_max K (w_ref - w - T_d w') - B w gives the time constant tau = J/(T_max K + B) + T_d T_max
+  // K/(T_max K + B). The current follows within the settling time of its loop, 1 ms.
   const double T_max = 0.78, K = J / 20e-3 / T_max, share = T_max * K / (T_max * K + B);
   Scenario s = maxon_scenario(Mode::speed, 300.0);
   s.duration_s = 0.1;
-  s.pwm.alignment = study::Alignment::centre;  // sampled in the middle: the mean current, at any ripple
+  s.pwm.alignment = study::Alignment::centre;  // sampled in the middle: the reading is the mean current, at
+                                               // any ripple
   s.pwm.sample = study::SampleAt::middle;
   s.control.speed.kp = K;
   s.control.speed.ki = 0.0;
@@ -128,14 +131,15 @@ TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
 }
 
 TEST(SpeedForm, ALimitOfTheCurrentIsTheSpeedControllersOwn) {
-  // The torque at full output is 0.1 N m, or the current limit is 0.1 N m/K_t, below the stall torque's
-  // current. The design scales the gains by the torque, so that both are one controller.
+  // The torque at full output is 0.1 N m in one scenario. In the other, the current limit is 0.1 N m/K_t,
+  // which is below the stall current. The design scales the gains by the torque, so that both controllers are
+  // equal.
   Scenario by_torque = out_of_reach(), by_current = by_torque;
   by_current.control.speed.torque_limit_Nm = 0.78;
   by_current.control.current.limit_A = 0.1 / K_t;
   EXPECT_LT(difference(by_torque, by_current), rounding);
   EXPECT_DOUBLE_EQ(study::compile(by_current)->drive.speed.limit, 0.1 / 0.78);
-  by_current.control.current.limit_A = 30.0;  // above the 23.3 A of full torque
+  by_current.control.current.limit_A = 30.0;  // exceeds the 23.3 A of full torque
   EXPECT_EQ(study::compile(by_current)->drive.speed.limit, 1.0);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A speed PI that sets the duty itself (thesis 6.2.2) measures and limits no current.
+// A speed PI controller that sets the duty directly (thesis 6.2.2) neither measures nor limits a current.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ Scenario direct(double reference_rad_s, double duration_s) {
   return s;
 }
 
-/// The placed poles are those of the first-order plant J dw/dt = K_t (d U - K_t w)/R - B w.
+/// The placed poles belong to the first-order plant J dw/dt = K_t (d U - K_t w)/R - B w.
 TEST(SpeedToDuty, PlacesThePolesOfTheWindingsFirstOrder) {
   Scenario s = direct(100.0, 1e-3);
   s.control.speed.settle_s = 50e-3;
@@ -41,9 +41,9 @@ TEST(SpeedToDuty, PlacesThePolesOfTheWindingsFirstOrder) {
   EXPECT_NEAR(out->gains[0].d0, (magnitude_2 + a0) / b0, 1e-11 / b0);
 }
 
-/// An integral leaves no error, with and without load, forwards and backwards. The remainder is the mean of a
-/// commutation's ripple over a window that cuts it: K_t i/J over a sector is below 1 rad/s, of which a window
-/// of 40 sectors cuts one.
+/// The integral leaves no error, with and without a load, forwards and backwards. A window that is no whole
+/// number of sectors leaves the mean of a commutation's ripple: K_t i/J over a sector is below 1 rad/s, and a
+/// window of 40 sectors contains one incomplete sector.
 TEST(SpeedToDuty, HoldsTheSpeedUnderLoad) {
   for (const double reference : {200.0, -200.0}) {
     Scenario s = direct(reference, 0.4);

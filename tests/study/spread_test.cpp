@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives of a series: the values that vary, those that do not, and the refusals.
+// Drives of a series: the values that vary, the values that do not vary, and the refusals.
 #include "sixstep/study/scenario/spread.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr std::uint64_t seed = 7;
-// Product, sum and quotient of numbers near 1 have an error of half a bit each.
+// The product, sum and quotient of numbers near 1 have an error of half a bit each.
 constexpr double rounding = 4 * 0x1p-52;
 
 Spread relative(const char* key, double part, Distribution distribution = Distribution::uniform) {
@@ -91,7 +91,7 @@ TEST(Spread, StaysWithinItsWidthAndFillsIt) {
     sum += R;
     far = std::max(far, std::fabs(one.sheet.inductance_mH->value / 0.572 - 1.0));
   }
-  // All draws miss an outermost 0.5 % of the width with probability 0.9975^4000 = 4.5e-5.
+  // The probability that no draw is in an outermost 0.5 % of the width is 0.9975^4000 = 4.5e-5.
   EXPECT_GE(low, 0.9 - rounding);
   EXPECT_LE(high, 1.1 + rounding);
   EXPECT_LT(low, 0.901);
@@ -101,8 +101,8 @@ TEST(Spread, StaysWithinItsWidthAndFillsIt) {
   EXPECT_GT(far, 2.5 * 0.2) << "1.2 % of a normal lie beyond 2.5 sigma";
 }
 
-/// Cutting a normal distribution at sigma changes its variance visibly: 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 -
-/// 0.4839414/0.6826895 = 0.2911251.
+/// A normal distribution that is cut at one sigma has the variance 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 -
+/// 0.4839414/0.6826895 = 0.2911251, in units of sigma^2.
 TEST(Spread, ACutNormalHasItsVariance) {
   constexpr int count = 20000;
   Scenario s = current_square();
@@ -114,14 +114,14 @@ TEST(Spread, ACutNormalHasItsVariance) {
     EXPECT_LE(std::fabs(x), 1.0 + rounding / 0.1);
     squares += x * x;
   }
-  // x^2 lies in [0, 1], so its standard deviation is at most 1/2.
+  // x^2 is in [0, 1]; its standard deviation is therefore at most 1/2.
   EXPECT_NEAR(squares / count, 0.2911251, 5 * 0.5 / std::sqrt(double{count})) << "seed " << seed;
 }
 
 TEST(Spread, TheControllerStaysTheOneDesignedForTheNominalMotor) {
   for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
     Scenario s = maxon_scenario(mode, 5.0);
-    s.sheet.stall_torque_mNm.reset();  // derived from K_t and R, which both vary
+    s.sheet.stall_torque_mNm.reset();  // it is derived from K_t and R, which both vary
     s.spread = series().spread;
     const auto nominal = compile(s);
     const auto one = compile(varied(s, seed, 3));
@@ -156,7 +156,7 @@ TEST(Spread, FrictionDoesNotFollowTheTorqueConstant) {
   ASSERT_TRUE(nominal && one);
   EXPECT_GT(nominal->shaft.B_Nm_s, 0.0);
   EXPECT_EQ(nominal->shaft.B_Nm_s, one->shaft.B_Nm_s);
-  // Derived friction is a number like any other: it may vary itself.
+  // A derived friction may also vary itself.
   s.spread = {relative("motor_override.viscous_friction_Nm_s", 0.4)};
   ASSERT_EQ(check(s), base::Problems{});
   EXPECT_NE(compile(varied(s, seed, 0))->shaft.B_Nm_s, nominal->shaft.B_Nm_s);
@@ -177,7 +177,7 @@ TEST(Spread, TorqueConstantAndBackEmfStayOneFact) {
 }
 
 TEST(Spread, StandardKeysStrayWhateverTheSheetPrints) {
-  // The torque constant is a flux linkage, the inductance L_d = L_q.
+  // The sheet has a flux linkage instead of the torque constant, and L_d = L_q instead of the inductance.
   Scenario s = current_square();
   s.sheet.torque_constant_mNm_A.reset();
   s.sheet.flux_linkage_mWb = base::Quantity{2.1, "", ""};
@@ -228,8 +228,8 @@ TEST(Spread, EachHallEdgeIsMountedByItself) {
     product += edges[0] * edges[1];
     squares += edges[0] * edges[0];
   }
-  // A uniform value over +-3 has the mean 0 and the variance 3, without correlation of neighbours; the bounds
-  // are five deviations.
+  // A uniform value in +-3 has the mean 0 and the variance 3; neighbours are not correlated. The bounds are
+  // five standard deviations.
   EXPECT_NEAR(sum / drives, 0.0, 5 * std::sqrt(6.0 / drives));
   EXPECT_NEAR(squares / drives, 3.0, 5 * std::sqrt(7.2 / drives));
   EXPECT_NEAR(product / drives, 0.0, 5 * std::sqrt(9.0 / drives));

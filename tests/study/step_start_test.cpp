@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The start of a reference's own step (docs/reference/figures.md) equals that of windows with a given start.
+// The start that a figure of merit derives for a reference's steps (docs/reference/figures.md) is compared
+// with windows whose start is given.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +13,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using namespace sixstep::study;
 
-/// The slowest of the steps 0, 5, -5, 5, -5 A by windows of their own, each with the start that `start_of`
-/// gives.
+/// The largest figure of the steps 0, 5, -5, 5, -5 A, each measured in a separate window with the start that
+/// `start_of` returns.
 template <class StartOf>
 double slowest(MetricKind metric, StartOf start_of) {
   Scenario s = current_square();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs whose back-EMF is a table, and the iron's part of the friction.
+// Runs with a tabulated back-EMF, and the iron's part of the friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ Rows rows_of(Scenario s) {
   return rows;
 }
 
-/// Largest difference of a column over its largest value.
+/// Largest difference of a column divided by the column's largest value.
 double apart(const Rows& a, const Rows& b) {
   double worst = 0.0;
   EXPECT_EQ(a.size(), b.size());
@@ -49,7 +49,7 @@ TEST(TableRun, OfTheTrapezoidsFourCornersIsTheTrapezoidsRun) {
   for (const double flat : {120.0, 100.0}) {
     Scenario trapezoid = maxon_scenario(control::Mode::duty, 0.6);
     trapezoid.sheet.flat_deg = flat;
-    trapezoid.load.gear = 2;  // the general kernel for both
+    trapezoid.load.gear = 2;  // both run in the general kernel
     Scenario table = trapezoid;
     const double first = 60 - flat / 2, last = 60 + flat / 2;
     give_table(table, {first, last, first + 180, last + 180}, {1, 1, -1, -1});
@@ -73,15 +73,15 @@ TEST(TableRun, OfSampledHarmonicsApproachesTheirs) {
     value.push_back(base::cos(x) + 0.05 * base::cos(5 * x));
   }
   give_table(table, angle, value);
-  // The chords of 1.5 degrees deviate from the curve by 2e-4 of its peak at most.
+  // The chords of 1.5 degrees deviate from the curve by at most 2e-4 of its peak.
   EXPECT_LT(apart(rows_of(wave), rows_of(table)), 2e-3);
 }
 
 TEST(TableRun, WithoutSymmetryKeepsItsBooksInStarAndDelta) {
   for (const auto connection : {design::WindingConnection::star, design::WindingConnection::delta}) {
     Scenario s = maxon_scenario(control::Mode::duty, 0.6);
-    // The table's mean over the turn must be zero, so that 16.5/360 is subtracted: the areas of the trapezia
-    // between the points are 63 + 52.5 - 20 - 42 - 35 - 2.
+    // The table's mean over a turn must be zero. The areas of the trapezia between the points are 63 + 52.5 -
+    // 20 - 42 - 35 - 2, so that 16.5/360 is subtracted.
     const double mean = 16.5 / 360;
     give_table(s, {10, 80, 150, 200, 260, 330},
                {0.5 - mean, 1.3 - mean, 0.2 - mean, -1.0 - mean, -0.4 - mean, -0.6 - mean});
@@ -95,7 +95,7 @@ TEST(TableRun, WithoutSymmetryKeepsItsBooksInStarAndDelta) {
   }
 }
 
-/// A rotor that coasts: the bridge is off, and its energy goes into friction.
+/// A rotor that coasts: the bridge is off, and friction dissipates the rotor's energy.
 Scenario coasting(double viscous, double coulomb_mNm, double iron_viscous, double iron_coulomb_mNm) {
   Scenario s = maxon_scenario(control::Mode::off, 0.0);
   s.sheet.viscous_friction_Nm_s = base::Quantity{viscous, "", ""};
@@ -108,7 +108,7 @@ Scenario coasting(double viscous, double coulomb_mNm, double iron_viscous, doubl
 }
 
 TEST(IronDrag, TakesItsShareOfASpinDown) {
-  for (const double gear : {1.0, 3.0}) {  // on both kernels
+  for (const double gear : {1.0, 3.0}) {  // in both kernels
     Scenario viscous = coasting(3e-6, 0, 2e-6, 0);
     viscous.load.gear = gear;
     const auto v = study::run(viscous);
@@ -125,8 +125,8 @@ TEST(IronDrag, TakesItsShareOfASpinDown) {
 }
 
 TEST(IronDrag, OfBothKindsIsWhatTheLawsOfASpinDownSay) {
-  // J w' = -(B w + T): w = (w_0 + T/B) exp(-t B/J) - T/B until it rests at t_1; the iron takes B_i w^2 + T_i
-  // w over that time.
+  // J w' = -(B w + T) gives w = (w_0 + T/B) exp(-t B/J) - T/B until the rotor stops at t_1. The iron
+  // dissipates B_i w^2 + T_i w over this time.
   const double J = 135e-7, B = 5e-6, T = 2e-3, w_0 = 300, B_i = 2e-6, T_i = 0.5e-3;
   const double rate = B / J, c = T / B, t_1 = base::log((w_0 + c) / c) / rate;
   const double e = base::exp(-rate * t_1), a = w_0 + c;

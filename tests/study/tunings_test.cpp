@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[at]] of gains, limits, mode, chopping and dead time: the instant of the change, its equivalents, and the
-// refusals.
+// [[at]] with gains, limits, mode, chopping and dead time: the instant of the change, equivalent scenarios,
+// and the refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Outcome outcome(const Scenario& s) {
   return out ? *out : Outcome{};
 }
 
-/// A change at the start equals a scenario with those values.
+/// A change at t = 0 equals a scenario that has these values.
 TEST(Tunings, AtTheStartTheyAreTheScenariosOwn) {
   for (const Arithmetic arithmetic : {Arithmetic::float64, Arithmetic::float32})
     for (Scenario plain : {cascade(12e-3), product_scenario(Mode::speed, 100.0)}) {
@@ -53,7 +53,7 @@ TEST(Tunings, AModeAtTheStartIsTheScenariosOwn) {
   EXPECT_EQ(outcome(told).digest, outcome(own).digest);
 }
 
-/// A change between two samples acts at the next one, also in the middle of a period.
+/// A change between two samples acts at the next sample, also if samples are in the middle of a period.
 TEST(Tunings, ActFromTheNextSampleOn) {
   for (const SampleAt sample : {SampleAt::start, SampleAt::middle}) {
     Scenario s = cascade(12e-3);
@@ -92,7 +92,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
     for (const auto& to : goals) {
       if (from.mode == to.mode) continue;
       Scenario s = cascade(12e-3);
-      // with a held current, the final speed is below the highest that the bus allows
+      // with a controlled current, the final speed must be below the highest speed that the bus allows
       s.load.viscous_Nm_s = 2e-4;
       s.control.mode = static_cast<Mode>(static_cast<int>(from.mode) - 1);
       s.reference.value = from.reference;
@@ -108,7 +108,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
       ask(s, m);
       const Outcome out = outcome(s);
       ASSERT_EQ(out.comparisons.size(), 1u);
-      if (to.mode == AtMode::duty) continue;  // its final value depends on the friction
+      if (to.mode == AtMode::duty) continue;  // the final speed depends on the friction
       EXPECT_NEAR(out.comparisons[0].measured, to.expected, to.tolerance)
           << int(from.mode) << " to " << int(to.mode);
     }
@@ -184,7 +184,7 @@ TEST(Tunings, WhatCannotBeIsRefusedAtItsKey) {
   EXPECT_EQ(with([](Scenario&, At&) {}), "at[0].time_s");
 }
 
-/// Alignment and brake need a current loop in every mode of the run.
+/// A product that aligns or brakes needs a current loop in every mode of the run.
 TEST(Tunings, AProductThatAlignsKeepsACurrentLoop) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.align.current_A = 3.0;
@@ -197,7 +197,7 @@ TEST(Tunings, AProductThatAlignsKeepsACurrentLoop) {
   EXPECT_EQ(refused_at(s), "protection.align.current_A");
 }
 
-/// The mode of a reference sets its unit and its limits.
+/// The mode in which a reference applies determines its unit and its limits.
 TEST(Tunings, AReferenceIsOfTheModeThatItStandsIn) {
   Scenario s = maxon_scenario(Mode::duty, 0.5);
   At faster;
@@ -209,7 +209,7 @@ TEST(Tunings, AReferenceIsOfTheModeThatItStandsIn) {
   speed.time_s = 0.5e-3;
   speed.control.mode = AtMode::speed;
   speed.reference = Reference{.value = 50.0, .unit = "rad/s"};
-  s.at = {faster, speed};  // the order in the file is free
+  s.at = {faster, speed};  // the order of the events is free
   EXPECT_EQ(refused_at(s), "");
 }
 

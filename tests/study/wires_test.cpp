@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crossed wires in whole runs: the values of converters, one shunt, columns, figures and logic.
-// tests/rig/wiring_test.cpp has directions and torques.
+// Crossed wires in whole runs: values of converters, one shunt, columns, figures of merit and logic.
+// tests/rig/wiring_test.cpp tests directions and torques.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ Outcome outcome(const Scenario& s, const Listeners& listeners = {}) {
   return out ? *out : Outcome{};
 }
 
-/// The scenario on the general kernel, with straight wires.
+/// The scenario with straight wires, in the general kernel.
 Scenario straight(Scenario s) {
   At at;
   at.bridge.phases = AtOrder::abc;
@@ -35,8 +35,8 @@ Scenario straight(Scenario s) {
   return s;
 }
 
-/// The wires of phases and probes are shifted by one place, and the rotor is turned by 120 degrees: the board
-/// has the same signals.
+/// The wires of phases and of probes are shifted by one place, and the rotor is turned by 120 degrees: the
+/// board receives the same signals.
 Scenario moved_on(Scenario s) {
   s.bridge.phases = s.sensors.hall_lines = WireOrder::bca;
   s.initial.angle_rad = (120 + 17) * base::pi / 180 / 8;
@@ -54,7 +54,7 @@ std::vector<Scenario> drives() {
   Scenario sampled = current_square(), flashed = product_scenario(Mode::speed, 100.0);
   sampled.sensors = board_sensors();
   flashed.duration_s = 30e-3;
-  Scenario by_edges = cascade(30e-3);  // the first edge counts from the lines' state at power-up
+  Scenario by_edges = cascade(30e-3);  // the first edge counts relative to the state of the lines at power-up
   by_edges.sensors = board_sensors();
   by_edges.control.speed.settle_s = 0.1;
   by_edges.control.current.limit_A = 10;

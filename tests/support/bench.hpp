@@ -15,7 +15,7 @@ inline analysis::Bench maxon_bench() {
   return b;
 }
 
-/// The same motor with another shape of the back-EMF, K_t unchanged.
+/// The same motor with another shape of the back-EMF and the same K_t.
 inline analysis::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   design::Sheet sheet = maxon_sheet();
   sheet.back_emf = shape;
@@ -25,7 +25,8 @@ inline analysis::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   return b;
 }
 
-/// The reference motor's sheet with nominal point and the thermal lines of the sister winding 339286.
+/// The reference motor's sheet with its nominal point and with the thermal values of the sister winding
+/// 339286.
 inline design::Sheet curve_sheet() {
   design::Sheet s = maxon_sheet();
   const auto given = [](double value) { return base::Quantity{value, "", ""}; };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor on the virtual board, as the tests' runs share it.
+// The reference motor on the virtual board, as used by many tests.
 #pragma once
 #include "sixstep/rig/lean_rig.hpp"
 #include "tests/support/maxon.hpp"
 
 namespace sixstep::testing {
 
-/// A board, open loop or closed as the configs define. Each rig gets its own timeline.
+/// A motor on a board. The configs select open or closed loop. Each rig receives a copy of the timeline.
 struct Board : Drivetrain {
   control::DriveConfig<double> drive{.mode = control::Mode::duty, .nominal_bus_V = 24.0};
   rig::BoardConfig board{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs in which two events fall on one instant, exactly or within rounding.
+// Runs in which two events occur at one instant, exactly or within rounding.
 #pragma once
 #include <cmath>
 
@@ -12,11 +12,12 @@ inline constexpr double us = 1e-6, ns = 1e-9;
 
 inline Board locked(Board b) {
   b.shaft.locked = true;
-  b.start.angle_rad = 0.02;  // sector 0: a to b
+  b.start.angle_rad = 0.02;  // sector 0: pair a to b
   return b;
 }
 
-/// Speed that no torque changes (2 K_e w = 10 V), with the edge from sector 0 to 1 at `edge_s`.
+/// The speed is constant, because no torque changes it (2 K_e w = 10 V). The edge from sector 0 to sector 1
+/// is at `edge_s`.
 inline Board turning(Board b, double edge_s) {
   b.shaft.J_kg_m2 = 1e9;
   b.shaft.B_Nm_s = 0.0;
@@ -25,7 +26,7 @@ inline Board turning(Board b, double edge_s) {
   return b;
 }
 
-/// On-time after which a current, raised by U - E and lowered by U + E, is zero again at `zero_s`.
+/// On-time after which a current, which rises by U - E and falls by U + E, is zero again at `zero_s`.
 inline double on_time_for_zero(const Drivetrain& d, double E, double zero_s) {
   const double U = 24.0, R = d.R_tt(), tau = d.tau();
   double low = 0, high = zero_s;

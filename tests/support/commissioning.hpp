@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motors of the library on a board that identifies them.
+// Motors of the motor library on a board that identifies them.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -20,10 +20,11 @@ struct CommissionedMotor {
   const char* name;
   double bus_V, period_s;
   double test_A;   ///< a large part of the motor's permissible current
-  double range_A;  ///< range of its board's current converter, 12 bits
+  double range_A;  ///< range of the board's current converter, 12 bits
 };
 
-/// Motors of very different kinds: flat with a trapezoid, a drone's outer runner, a wheel's hub.
+/// Three different kinds of motors: flat with a trapezoidal back-EMF, a drone's outer runner, a wheel hub
+/// motor.
 inline constexpr CommissionedMotor commissioned_motors[] = {{"maxon-251601", 24.0, 30e-6, 5.0, 10.24},
                                                             {"dji-2212-920kv", 12.0, 20e-6, 15.0, 30.0},
                                                             {"hoverboard-hub", 36.0, 50e-6, 12.0, 25.0}};
@@ -74,8 +75,8 @@ struct CommissioningBench {
     wish.test_A = from.test_A;
   }
 
-  /// Flux linkage of the fundamental, V s: c_1 = 4 sin g/(pi g) of a trapezoid whose slopes are 2 g wide
-  /// (model.md 1).
+  /// Flux linkage of the fundamental, V s. For a trapezoid with ramps of width 2 g, the fundamental has the
+  /// factor c_1 = 4 sin g/(pi g) (model.md 1).
   double flux_linkage() const {
     const double g = (180.0 - machine.shape.flat_deg) / 2 * base::pi / 180;
     const double c_1 = machine.shape.harmonics.empty() ? 4 * std::sin(g) / (base::pi * g) : 1.0;
@@ -87,7 +88,7 @@ struct CommissioningBench {
   }
 };
 
-/// Runs until a phase is reached, done or failed, and returns the result.
+/// Runs until the state `until`, or until the commissioning is done or failed, and returns the result.
 template <class Rig>
 const control::CommissioningState& commission(
     Rig& rig, double most_s = 60.0, control::CommissioningPhase until = control::CommissioningPhase::done) {

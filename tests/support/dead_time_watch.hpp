@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks gates: within a leg, each turn-on occurs at least the dead time after the other switch's turn-off,
-// the first one after the run's begin.
+// Checks gates: within a leg, each turn-on must be at least the dead time after the turn-off of the other
+// switch. For the first turn-on, the dead time counts from the start of the run.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records values of a field-oriented drive at each of its ticks, on the kernel that the scenario requires.
+// Records values of a field-oriented drive at each tick, in the kernel that the scenario requires.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ struct TickWatch {
 
 }  // namespace detail
 
-/// Calls look(rig) at each tick and returns its results in order.
+/// Calls look(rig) at each tick and returns the results in order.
 template <class Scalar = double, class Look>
 auto field_ticks(const study::Scenario& s, Look look) {
   using Firmware = rig::FieldDrive<Scalar>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of a scenario's run, in the tests' order.
+// Figures of merit of a scenario's run, in the order of the requests.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ inline study::Outcome outcome_of(const study::Scenario& s) {
   return none;
 }
 
-/// Returns the compared figures in their order.
+/// Returns the figures of [[compare]] in their order.
 inline std::vector<double> figures_of(const study::Scenario& s) {
   std::vector<double> figures;
   for (const study::ComparisonResult& c : outcome_of(s).comparisons) figures.push_back(c.measured);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor (model.md 6) on the general kernel, with the board that both kernels share.
+// The reference motor (model.md 6) in the general kernel, with the board that both kernels share.
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 #include "tests/support/board.hpp"
@@ -8,7 +8,8 @@ namespace sixstep::testing {
 
 namespace general = plant::general;
 
-/// Star and trapezoid, with features of the lean kernel only; cases change the members that they require.
+/// A star winding with a trapezoid, which the lean kernel could also simulate. A test changes the members
+/// that it is about.
 struct GeneralSetup {
   general::Machine machine{.R_ohm = {0.515, 0.515, 0.515},
                            .K_e_V_s = {0.01675, 0.01675, 0.01675},
@@ -31,7 +32,7 @@ inline GeneralRig general_rig(const GeneralSetup& setup, const Board& board) {
   return GeneralRig(setup.plant(), board.drive, board.board, board.timeline, {}, {}, setup.probes);
 }
 
-/// The general plant alone with constant gates, as a System for sim::run.
+/// The general plant without a board, with constant gates, as a System for sim::run.
 class HeldGeneral : public rig::UnscheduledPlant<double, general::Plant<double>> {
  public:
   explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {})

@@ -20,7 +20,7 @@ inline void give_thermal_lines(study::Scenario& s) {
   s.sheet.max_winding_temperature_degC = base::Quantity{125, "", ""};
 }
 
-/// A change after which only the general kernel can run a scenario.
+/// A change after which only the general kernel can simulate a scenario.
 struct AsksForGeneral {
   const char* what;
   std::function<void(study::Scenario&)> make;

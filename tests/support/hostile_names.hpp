@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of names that have an effect if they are not escaped, for every place that shows or writes a name.
-// The tests of the program read the same file.
+// Names that have a harmful effect if they are not escaped, for every test of code that shows or writes a
+// name. The tests of the program read the same file.
 #pragma once
 #include <fstream>
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace sixstep::testing {
 
-/// One a line; \xHH is a byte, \n, \r and \t are themselves, and so is \\.
+/// One name per line. \xHH is a byte;
+/// , \r, \t and \\ have their usual meaning.
 inline std::vector<std::string> hostile_names() {
   std::ifstream file(SIXSTEP_SOURCE_DIR "/tests/support/hostile_names.txt", std::ios::binary);
   std::vector<std::string> names;

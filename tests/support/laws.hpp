@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws that hold for every run (model.md 5), as an observer for any system that has a plant. It also
-// checks instants inside the segments, not only their ends.
+// The laws of model.md 5, which hold for every run, as an observer for any system with a plant. It checks
+// instants inside the segments, not only their ends.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace sixstep::testing {
 
-/// The energy book of the run's kernel.
+/// The energy balance of the kernel that the run uses.
 template <class Real>
 struct BooksOfEither {
   plant::Audit<Real> lean;
@@ -53,20 +53,20 @@ class LawChecker {
   /// instant.
   int stops() const { return stops_; }
 
-  /// A law, and the deviation of the run as a fraction of the one that rounding allows.
+  /// A law, and the largest deviation of the run as a fraction of the deviation that rounding allows.
   struct Used {
     const char* law;
     double part;
   };
 
-  /// Limits by rounding. Sums are exact by construction. Diodes and rails may deviate by the guards' noise of
-  /// 64 eps of scale: twice, for the evaluation, and by the mode's own widening factor. Currents and speed
-  /// may deviate by as much from one segment to the next. The energy balance holds to 1e-11 after the energy
-  /// of these steps is added to the book. A step d of a current i changes the energy by L i d, which is large
-  /// against the energy so far if i is far below the scale. Within a segment a current is rounded to some eps
-  /// of the scale (8, like the currents' sum), so that L i times this rounding is no imbalance. The same
-  /// applies to the bus's energy through three legs whose currents' sum has a rounding error, if no other
-  /// current flows.
+  /// Limits from rounding. Sums are exact by construction. Diodes and rails may deviate by twice the guards'
+  /// noise of 64 eps of scale (the evaluation has the same noise), times the mode's widening factor. Currents
+  /// and speed may deviate by the same amount from one segment to the next. The energy balance closes to
+  /// 1e-11 after the energy of these steps has been added. A step d of a current i changes the energy by L i
+  /// d; if i is far below the scale, this is large compared with the energy so far. Within a segment a
+  /// current is rounded by some eps of the scale (8, as in the sum of the currents): L i times this rounding
+  /// is allowed too. The sum of three currents has a rounding error, which times the bus voltage is also
+  /// allowed as energy.
   std::array<Used, 9> used(double energy_tolerance = 1e-11) const {
     const plant::EnergyBook book = audit_.energy();
     const double rounded_A = 8 * 0x1p-52 * amp_scale_;
@@ -91,11 +91,11 @@ class LawChecker {
  private:
   static constexpr double noise = 128 * 0x1p-52;
 
-  /// Keeps the largest value so far; a NaN remains.
+  /// Raises `worst` to v if v is larger. A NaN remains.
   static void raise(double& worst, double v) {
     if (!(v <= worst) && worst == worst) worst = v;
   }
-  /// Checks that currents and speed have no steps except rounding between segments; a clamp may stop a shaft.
+  /// Checks that currents and speed have no steps between segments except rounding. A clamp may stop a shaft.
   void join(const auto& p) {
     const plant::Snapshot<Real> now = p.at(Real(0));
     const auto d = [](Real v) { return static_cast<double>(v); };
@@ -129,7 +129,7 @@ class LawChecker {
       if (!plant::is_floating(leg)) continue;
       raise(floating_current_, std::fabs(d(now.i[k])));
       if constexpr (requires { p.dead(); })
-        if ((p.dead() >> k & 1) != 0) continue;  // the pole behind a broken wire has no rails
+        if ((p.dead() >> k & 1) != 0) continue;  // the terminal of a broken wire may be outside the rails
       raise(beyond_rail_, (-V_f - d(now.pole[k])) / volt);
       raise(beyond_rail_, (d(now.pole[k] - now.bus) - V_f) / volt);
     }
@@ -138,15 +138,16 @@ class LawChecker {
   BooksOfEither<Real> audit_;
   sim::Instant last_{};
   bool time_went_back_ = false;
-  plant::Snapshot<Real> end_{};  ///< of the preceding segment
+  plant::Snapshot<Real> end_{};  ///< end of the preceding segment
   double current_step_ = 0, speed_step_ = 0, speed_scale_ = 0;
   double stray_W_ = 0, stray_J_ = 0;  ///< of the present segment, and of all segments
-  double stepped_ = 0;                ///< magnetic energy that currents won between segments, J
+  double stepped_ = 0;                ///< magnetic energy that the steps of the currents added between
+                                      ///< segments, J
   std::int64_t segments_ = 0;
   int stops_ = 0;
   double inductance_ = 0, amp_scale_ = 0, volt_scale_ = 0, current_sum_ = 0, floating_current_ = 0,
          highest_current_ = 0;
-  double reverse_diode_ = 0, beyond_rail_ = 0;  ///< as fractions of the allowed values
+  double reverse_diode_ = 0, beyond_rail_ = 0;  ///< as fractions of the allowed deviations
 };
 
 }  // namespace sixstep::testing

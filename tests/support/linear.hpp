@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A turning motor with its air gap unrolled, and the words that no text on a linear motor may have.
+// The linear version of a rotary motor, and the terms that no text on a linear motor may contain.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace sixstep::testing {
 
-/// The radius is a power of two, so that v = r w, F = T/r, m = J/r^2 cause no rounding.
+/// The radius is a power of two, so that v = r w, F = T/r and m = J/r^2 cause no rounding.
 inline constexpr double unrolled_at_m = 0x1p-6;
 
-/// Unrolls the motor: at the radius r, rotation with w becomes motion with v = r w.
+/// The linear version of a sheet: at the radius r, rotation at w corresponds to motion at v = r w.
 inline design::Sheet unrolled(design::Sheet s, double r = unrolled_at_m) {
   const auto times = [](std::optional<base::Quantity>& q, double factor) {
     if (q) q->value *= factor;
@@ -34,7 +34,8 @@ inline design::Sheet unrolled(design::Sheet s, double r = unrolled_at_m) {
   return s;
 }
 
-/// Words of a turning motor in a text: empty for a text on a linear motor. Units count as whole words.
+/// Terms of a rotary motor in a text; must be empty for a text on a linear motor. Units count only as whole
+/// words.
 inline std::vector<std::string> turning_words(const std::string& text) {
   std::vector<std::string> found;
   for (const char* word :

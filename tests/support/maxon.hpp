@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor of model.md 6 in two setups: the plant alone with constant gates, or on the virtual
-// board.
+// The reference motor of model.md 6, either as a plant without a board and with constant gates, or on the
+// virtual board.
 #pragma once
 #include <functional>
 #include <vector>
@@ -30,7 +30,7 @@ struct Drivetrain {
   }
 };
 
-/// Mechanical angle of an electrical one in degrees, for the motor's eight pole pairs.
+/// Mechanical angle, rad, for an electrical angle in degrees; the motor has eight pole pairs.
 inline double at_electrical_deg(double deg) { return deg * base::pi / 180.0 / 8; }
 
 inline plant::Gates gates(std::array<bool, 3> high, std::array<bool, 3> low) {
@@ -42,7 +42,7 @@ inline plant::Gates all_off() { return {}; }
 inline plant::Gates a_to_b() { return gates({true, false, false}, {false, true, false}); }
 inline plant::Gates all_low() { return gates({}, {true, true, true}); }
 
-/// The plant with constant gates, as a System for sim::run; notes every located event.
+/// The plant with constant gates, as a System for sim::run. It records every located event.
 template <class RealType = double>
 class Held : public rig::UnscheduledPlant<RealType> {
   using rig::UnscheduledPlant<RealType>::plant_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to a modulator and its gates as text, for its tests.
+// Commands for tests of a modulator, and its gates as text.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ inline BoardCommand command(double duty, Chopping chopping = Chopping::soft, Pai
 }
 inline Instant at(std::int64_t ticks, double offset = 0.0) { return {ticks, offset}; }
 
-/// Returns the gates that are on: "a+ b-".
+/// Returns the gates that are on, such as "a+b-".
 template <class Modulator>
 std::string on(const Modulator& m) {
   std::string text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A textbook simulation of soft chopping by RK4. Diodes conduct by the sign of the current, and a leg without
-// gate and current stays off. The simulation neglects that such a leg starts to conduct when its terminal
+// A textbook simulation of soft chopping by RK4. The sign of the current selects the diode, and a leg without
+// gate and current remains off. The simulation ignores that such a leg starts to conduct when its terminal
 // would exceed a rail (model.md 2).
 #pragma once
 #include <array>
@@ -14,8 +14,8 @@ class NaiveSoftChopper {
  public:
   NaiveSoftChopper(const Drivetrain& d, double step_s) : d_(d), h_(step_s) {}
 
-  /// One step with the source's upper switch on or off. It is cut where a diode's current vanishes or a
-  /// sector ends, so that the step size cannot cause the deviation.
+  /// One step, with the source's upper switch on or off. The step is split where a diode's current reaches
+  /// zero or a sector ends, so that the step size does not cause the deviation.
   void step(bool on) {
     double left = h_;
     for (int cuts = 0; left > 0 && cuts < 20; ++cuts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sensorless drive with an observer, on the bench of sensorless.hpp, and the angle errors of its
-// commutations against the rotor's sector edge.
+// A sensorless drive with an observer on the bench of sensorless.hpp, and the angle errors of its
+// commutations relative to the rotor's sector edge.
 #pragma once
 #include "sixstep/design/loops/sensorless_observer.hpp"
 #include "sixstep/design/scaling/observer_scaling.hpp"
@@ -19,14 +19,14 @@ inline const char* word(control::Follow follow) {
   return words[static_cast<std::size_t>(follow)];
 }
 
-/// Configures the chip for an observer; motor and board stay unchanged.
+/// Configures the chip for an observer; motor and board are unchanged.
 inline void follow(SensorlessBench& bench, control::Follow follow) {
   const auto observer = design::sensorless_observer(bench.motor, bench.spec, follow);
   ASSERT_TRUE(observer) << base::to_string(observer.problems().front());
   bench.chip.observer = observer->chip;
 }
 
-/// Angle errors of the timer's commutations, in electrical degrees behind the rotor's edge.
+/// Angle errors of the timer's commutations, in electrical degrees after the rotor's edge.
 struct CommutationError {
   int count = 0;
   double sum = 0.0, squares = 0.0, worst = 0.0;
@@ -34,7 +34,8 @@ struct CommutationError {
   double mean() const { return count == 0 ? 0.0 : sum / count; }
 };
 
-/// Continues the run to `to_s` and measures at each compare match. `forward`: the rotor's direction.
+/// Continues the run to `to_s` and measures the error at each compare match. `forward`: the rotor turns
+/// forward.
 template <class Rig>
 CommutationError watch_commutations(Rig& rig, double to_s, double period_s, bool forward = true) {
   CommutationError error;
@@ -62,7 +63,7 @@ CommutationError watch_commutations(Rig& rig, double to_s, double period_s, bool
   return error;
 }
 
-/// The same drive in fixed point, on a board with the same bases.
+/// Returns the same drive in fixed point and gives the board the same bases.
 template <class Scalar>
 control::SensorlessDriveConfig<Scalar> in_fixed_point(SensorlessBench& bench) {
   const control::SensorlessDriveConfig<double>& d = bench.chip;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios of the product drive, and a recorder of its bridge's events.
+// Scenarios of the product drive, and an observer of its bridge's events.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace sixstep::testing {
 
-/// Currents of +-20.48 A in 12 bits, 10 mA a count; bus up to 40.96 V; Hall edges captured at 1 MHz.
+/// Currents of +-20.48 A in 12 bits, 10 mA per count; bus up to 40.96 V; Hall edges captured at 1 MHz.
 inline study::Sensors board_sensors(int bits = 12) {
   study::Sensors s;
   s.currents = rig::CurrentMeasurement::phases;
@@ -23,8 +23,8 @@ inline study::Sensors board_sensors(int bits = 12) {
   return s;
 }
 
-/// The product drive on the reference motor, with limits that normal running does not reach. The speed loop
-/// is slow, because edges show the speed a sector late.
+/// The product drive with the reference motor. Normal operation does not reach its limits. The speed loop is
+/// slow, because the speed from edges is a sector late.
 inline study::Scenario product_scenario(control::Mode mode, double reference) {
   study::Scenario s = maxon_scenario(mode, reference);
   s.control.drive = study::FirmwareKind::product;
@@ -46,7 +46,7 @@ inline std::size_t column(const std::string& name) {
   return n;
 }
 
-/// Reads every event of a run: both sides of each jump.
+/// Stores every event of a run, with both sides of each jump.
 struct Witness {
   struct Instant {
     double t = 0.0, speed = 0.0;
@@ -69,13 +69,13 @@ struct Witness {
     last_speed = row[speed];
     seen.push_back(now);
   }
-  /// First instant with a gate on; negative: none.
+  /// First instant with a gate on, or -1 if there is none.
   double first_on() const {
     for (const Instant& n : seen)
       if (n.any_gate) return n.t;
     return -1;
   }
-  /// First instant from which no gate is on any more.
+  /// Instant after which no gate is on, or -1 if a gate is on at the end.
   double off_for_good() const {
     double t = seen.back().any_gate ? -1 : seen.back().t;
     for (auto n = seen.rbegin(); n != seen.rend() && !n->any_gate; ++n) t = n->t;
@@ -88,8 +88,8 @@ struct Witness {
   }
 };
 
-/// A drive at 300 rad/s with 0.6 J in its rotor, on a bus of 0.1 mF behind 0.1 ohm. It brakes with 2 A when
-/// its run request ends.
+/// A drive at 300 rad/s with 0.6 J in its rotor. The bus is 0.1 mF, supplied through 0.1 ohm. The drive
+/// brakes with 2 A when its run request ends.
 inline study::Scenario braking_onto_a_small_bus() {
   study::Scenario s = product_scenario(control::Mode::speed, 300.0);
   s.duration_s = 0.5;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks a scenario's run from inside, with any firmware and arithmetic: the laws within each segment, and
-// whether a copy of the rig taken at a control tick reaches the same end.
+// whether a copy of the rig from a control tick reaches the same end.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -17,19 +17,20 @@ struct Walk {
   sim::Stop stop = sim::Stop::end;
   std::int64_t segments = 0, ticks = 0;
   std::uint64_t digest = 0;
-  bool finite = true;  ///< currents, speed, angle and bus at every event
+  bool finite = true;  ///< whether currents, speed, angle and bus are finite at every event
   double top_slack = 1.0;
   LawChecker<> laws;
-  int resumed = 0, resumed_otherwise = 0;  ///< snapshots that were run to the end; those that ended elsewhere
+  int resumed = 0, resumed_otherwise = 0;  ///< number of snapshots that ran to the end; number of those with
+                                           ///< another end
 };
 
 struct WalkPlan {
-  std::int64_t snapshot_every = 0;  ///< ticks from one snapshot to the next; 0: none
+  std::int64_t snapshot_every = 0;  ///< ticks from one snapshot to the next; 0: no snapshots
   int most_snapshots = 1000;
   std::int64_t most_segments = 1'000'000;
 };
 
-/// `compiled` must belong to the scenario.
+/// `compiled` must be the compiled `scenario`.
 Walk walk(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan = {});
 
 }  // namespace sixstep::testing

@@ -19,18 +19,18 @@ inline design::Sheet maxon_sheet() {
   return s;
 }
 
-/// The motor, 24 V, ideal devices, soft chopping; 20 ms in the mode given.
+/// The reference motor at 24 V for 20 ms, in the given mode, with ideal devices and soft chopping.
 inline study::Scenario maxon_scenario(control::Mode mode, double reference) {
   study::Scenario s;
   s.sheet = maxon_sheet();
   s.duration_s = 20e-3;
   s.control.mode = mode;
-  s.control.speed.torque_limit_Nm = 0.78;  // stall torque, as the thesis designs
+  s.control.speed.torque_limit_Nm = 0.78;  // stall torque, as in the thesis's design
   s.reference.value = reference;
   return s;
 }
 
-/// The thesis's current step: square of +-5 A, gains as printed.
+/// The thesis's current step: a square wave of +-5 A, with the printed gains.
 inline study::Scenario current_square() {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
   s.control.current.d1 = 4.5;
@@ -59,8 +59,8 @@ inline study::Scenario cascade(double duration_s = 8e-3) {
   return s;
 }
 
-/// Constant speed of a motor turned from outside, and its start angle: angles then have a closed form. The
-/// windings carry current, so that the sensor's commutation is visible.
+/// Constant speed of a motor that an external drive turns, and its start angle: angles then have a closed
+/// form. The windings conduct current, so that the commutation by the sensor is visible.
 inline constexpr double turned_rad_s = 200, turned_from_rad = 0.3;
 inline study::Scenario turned_by(study::RotorSensing rotor, double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motors of the library on a board without rotor sensors: designed by design/loops/, nothing tuned by hand.
+// Motors of the motor library on a board without rotor sensors. design/loops/ computes the designs; no value
+// is tuned by hand.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -26,7 +27,8 @@ struct SensorlessMotor {
   double period_s;
 };
 
-/// Motors of very different kinds: flat with a trapezoid, a drone's outer runner, a wheel's hub.
+/// Three different kinds of motors: flat with a trapezoidal back-EMF, a drone's outer runner, a wheel hub
+/// motor.
 inline constexpr SensorlessMotor three_motors[] = {
     {"maxon-251601", 24.0, 30e-6}, {"dji-2212-920kv", 12.0, 20e-6}, {"hoverboard-hub", 36.0, 50e-6}};
 
@@ -41,7 +43,7 @@ struct SensorlessBench {
   rig::Timeline timeline;
   plant::Devices devices;
   plant::Start at;
-  double load_part = 0.0;  ///< friction of the load, a part of the nominal torque
+  double load_part = 0.0;  ///< friction of the load, as a part of the nominal torque
 
   explicit SensorlessBench(const SensorlessMotor& from, control::Mode mode = control::Mode::speed,
                            control::Chopping chopping = control::Chopping::soft);
@@ -114,7 +116,7 @@ inline const char* word(control::SensorlessPhase phase) {
   return words[static_cast<std::size_t>(phase)];
 }
 
-/// Sectors from the rotor's sector to that of the commutation, -2..3.
+/// Number of sectors from the rotor's sector to the commutation's sector, -2..3.
 template <class Rig>
 int ahead(const Rig& rig) {
   return control::sectors_between(static_cast<std::uint8_t>(rig.plant().sector()),
@@ -126,7 +128,7 @@ control::SensorlessPhase phase(const Rig& rig) {
   return rig.firmware().rotor().phase;
 }
 
-/// Runs until `what` holds, checked every `every_s`, at most to `most_s`. Returns the time in s, or -1.
+/// Runs until what() is true, checked every `every_s`, at most to `most_s`. Returns the time in s, or -1.
 template <class Rig, class What>
 double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   sim::NoObserver none;
@@ -137,8 +139,8 @@ double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   return -1;
 }
 
-/// Continues the run and counts the checks at which the drive's sector was wrong by more than one, or the
-/// drive had lost the rotor.
+/// Continues the run and counts the checks that fail: the drive's sector is wrong by more than one, or the
+/// drive has lost the rotor.
 template <class Rig>
 int wrong_looks(Rig& rig, double to_s, double every_s) {
   int wrong = 0;

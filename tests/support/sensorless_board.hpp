@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench of sensorless.hpp with a realistic board: channels of a tenth of the phase's resistance, diodes,
-// dead time, converters with noise of one count, terminals with unequal dividers, a measured bus, and answers
-// one period late.
+// The bench of sensorless.hpp with a realistic board. The channels have a tenth of the phase resistance.
+// There are diodes, dead time, converters with one count of noise, unequal terminal dividers and a measured
+// bus. Commands act one period later.
 #pragma once
 #include <random>
 
@@ -9,8 +9,8 @@
 
 namespace sixstep::testing {
 
-/// Largest difference of two dividers of 0.1 % resistors. The divider of leg a reads higher than that of leg
-/// b by this part.
+/// Largest relative difference of two dividers of 0.1 % resistors. The divider of leg a reads higher than the
+/// divider of leg b by this part.
 inline constexpr double unlike_dividers = 0.004;
 
 template <class Scalar>
@@ -25,7 +25,7 @@ struct BuiltDrive : rig::SensorlessDrive<Scalar> {
 
 using BuiltRig = rig::Rig<double, BuiltDrive<double>>;
 
-/// Gives the bench this board, and designs the drive with the board's known noise, dividers and diodes.
+/// Changes the bench to this board, and designs the drive for the board's noise, dividers and diodes.
 inline void build(SensorlessBench& bench) {
   const double R = bench.motor.machine.R_ohm;
   bench.devices = {.R_on_ohm = 0.1 * R, .V_f_V = 0.7, .r_d_ohm = 0.05 * R};
@@ -54,12 +54,12 @@ inline SensorlessBench on_built_board(const SensorlessMotor& motor, control::Mod
   return bench;
 }
 
-/// Time at which both steps of the alignment are over.
+/// Time, s, at which both steps of the alignment have ended.
 inline double aligned_s(const SensorlessBench& bench) {
   return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
 }
 
-/// The duty that turns the motor at a tenth of its no-load speed against its load. It includes the voltage
+/// The duty that turns the motor at a tenth of its no-load speed with its load. It compensates the voltage
 /// drops of copper, channels and diodes. Hard chopping applies 2 d - 1 of the bus.
 inline double tenth_of_no_load(const SensorlessBench& bench) {
   const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
@@ -73,7 +73,7 @@ inline const char* word(control::Chopping chopping) {
   return words[static_cast<std::size_t>(chopping)];
 }
 
-/// Result of a start from rest to a speed, and of 0.1 s at this speed.
+/// Result of a start from rest to a speed, and of the 0.1 s after it.
 struct Started {
   bool holds = false;
   bool at_once = false;  ///< without a second start
@@ -96,9 +96,9 @@ inline int starts_each(int usual) {
   return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-/// Starts each motor with loads from none to half of its nominal load, from random angles, to 0.3 of the
-/// no-load speed: 99 of 100 starts must hold. The n-th drive of all is bench_of(motor, n), and turns in the
-/// direction of sign_of(n).
+/// Starts each motor to 0.3 of the no-load speed, with loads from none to half of its nominal load, from
+/// random angles. 99 of 100 starts must keep the speed. bench_of(motor, n) returns the bench of the n-th
+/// start, sign_of(n) its direction.
 template <class BenchOf, class SignOf>
 void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& sign_of) {
   std::mt19937 draw(seed);
@@ -127,7 +127,8 @@ void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& si
     }
 }
 
-/// Expects this fraction of the no-load speed 0.8 s after the alignment, without a loss of the rotor.
+/// Checks that the speed is `part` of the no-load speed 0.8 s after the alignment, without a loss of the
+/// rotor.
 inline void expect_speed_held(SensorlessBench& bench, double part, const std::string& of) {
   const double w = part * bench.no_load_rad_s();
   bench.setpoint(0, w);

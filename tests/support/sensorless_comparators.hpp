@@ -10,8 +10,8 @@ inline const char* word(rig::CrossingReference against) {
   return against == rig::CrossingReference::half_bus ? "half the bus" : "virtual star";
 }
 
-/// Comparators with an offset of 2 mV of 3.3 V, seen at the terminal through a divider, and a hysteresis of 3
-/// mV.
+/// Comparators with an offset of 2 mV and a hysteresis of 3 mV, on a 3.3 V supply, converted to voltages at
+/// the terminals before the divider.
 inline rig::CrossingComparators usual_comparators(rig::CrossingReference against, double bus_V) {
   const double per_V = 1.25 * bus_V / 3.3;
   return {.against = against,
@@ -19,9 +19,10 @@ inline rig::CrossingComparators usual_comparators(rig::CrossingReference against
           .hysteresis_V = 3e-3 * per_V};
 }
 
-/// Adds comparators to the bench's board, behind a low-pass whose time constant is this part of the longest
-/// possible, and designs the drive for them. Half the bus as reference requires a low-pass that settles
-/// within half of a pulse: the ramp then ends at a fifth of the no-load speed.
+/// Adds comparators to the bench's board and designs the drive for them. The comparators are behind a
+/// low-pass; `part_of_longest` is its time constant as a part of the longest possible one. With half the bus
+/// as reference the low-pass must settle within half of a pulse: the ramp then ends at a fifth of the no-load
+/// speed.
 inline void capture_crossings(SensorlessBench& bench, rig::CrossingComparators comparators,
                               double part_of_longest = 0.8) {
   const bool half_bus = comparators.against == rig::CrossingReference::half_bus;

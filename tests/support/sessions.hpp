@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs and sessions that must succeed: returns their results, or fails the test.
+// Runs and sessions that must succeed: the functions return their results, or the test fails.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -32,7 +32,8 @@ inline study::Outcome run_out(study::Session& session) {
   return closed(session);
 }
 
-/// Runs in slices of irregular lengths, each sampled and continued in a copy.
+/// Runs in slices of irregular lengths. After each slice the values are read, and the run continues in a
+/// copy.
 inline study::Outcome sliced(const study::Scenario& s, const study::Listeners& listeners = {}) {
   study::Session session = opened(s, listeners);
   double t_s = 0.0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers that command three legs, on the virtual board, as a function of a tick's inputs.
+// Controllers that command three legs, on the virtual board. A controller is a function of a tick's inputs.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 #include "tests/support/board.hpp"
 
 namespace sixstep::testing {
 
-/// Controller: LegCommands<double> operator()(instant, setpoint), with any state.
+/// Controller: LegCommands<double> operator()(instant, setpoint); it may have a state.
 template <class Controller>
 class ThreeLegFirmware {
  public:
@@ -42,7 +42,7 @@ ThreeLegRig<Controller> three_leg_rig(const Board& b, const Controller& controll
   return ThreeLegRig<Controller>(b.plant(), controller, b.board, b.timeline);
 }
 
-/// The same legs in every period.
+/// A controller that commands the same legs in every period.
 struct HeldLegs {
   control::LegCommands<double> legs;
 

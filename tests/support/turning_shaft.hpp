@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shaft whose motion has a closed form, given to a board's ports segment by segment.
+// A shaft with a closed-form motion, passed to a board's ports segment by segment.
 #pragma once
 #include <cmath>
 
@@ -7,19 +7,20 @@
 
 namespace sixstep::testing {
 
-/// theta(t) = theta_0 + w t + a t^2/2 mechanical, cut into segments of 10 us.
+/// Mechanical angle theta(t) = theta_0 + w t + a t^2/2, in segments of 10 us.
 struct Motion {
   static constexpr std::int64_t p = 8;  ///< pole pairs
   double theta_0 = 0, w = 0, a = 0;
 
   double theta(double t) const { return theta_0 + (w + a * t / 2) * t; }
-  /// Sector and angle in it at a time.
+  /// Sector, and angle in the sector, at time t.
   plant::ShaftAngle<double> shaft(double t) const {
     const double sectors = theta(t) * p / base::sector_rad;
     const auto sector = static_cast<std::int64_t>(std::floor(sectors));
     return {sector, theta(t) * p - static_cast<double>(sector) * base::sector_rad, p};
   }
-  /// Shows the load's side of a gear, and of a coupling with this twist.
+  /// Passes the motion to the ports. With a gear, the load's side follows behind the gear and a coupling with
+  /// a constant twist.
   void show(rig::ShaftPorts& ports, double from_s, double to_s, double sample_s = 1.0, double gear = 0.0,
             double twist_rad = 0.0) const {
     const double h = 10e-6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A study of wirings with plausible results but without its 252 runs, for tests of its output. The "measured"
+// A study of wirings with plausible results, without its 252 runs, for tests of the output. The "measured"
 // values follow from theory.
 #pragma once
 #include <cmath>

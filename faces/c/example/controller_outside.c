@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The program is the controller: at each control tick it gets the sensors' values and answers with a driven pair and
- * its duty. A proportional controller holds the current of the scenario's reference.
+/* The program is the controller: at each control tick it reads the measurement and answers with a driven pair and
+ * its duty. A proportional controller follows the current setpoint of the scenario.
  *   cc controller_outside.c $(pkg-config --cflags --libs sixstep) -o controller_outside && ./controller_outside SCENARIO */
 #include <sixstep.h>
 #include <stdio.h>
 
-/* The pair that makes torque in positive direction, by the Hall code H1 H2 H3. Codes 0 and 7 do not occur. */
+/* Driven pair for torque in the positive direction. Index: Hall code H1 H2 H3; codes 0 and 7 do not occur. */
 static const uint8_t source[8] = {0, 2, 1, 1, 0, 2, 0, 0}, sink[8] = {0, 0, 2, 0, 1, 1, 2, 0};
 
 static void control(const sixstep_measured* seen, double setpoint_A, sixstep_answer* answer) {
   const uint8_t code = seen->hall & 7, from = source[code], to = sink[code];
   const double current_A = (seen->current_A[from] - seen->current_A[to]) / 2;
-  const double duty = 0.5 * (setpoint_A - current_A); /* below 0: the other direction */
+  const double duty = 0.5 * (setpoint_A - current_A); /* negative: torque in the negative direction */
   answer->enabled = from != to;
   answer->source = duty < 0 ? to : from;
   answer->sink = duty < 0 ? from : to;

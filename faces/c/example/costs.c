@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Measures the time of calls on this machine: of the first opening in the process once, of all other calls the
- * best of seven.
+/* Measures the time of calls on this machine. The first opening in the process is measured once. For every other
+ * call, the best of seven measurements counts.
  *   cc -O2 costs.c $(pkg-config --cflags --libs sixstep) -o costs && ./costs SCENARIO */
 #define _POSIX_C_SOURCE 199309L
 #include <sixstep.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the three functions that compilers insert to copy and clear structs. The functions copy words where
-// possible, like a C library; otherwise the instruction counts would include code that no real firmware has.
+// Defines the three functions that compilers insert to copy and clear structs. They copy words where
+// possible, like a C library. A byte-wise copy would add instructions to the counts that no real firmware
+// executes.
 #include <cstdint>
 
 using Size = decltype(sizeof 0);

@@ -17,7 +17,7 @@ inline void write_character(char c) { semihosting(0x03, &c); }
   for (;;) semihosting(0x20, words);
 }
 
-/// Modes of fopen() by their number in Arm's convention.
+/// Modes of fopen(), numbered as in Arm's convention.
 enum class FileMode : Word { read = 1, write = 5 };  // "rb" and "wb"
 
 /// The file's handle plus 1; 0 if the file cannot be opened.

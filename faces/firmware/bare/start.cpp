@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs between reset and program on Cortex-M and RISC-V: prepares the memory, calls the program, and exits.
+// The code between reset and program on Cortex-M and RISC-V: prepares the memory, calls the program, and
+// exits.
 #include "faces/firmware/bare/semihosting.hpp"
 
 namespace target {

@@ -3,8 +3,8 @@
 // setpoint in the mode's unit. An interrupt writes characters into a ring buffer, and the main loop reads
 // them.
 //
-// After a lost or invalid character everything except s is ignored up to the next Enter. So "70" is never
-// read as 7, "7" and "30" never as 730, nor "1,5" as 5.
+// After a lost or invalid character, everything except s is ignored up to the next Enter. For example, "70"
+// is never read as 7 or 0.
 #pragma once
 #include <cstdint>
 
@@ -13,7 +13,7 @@
 namespace firmware {
 
 struct Command {
-  /// `spoiled` is returned at an invalid character, `dropped` at the Enter that ends its line.
+  /// `spoiled` is returned at an invalid character, `dropped` at the Enter that ends the line.
   enum class Kind : std::uint8_t { none, run, stop, clear, setpoint, spoiled, dropped } kind = Kind::none;
   std::int32_t thousandths = 0;
 };
@@ -43,12 +43,12 @@ class Commands {
   constexpr void lost() { spoiled_ = true; }
 
  private:
-  static constexpr std::int32_t most = 200'000;  // a number below this can get one more digit, and its
-                                                 // thousandths still fit into 31 bits
+  static constexpr std::int32_t most = 200'000;  // a number below this bound can be extended by one digit,
+                                                 // and its thousandths still fit into 31 bits
   static constexpr std::uint8_t no_point = 0xFF;
 
   /// Whether a character continues a number such as -12.345: an optional sign, at most one point, and up to
-  /// three digits after it.
+  /// three digits after the point.
   constexpr bool continues_number(char c) {
     if (c == '-') {
       negative_ = true;
@@ -83,8 +83,8 @@ class Commands {
   bool begun_ = false, digits_ = false, negative_ = false, spoiled_ = false;
 };
 
-/// Passes characters from an interrupt, which writes, to the main loop, which reads. Each index is written by
-/// only one of the two.
+/// Passes characters from an interrupt, which writes, to the main loop, which reads. Only the interrupt
+/// writes end_, and only the main loop writes begin_.
 template <std::uint8_t size>
 class Ring {
   static_assert((size & (size - 1)) == 0, "its indices wrap");
@@ -105,14 +105,14 @@ class Ring {
     barrier();
     end_ = static_cast<std::uint8_t>(end + 1);
   }
-  /// Called in the interrupt: reports that a character after the last one was lost.
+  /// Called in the interrupt: reports that a character after the last stored one was lost.
   void lose() { losses_ = static_cast<std::uint8_t>(losses_ + 1); }
 
-  /// Called in the main loop: returns a mark at the place of lost characters, else the next character.
+  /// Called in the main loop: returns `gap` where characters were lost, else the next character.
   Item take() {
     const auto begin = begin_;
-    std::uint8_t losses = losses_;  // read before the end index, so that a character received before a loss
-                                    // is returned first
+    std::uint8_t losses = losses_;  // read before end_, so that a character received before a loss is
+                                    // returned first
     const bool empty = begin == end_;
     barrier();
     if (!empty) losses = losses_before_[begin % size];

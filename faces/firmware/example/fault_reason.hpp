@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names the reasons why a board's drive is stopped, for its line "# fault: over-current". The line is printed
-// when the fault happens, and about once a second during the stop. The reason is kept over a reset, in memory
-// that the start-up does not clear, so that a watchdog's reset does not hide it.
+// Names the reasons why a board's drive is stopped, for the line "# fault: over-current". The line is printed
+// when the fault happens, and then about once a second. The reason is stored in memory that the start-up does
+// not clear, so that a reset by the watchdog does not hide it.
 #pragma once
 #include <cstdint>
 
@@ -11,12 +11,12 @@ namespace firmware {
 
 enum class Reason : std::uint8_t {
   none,
-  hall,            ///< a Hall code that no rotor gives, or a jump over a sector
+  hall,            ///< a Hall code that no rotor angle gives, or a jump over a sector
   calibration,     ///< the offset of a current transducer is out of its tolerance
-  over_current,    ///< in the samples
+  over_current,    ///< a sampled current exceeds its bound
   current_sensor,  ///< a reading at the converter's full scale, or three currents whose sum is not zero
   setpoint_wire,   ///< the potentiometer reads beyond its ends
-  comparator,      ///< the power stage's own, at the timer's break input
+  comparator,      ///< the power stage's comparator at the timer's break input
   clock,           ///< the external clock did not start, or stopped
   converter,       ///< no conversion ends any more
   watchdog,        ///< the main loop or the control interrupt hung
@@ -25,7 +25,7 @@ enum class Reason : std::uint8_t {
   over_speed,
   stall,
   align,
-  board,   ///< the board stopped the drive, for a reason that is over
+  board,   ///< the board stopped the drive for a reason that has ended
   program  ///< an unexpected interrupt, or a fault of the core
 };
 
@@ -76,16 +76,16 @@ constexpr void put_fault(Put put, Reason reason) {
   put('\n');
 }
 
-/// A stored reason. It is in a section that the start-up does not clear. After power-up its content is
-/// random, and it is valid only with the right key.
+/// A stored reason, in a section that the start-up does not clear. After power-up its content is random; it
+/// is valid only with the right key.
 struct KeptReason {
   static constexpr std::uint32_t right_key = 0x5157E9A3;
   volatile std::uint32_t key;
   volatile Reason reason;
-  volatile std::uint8_t check;  ///< the reason, inverted
+  volatile std::uint8_t check;  ///< inverted bits of the reason
 
   void keep(Reason why) {
-    key = 0;  // so that a reset during the writing leaves no half-written reason
+    key = 0;  // a reset during the writing then leaves no valid key
     reason = why;
     check = static_cast<std::uint8_t>(~static_cast<unsigned>(why));
     key = right_key;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints lines of numbers for a serial line. The log of a board is a table that `sixstep run --compare LOG`
-// compares with its simulation. The functions use no division and no library: digits are found by
+// Prints lines of numbers for a serial line. A board's log is a table that `sixstep run --compare LOG`
+// compares with the simulation. The functions use no division and no library: they find digits by
 // subtraction, which takes an 8-bit chip a few hundred cycles per number.
 #pragma once
 #include <cstdint>
@@ -15,7 +15,7 @@ template <>
 inline constexpr std::uint32_t tens<std::uint32_t>[10] = {
     1'000'000'000, 100'000'000, 10'000'000, 1'000'000, 100'000, 10'000, 1'000, 100, 10, 1};
 
-/// Prints the digits from a place on, computing with integers of type Word.
+/// Prints the digits of `rest` from a decimal place on, with integers of type Word.
 template <class Word, class Put>
 constexpr void put_digits(Put put, Word rest, unsigned decimals, unsigned first_place) {
   bool begun = false;
@@ -47,7 +47,7 @@ constexpr void put_text(Put put, const char* text) {
   for (; *text != '\0'; ++text) put(*text);
 }
 
-/// Time since the board began to count; its number of seconds wraps after 68 years.
+/// Time since the clock's start. The printed number of seconds overflows after 68 years.
 struct Instant {
   std::uint32_t seconds = 0, microseconds = 0;  ///< microseconds are below a million
 
@@ -73,16 +73,15 @@ constexpr void put_instant(Put put, const Instant& t) {
   }
 }
 
-/// Compiler barrier. Data from an interrupt are read only after the barrier; data that the interrupt may
-/// write again are not read after it.
+/// Compiler barrier. The compiler moves no read or write of memory over it.
 inline void barrier() { asm volatile("" ::: "memory"); }
 
-/// Passes one row at a time from the control interrupt to the main loop, which requests the next row as soon
-/// as it has sent one. So the log has as many rows as the line can transmit, each with its instant.
+/// Passes one row at a time from the control interrupt to the main loop. The main loop requests the next row
+/// as soon as it has sent one. So the log has as many rows as the line can transmit, each with its instant.
 template <class Row>
 class LogSlot {
  public:
-  /// Called in the interrupt: copies the row if the main loop waits for one, and returns whether it did.
+  /// Called in the interrupt: copies the row if the main loop waits for a row. Returns whether it copied.
   bool take(const Row& row) {
     if (full_) return false;
     row_ = row;
@@ -91,7 +90,7 @@ class LogSlot {
     return true;
   }
 
-  /// Called in the main loop: the row to send; null if there is none.
+  /// Called in the main loop: returns the row to send; null if there is none.
   const Row* waiting() const {
     const bool there = full_;
     barrier();

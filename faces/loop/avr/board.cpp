@@ -5,10 +5,10 @@
 //   [--serial=FILE] FIRMWARE.elf
 //
 // The program reads runs from descriptor 3 and writes answers to 4 (sixstep/rig/chip_port.hpp). The options
-// state the connected pins, with legs in the order a, b, c. Inputs are those of the converter, for the three
-// currents and the potentiometer. FILE gets the output of USART0, line by line.
+// state the connected pins, with legs in the order a, b, c. --inputs states the converter's inputs for the
+// three currents and the potentiometer. FILE receives the output of USART0, line by line.
 //
-// It is a separate program because libsimavr is GPL-3, and no other part may be linked with it.
+// It is a separate program because libsimavr is GPL-3, and no other part may be linked with libsimavr.
 #include <unistd.h>
 
 #include <cerrno>

@@ -32,8 +32,8 @@ rig::ChipTimes Chip::times() const {
       .control = control_.times(), .hall = hall_.times(), .periods = periods_, .conversions = conversions_};
 }
 
-/// Executes all events up to the end of the last instruction in their order, and then that instruction's
-/// write.
+/// Executes all events up to the end of the last instruction, in the order of their cycles. Then executes the
+/// write of this instruction.
 void Chip::settle() {
   const std::uint64_t now = avr_->cycle;
   for (;;) {
@@ -88,8 +88,8 @@ void Chip::pass_converter() {
   }
 }
 
-/// A firmware whose timer starts its control samples may convert a current in between. Such a sample is no
-/// control sample (rig/chip_port.hpp).
+/// If the timer starts a firmware's control samples, the firmware may also convert a current between them.
+/// Such a conversion is not a control sample (rig/chip_port.hpp).
 std::uint32_t Chip::sampled(int input) {
   constexpr int currents = 3, between_control_samples = 4;
   if (timer_started_it_ && input < currents) timer_samples_ = true;
@@ -122,7 +122,7 @@ void Chip::apply(Write write, std::uint64_t at) {
   }
 }
 
-/// Writing a one clears a flag. A set flag requests its interrupt as soon as that interrupt is enabled.
+/// Writing 1 clears a flag. A set flag requests its interrupt as soon as the interrupt is enabled.
 void Chip::write_flags(Write write) {
   const struct {
     Address flags, mask;
@@ -138,7 +138,7 @@ void Chip::write_flags(Write write) {
     if (write.to == one.mask && flag(one.flags, one.bit)) avr_raise_interrupt(avr_, one.vector);
 }
 
-/// Writing a one clears ADIF. Writing a one to ADSC starts a conversion; ADSC reads as one while it runs.
+/// Writing 1 to ADIF clears it. Writing 1 to ADSC starts a conversion; ADSC reads as 1 during the conversion.
 void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((value & ADIF) != 0) avr_clear_interrupt(avr_, converted_);
   converter_.set((value & ADEN) != 0, value & 7, at);
@@ -150,7 +150,7 @@ void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((shown & ADIF) != 0) avr_raise_interrupt(avr_, converted_);
 }
 
-/// If the flag of a newly selected trigger is set, this counts as an edge too (data sheet, 26.4).
+/// If the flag of a newly selected trigger is set, the selection counts as an edge (data sheet, 26.4).
 void Chip::write_adcsrb(std::uint8_t value, std::uint64_t at) {
   const bool before = (avr_->data[ADCSRB] & ADTS_bits) == ADTS_timer1_overflow;
   avr_->data[ADCSRB] = value;
@@ -168,15 +168,15 @@ std::uint8_t Chip::read(Address from) {
   return static_cast<std::uint8_t>(from == ADCL ? result() : result() >> 8);
 }
 
-/// Whether the pin is an output and high. Its level is that of the timer if the timer drives the pin, else
-/// that of the port.
+/// Whether the pin is an output and high. If the timer drives the pin, the level is the timer's, else the
+/// port's.
 bool Chip::is_on(const Pin& pin) const {
   if (!flag(pin.DDR(), pin.mask())) return false;
   const int channel = pin.port == 'B' ? pin.bit - 5 : -1;
   return channel >= 0 && timer_.connected(channel) ? timer_.level(channel) : flag(pin.PORT(), pin.mask());
 }
 
-/// The gates in the order of control/gates.hpp: upper gates are the even bits, lower ones the odd bits.
+/// The gates in the order of control/gates.hpp: upper gates are the even bits, lower gates the odd bits.
 std::uint32_t Chip::gates() const {
   std::uint32_t on = 0;
   for (int leg = 0; leg < 3; ++leg) {

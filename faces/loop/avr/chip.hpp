@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models an ATmega2560 at 16 MHz: simavr's core, ports and interrupts, with a timer 1 and a converter of this
-// project. A gate is on if its pin is an output and high; PB5..PB7 also depend on timer 1.
+// Models an ATmega2560 at 16 MHz: core, ports and interrupts of simavr, with this project's timer 1 and
+// converter. A gate is on if its pin is an output and high; PB5..PB7 also depend on timer 1.
 //
 // Only code that links with simavr (GPL-3) may include this file.
 #pragma once
@@ -88,7 +88,7 @@ class Chip {
   Pins pins_;
   std::FILE* serial_;
 
-  bool stop_ = false;  ///< a register was written, or an interrupt entered: the core must stop before the
+  bool stop_ = false;  ///< a register was written, or an interrupt was entered: the core must stop before the
                        ///< next instruction
   bool has_write_ = false;
   Write write_{};  ///< write that the last instruction made
@@ -98,7 +98,7 @@ class Chip {
 
   Timer1 timer_;
   Converter converter_;
-  std::uint8_t channel_ = 0;  ///< channel of the running conversion
+  std::uint8_t channel_ = 0;  ///< channel of the conversion in progress
   bool timer_started_it_ = false, timer_samples_ = false;
   std::uint16_t held_ = 0, result_ = 0;
   bool result_locked_ = false;  ///< true between the reads of ADCL and ADCH
@@ -108,7 +108,7 @@ class Chip {
   bool asked_for_count_ = false;               ///< the last answer was a sample
   std::uint64_t reached_ = 0;                  ///< cycle of the last answer
 
-  Stopwatch control_{32}, hall_{32};  // a Hall interrupt may have to wait for a control interrupt
+  Stopwatch control_{32}, hall_{32};  // longer for Hall interrupts, which may wait for a control interrupt
   std::uint64_t periods_ = 0, conversions_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs simavr's core, stops it at the cycles at which an event is due, and replaces some of its registers.
+// Runs simavr's core, stops it at the cycles of events, and replaces some of its registers.
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
@@ -21,18 +21,18 @@ namespace {
 using namespace atmega2560;
 
 // Numbers of cycles from data sheet 2549, 7.8: from the request to the first instruction of the vector, for
-// waking up, and for the return. simavr counts only the return.
+// waking up, and for the return. simavr counts only the cycles of the return.
 constexpr std::uint64_t interrupt_response = 5, wake_up = 5, interrupt_return = 5;
 
-/// Whether simavr logged an invalid instruction or address. simavr continues after it and reports it only in
-/// its log.
+/// Whether simavr has logged an invalid instruction or address. simavr reports such an error only in its log
+/// and continues.
 bool told_of_error = false;
 
 void listen(avr_t*, int level, const char*, va_list) {
   if (level == LOG_ERROR) told_of_error = true;
 }
 
-/// Checked here, because simavr reads any file and for some files does not return.
+/// Checked here, because simavr reads any file, and hangs on some files.
 bool is_for_avr(const char* elf) {
   constexpr unsigned char machine_AVR[2] = {83, 0};
   unsigned char head[20]{};
@@ -71,7 +71,7 @@ avr_int_vector_t* Chip::vector(unsigned number) const {
   return nullptr;
 }
 
-/// Replaces simavr's timer 1 and converter: writes no longer reach them.
+/// Replaces simavr's timer 1 and converter. Writes no longer reach them.
 void Chip::take_over() {
   const auto mine = [&](Address at, bool reads) {
     auto& io = avr_->io[AVR_DATA_TO_IO(at)];
@@ -94,12 +94,11 @@ void Chip::take_over() {
   for (const Pin& pin : pins_.lower) of_gates.insert(pin.port);
   for (const char port : of_gates)
     for (const Address at : {Pin{port, 0}.PIN(), Pin{port, 0}.DDR(), Pin{port, 0}.PORT()}) take_over_port(at);
-  // If simavr starts a timer during a run (the watchdog's or the serial line's), it continues until that
-  // timer is due. With this setting it returns at once instead, because only run_core() computes the right
-  // end.
+  // If simavr starts one of its timers during a run (for the watchdog or the serial line), it continues until
+  // that timer is due. With this setting it returns at once: only run_core() computes the right end.
   avr_->run_cycle_limit = 1;
-  // simavr advances its cycle by its own estimate of the idle time. This function subtracts the estimate,
-  // because sleep_core() computes the right time.
+  // simavr advances its cycle counter by its own estimate of the idle time. This function subtracts the
+  // estimate, because sleep_core() computes the right time.
   avr_->sleep = [](avr_t* avr, avr_cycle_count_t cycles) { avr->cycle -= cycles + 1; };
   // The watchdog calls this function to reset the chip.
   avr_->reset = [](avr_t* avr) {
@@ -120,7 +119,7 @@ void Chip::register_pin_change() {
   avr_register_vector(avr_, &pin_change_);
 }
 
-/// Passes writes to a port on to simavr, and notes that gates may have changed.
+/// Passes writes to a port to simavr, and notes that gates may have changed.
 void Chip::take_over_port(Address at) {
   auto& w = avr_->io[AVR_DATA_TO_IO(at)].w;
   PortRegister& port = ports_.emplace_back(PortRegister{this, w.c, w.param});
@@ -142,7 +141,7 @@ void Chip::follow_interrupts() {
     avr_irq_register_notify(avr_->interrupts.vector[n]->irq + AVR_INT_IRQ_RUNNING, notify, this);
 }
 
-/// Replaces simavr's own handling of the serial line, which prints lines and sleeps when a program polls the
+/// Replaces simavr's handling of the serial line, which prints lines and sleeps when a program polls the
 /// line.
 void Chip::follow_serial_line() {
   std::uint32_t flags = 0;
@@ -162,14 +161,14 @@ void Chip::entered(unsigned number) {
   if (number == vector_PCINT2) hall_.entered();
 }
 
-/// Called when an interrupt is left, during the return instruction.
+/// Called during the return instruction of an interrupt.
 void Chip::left(unsigned number) {
   const std::uint64_t at = avr_->cycle + interrupt_return;
   if (number == vector_ADC) control_.left(at);
   if (number == vector_PCINT2) hall_.left(at);
 }
 
-/// Stops the core after this instruction; otherwise simavr continues for all cycles that it was given.
+/// Stops the core after this instruction; otherwise simavr would use up its number of cycles.
 void Chip::stop_core() {
   stop_ = true;
   avr_->run_cycle_count = 0;
@@ -184,8 +183,8 @@ void Chip::set_pins(std::uint32_t hall_pins, std::uint64_t since) {
   hall_.asked(since);
 }
 
-/// Resets the chip. simavr has cleared its registers, including those of the ports, but not the levels at the
-/// pins. RAM keeps its content.
+/// Resets the chip. simavr has cleared the registers, also of the ports, but not the levels at the pins. The
+/// RAM is unchanged.
 void Chip::begin_anew() {
   was_reset_ = has_write_ = timer_started_it_ = result_locked_ = slept_ = false;
   timer_ = {};
@@ -222,7 +221,7 @@ void Chip::run_core(std::uint64_t target) {
       avr_->state == cpu_Crashed || avr_->state == cpu_Done || avr_->pc >= avr_->codeend || told_of_error;
 }
 
-/// Sleeps until an interrupt may occur, from this class or from one of simavr's other peripherals.
+/// Sleeps until an interrupt may occur, from this class or from another peripheral of simavr.
 void Chip::sleep_core(std::uint64_t target) {
   slept_ = true;
   const auto* timer = avr_->cycle_timers.timer;

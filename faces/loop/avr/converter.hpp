@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Models the timing of an ATmega2560's converter according to data sheet 2549 (26): when a conversion's
-// channel is locked, when its input is held and when the conversion is done. chip.hpp models the converter's
-// registers and its interrupt.
+// channel is latched, when its input is sampled, and when the conversion is done. chip.hpp models the
+// converter's registers and its interrupt.
 #pragma once
 #include <cstdint>
 
@@ -16,7 +16,7 @@ class Converter {
   bool busy() const { return next_ != never; }
   std::uint64_t next() const { return next_; }
 
-  /// Sets ADEN and the bits of the prescaler. The prescaler runs from the instant at which the converter is
+  /// Sets ADEN and the bits of the prescaler. The prescaler counts from the instant at which the converter is
   /// switched on.
   void set(bool on, unsigned adps, std::uint64_t now) {
     clocks_ = 1u << (adps == 0 ? 1 : adps);
@@ -34,8 +34,8 @@ class Converter {
     begin(reset_at_ + ((now - reset_at_) / clocks_ + 1) * clocks_);
   }
 
-  /// Starts a conversion by the trigger's edge, which resets the prescaler. The input is held two converter
-  /// clocks later. Returns false if the trigger is lost.
+  /// Starts a conversion at the trigger's edge, which resets the prescaler. The input is sampled two
+  /// converter clocks later. Returns false if the trigger is lost.
   bool trigger(std::uint64_t now) {
     if (!on_ || busy()) return false;
     reset_at_ = now;
@@ -51,7 +51,7 @@ class Converter {
   }
 
  private:
-  /// Times from table 26-1. The first conversion also prepares the analogue part.
+  /// Times from table 26-1. The first conversion also initialises the analogue circuit.
   void begin(std::uint64_t at) {
     hold_at_ = at + (first_ ? 27 : 3) * clocks_ / 2;
     done_at_ = at + (first_ ? 25 : 13) * clocks_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads from the board's options which signal is connected to which pin of the chip.
+// Reads the board's options, which state the pin of each signal.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -28,10 +28,9 @@ struct Pins {
   Pin upper[3] = {{'B', 5}, {'B', 6}, {'B', 7}};
   Pin lower[3] = {{'A', 0}, {'A', 1}, {'A', 2}};
   std::uint8_t inputs[4] = {0, 1, 2,
-                            3};  ///< inputs of the converter: for the currents of legs a, b, c, and for the
-                                 ///< potentiometer
+                            3};  ///< inputs of the converter: currents of legs a, b, c, potentiometer
 
-  /// The signal at an input of the converter: its index 0 to 3 in `inputs`; -1: none.
+  /// The signal at an input of the converter, as the index 0 to 3 in `inputs`; -1: none.
   int what_hangs_at(unsigned channel) const {
     for (int n = 0; n < 4; ++n)
       if (inputs[n] == channel) return n;
@@ -50,7 +49,7 @@ inline bool take_three(const char* said, Pin (&pins)[3]) {
   return true;
 }
 
-/// Reads an option of the board's program. Returns false if it is no such option.
+/// Reads an option of the board's program. Returns false for any other word.
 inline bool take_pins(const char* option, Pins& pins) {
   const auto behind = [option](const char* name) {
     return std::strncmp(option, name, std::strlen(name)) == 0 ? option + std::strlen(name) : nullptr;

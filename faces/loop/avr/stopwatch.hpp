@@ -16,7 +16,7 @@ class Stopwatch {
   const sixstep::rig::InterruptTimes& times() const { return times_; }
 
   void asked(std::uint64_t at) { asked_ = at; }
-  /// Ends the request phase. A later request belongs to the next interrupt.
+  /// Called when the interrupt is entered. A later request belongs to the next interrupt.
   void entered() {
     served_ = asked_;
     asked_ = never;

@@ -3,9 +3,9 @@
 // 2549 (17). In all other modes it does not count, and its outputs are off. next() is the next cycle with an
 // event; no call is necessary before this cycle.
 //
-// A phase is counted in ticks from the tick that leaves BOTTOM. TOV1 is set at this tick, and a match takes
+// The phase is counted in ticks from the tick that leaves BOTTOM. TOV1 is set at this tick, and a match takes
 // effect at the tick that leaves the matching count (figures 17-12 and 17-13). So the on-time is centred on
-// phase 0, and the count is one ahead of the phase.
+// phase 0, and the counter value is one tick ahead of the phase.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -24,7 +24,7 @@ class Timer1 {
 
   enum class Event { match, top, bottom };
 
-  /// Executes the event at next(): TOP sets ICF1, because both modes count to ICR1, and BOTTOM sets TOV1.
+  /// Executes the event at next(): TOP sets ICF1, because both modes count up to ICR1; BOTTOM sets TOV1.
   Event pass() {
     if (next_phase_ == period()) {
       base_ += period() * prescaler_;
@@ -104,8 +104,8 @@ class Timer1 {
     if (!has_outputs()) c.compare = word;
   }
 
-  /// Handles a match. The latch of a disconnected output does not change (17.8.1). At TOP the latch has the
-  /// level that a match while counting up leaves, even if there was none (16.7.4), so that a pulse is
+  /// Handles a match. The latch of a disconnected output does not change (17.8.1). At TOP, the latch is set
+  /// to the level that a match while counting up gives, even without a match (16.7.4), so that a pulse is
   /// symmetric about BOTTOM.
   void match(Channel& c) const {
     if ((tccr_a_ >> c.com_shift & 2) == 0) return;
@@ -124,8 +124,8 @@ class Timer1 {
     return {ticks <= top_ ? ticks : period() - ticks, ticks < top_};
   }
 
-  /// Continues from a count, with the present registers. The prescaler is not reset: its edges are counted
-  /// from the chip's reset.
+  /// Continues from a count with the present registers. The prescaler is not reset: its edges are multiples
+  /// of the prescaler's factor since the chip's reset.
   void place(Count from, std::uint64_t now) {
     counted_ = counts();
     top_ = icr_;
@@ -157,7 +157,7 @@ class Timer1 {
   std::uint8_t tccr_a_ = 0, tccr_b_ = 0, temp_ = 0;
   std::uint16_t icr_ = 0;
   Channel channel_[channels] = {{.com_shift = 6}, {.com_shift = 4}, {.com_shift = 2}};
-  bool counted_ = false;  ///< whether the timer counts; place() derives this and the following members from
+  bool counted_ = false;  ///< whether the timer counts; place() computes this and the following members from
                           ///< the registers
   std::int64_t top_ = 0, prescaler_ = 0;
   std::int64_t base_ = 0;                     ///< cycle of phase 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs a drive on a core in parallel with the host: waits for a call, executes it, and sends the answer
-// (sixstep/rig/core_call.hpp). The drive is that of drive_config.hpp, an exported header.
+// (sixstep/rig/core_call.hpp). drive_config.hpp, an exported header, configures the drive.
 #include <drive_config.hpp>
 
 #include "faces/firmware/bare/semihosting.hpp"
@@ -15,7 +15,7 @@ using exported::Scalar;
 namespace control = sixstep::control;
 namespace rig = sixstep::rig;
 
-/// Selects the drive of the library. The header's name for the drive's configuration determines the type.
+/// Selects the library's drive for the type of configuration in the header.
 #ifdef SIXSTEP_PRODUCT_DRIVE
 using Call = rig::ProductCall<Scalar>;
 

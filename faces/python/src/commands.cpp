@@ -13,7 +13,7 @@ namespace {
 using sixstep::control::DriveConfig;
 using sixstep::control::DriveState;
 
-/// A variable of the thread, because the interface's design function has no argument for the exchange.
+/// A thread-local variable, because the interface's design function has no argument for the exchange.
 thread_local Exchange* opening = nullptr;
 
 struct Opened {

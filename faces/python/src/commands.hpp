@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives with commands from outside: makes an environment's action a controller behind the interface for
+// Drives with external commands: an environment's action acts as a controller, through the interface for
 // users' controllers.
 #pragma once
 #include <array>
@@ -12,7 +12,7 @@
 namespace python {
 
 /// The quantity that an environment's action commands:
-/// - duty: of the pair of the Hall code, -1..1;
+/// - duty: of the driven pair of the Hall code, -1..1;
 /// - legs: three duties, 0..1;
 /// - current: setpoint of the library's current loop, A.
 enum class Action : std::uint8_t { duty, legs, current };
@@ -26,13 +26,13 @@ struct Exchange {
   sixstep_measured seen{};
   double setpoint = 0.0;  ///< value of the scenario's reference
   double current_A =
-      0.0;  ///< bound of a current setpoint, A: the scenario's limit, else the current of the full torque
+      0.0;  ///< bound of the current setpoint, A: the scenario's limit, else the current at full torque
 };
 
 const sixstep_controller& controller_of(Action action);
 
-/// While this object lives, each session that this thread opens with such a controller reads its commands
-/// from this exchange.
+/// While this object exists, a session that this thread opens with such a controller reads its commands from
+/// this exchange.
 class Opening {
  public:
   explicit Opening(Exchange& exchange);

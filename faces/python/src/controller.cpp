@@ -13,7 +13,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// A variable of the thread, because the interface's design function has no argument for the object. A run is
+/// A thread-local variable, because the interface's design function has no argument for the object. A run is
 /// designed in the thread that starts it.
 thread_local Controller* designed = nullptr;
 
@@ -47,7 +47,7 @@ py::dict as_dict(const sixstep_given& g) {
   return out;
 }
 
-/// Refuses an answer of another type, or a number out of its range.
+/// Raises an exception for an answer of another type, or for a number out of its range.
 [[noreturn]] void throw_wrong(const py::object& out, const char* wanted) {
   PyErr_Format(PyErr_Occurred() ? PyExc_TypeError : PyExc_ValueError,
                "the controller's step() returned %.60R; it returns %s", out.ptr(), wanted);
@@ -108,7 +108,7 @@ void Controller::step(const void* config, void* state, const sixstep_measured* m
   if (own.error_) return;
   try {
     static_cast<State*>(state)->duty = own.answer_to(*measured, setpoint, *answer);
-    // Set for the report, because only the controller determines how it uses its setpoint.
+    // Set for the report. The controller itself may use its setpoint in any way.
     if (own.mode_ == SIXSTEP_CURRENT) answer->current_reference_A = setpoint;
     if (own.mode_ == SIXSTEP_SPEED) answer->speed_reference_rad_s = setpoint;
   } catch (py::error_already_set& error) {
@@ -117,12 +117,12 @@ void Controller::step(const void* config, void* state, const sixstep_measured* m
   }
 }
 
-/// At a Hall edge the pair changes at once, with the duty of the last step.
+/// At a Hall edge, sets the new pair at once, with the duty of the last step.
 void Controller::hall(const void*, void* state, uint8_t code, sixstep_answer* answer) {
   if (answer->enabled != 0) control::command_pair(static_cast<State*>(state)->duty, code, *answer);
 }
 
-/// Returns the signed duty of a pair.
+/// Fills in `answer`. Returns the signed duty if the answer is a pair.
 double Controller::answer_to(const sixstep_measured& measured, double setpoint, sixstep_answer& answer) {
   *measured_ = measured;
   const py::float_ wanted(setpoint);

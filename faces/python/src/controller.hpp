@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller written in Python. It replaces a user's controller in C (control/own/own_controller.h): it has
-// the same measurement and the same output, once per control period.
+// A controller written in Python, in place of a user's controller in C (control/own/own_controller.h). It
+// receives the same measurement and returns the same output, once per control period.
 //
 // The Python object has two methods:
 // - step(m, setpoint) returns the output. A number is the duty of the driven pair, -1..1; three numbers are
 //   the duties of the legs, 0..1; None turns the bridge off.
-// - start(given) is optional. It is called before each run with the data from which a controller in C designs
-//   itself.
+// - start(given) is optional. It is called before each run with the data that a controller in C receives for
+//   its design.
 //
-// An exception stops the run, and the caller of the run raises it again.
+// An exception stops the run, and is raised again in the caller of the run.
 #pragma once
 #include <pybind11/pybind11.h>
 
@@ -27,7 +27,7 @@ class Controller {
 
   const sixstep_controller* functions() const { return &functions_; }
 
-  /// Returns the exception that stopped the run, and forgets it. Needs the GIL.
+  /// Returns the exception that stopped the run, and clears it. Needs the GIL.
   std::optional<pybind11::error_already_set> take_error();
 
  private:
@@ -40,7 +40,7 @@ class Controller {
 
   pybind11::object step_;
   pybind11::object start_;  ///< None: the controller has no start()
-  pybind11::object seen_;   ///< Python's view of measured_, the same object in each step
+  pybind11::object seen_;   ///< the object `m` for step(), the same in each call; refers to measured_
   std::shared_ptr<sixstep_measured> measured_;
   uint8_t chopping_ = SIXSTEP_SOFT;
   uint8_t mode_ = 0;  ///< mode of the scenario, coded as in sixstep_given
@@ -48,7 +48,7 @@ class Controller {
   sixstep_controller functions_;
 };
 
-/// While this object lives, runs that this thread starts are designed for this controller.
+/// While this object exists, runs that this thread starts use this controller.
 class Designing {
  public:
   explicit Designing(Controller* controller);

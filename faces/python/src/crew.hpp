@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads that divide many small, equal calls among them.
+// Threads that share many small, equal calls.
 #pragma once
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ namespace python {
 
 class Crew {
  public:
-  /// `workers`: number of threads including the calling one, at least 1.
+  /// `workers`: number of threads including the calling thread, at least 1.
   explicit Crew(std::size_t workers) : gate_(static_cast<std::ptrdiff_t>(workers)) {
     for (std::size_t n = 1; n < workers; ++n) threads_.emplace_back([this] { serve(); });
   }
@@ -31,11 +31,11 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Whether this process has the threads. A process that was forked from it does not, because a fork does
+  /// Whether the threads exist in this process. They do not exist in a forked process, because a fork does
   /// not copy threads.
   bool has_threads() const { return ::getpid() == process_; }
 
-  /// Calls work(n) for each n < count, in any order, and returns when all have ended.
+  /// Calls work(n) for each n < count, in any order, and returns after all calls have returned.
   void each(std::size_t count, const std::function<void(std::size_t)>& work) {
     work_ = &work;
     count_ = count;
@@ -46,7 +46,7 @@ class Crew {
   }
 
  private:
-  static constexpr std::size_t at_once = 4;  // number of adjacent calls that a thread takes at once, to
+  static constexpr std::size_t at_once = 4;  // number of adjacent calls that a thread makes at a time, to
                                              // reduce accesses to next_
 
   void take() {

@@ -26,7 +26,8 @@ namespace py = pybind11;
 
 namespace {
 
-/// The board's measurements at a control tick, and the setpoint of the scenario's reference.
+/// Names of the observed quantities: the board's measurements at a control tick, and the setpoint of the
+/// scenario.
 constexpr std::array observed = {"i_a_A",        "i_b_A",           "i_c_A",      "speed_rad_s",
                                  "position_deg", "bus_V",           "magnet_cos", "magnet_sin",
                                  "hall",         "motor_current_A", "setpoint"};
@@ -59,7 +60,7 @@ class Environment {
   }
 
   /// Restarts drive which[k] as drive numbers[k] of the scenario's [spread] with this seed. If numbers[k] is
-  /// empty, the drive is as written.
+  /// empty, the drive has the scenario's values.
   void reset(const std::vector<std::size_t>& which, std::uint64_t seed,
              const std::vector<std::optional<std::uint64_t>>& numbers) {
     for (std::size_t k = 0; k < which.size(); ++k) {
@@ -73,8 +74,8 @@ class Environment {
     }
   }
 
-  /// Advances each drive by `periods` control periods under its action. A drive whose run has ended gets
-  /// `over`.
+  /// Advances each drive by `periods` control periods under its action. `over` is set for a drive whose run
+  /// has ended.
   void step(const Numbers& actions, std::uint64_t periods) {
     if (actions.ndim() != 2 || static_cast<std::size_t>(actions.shape(0)) != drives_.size() ||
         static_cast<std::size_t>(actions.shape(1)) != actions_)
@@ -128,7 +129,7 @@ class Environment {
 
  private:
   static constexpr std::uint64_t between_looks =
-      1000;  ///< number of periods between two checks for Ctrl-C, which simulate a millisecond
+      1000;  ///< number of periods between two checks for Ctrl-C; they take about a millisecond of computing
 
   static study::Session opened(const study::Scenario& scenario, Exchange& exchange) {
     const Opening commanded(exchange);
@@ -142,8 +143,8 @@ class Environment {
       out.mutable_at(static_cast<py::ssize_t>(n)) = property(drives_[n]);
     return out;
   }
-  /// Advances to three quarters of the last period, after the period's tick, which is at the start or in the
-  /// middle of a period.
+  /// Advances to three quarters of the last period. The period's tick, at its start or in its middle, is then
+  /// over.
   void advance(Drive& drive, std::uint64_t periods) const {
     if (drive.over) return;
     drive.periods += periods;

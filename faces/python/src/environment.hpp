@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many drives of one scenario. Each is commanded from outside once per control period.
+// Many drives of one scenario. Each drive receives an external command once per control period.
 #pragma once
 #include <pybind11/pybind11.h>
 

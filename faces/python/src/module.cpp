@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep._core: the library's functions for the Python package. Users call the functions in the package's
-// own files instead.
+// sixstep._core: the library's functions for the Python package. Users call the package's Python functions.
 #include <pybind11/pybind11.h>
 
 #include "faces/python/src/controller.hpp"

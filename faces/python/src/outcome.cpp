@@ -20,7 +20,7 @@ Described described(const std::vector<study::Column>& columns) {
   return out;
 }
 
-/// A read-only view of a column. The rows live as long as any view of them.
+/// A read-only view of a column. The rows exist as long as a view of them.
 py::array_t<double> view(const std::shared_ptr<Rows>& rows, std::size_t column) {
   if (!rows || column >= rows->columns.size()) throw py::index_error("no such column");
   const std::vector<double>& values = rows->columns[column];

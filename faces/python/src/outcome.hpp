@@ -32,7 +32,7 @@ struct Outcome {
   pybind11::object stopped_by;         ///< the exception that ended the run early, or None
 };
 
-/// Makes rows with this number of columns.
+/// Creates empty rows with this number of columns.
 std::shared_ptr<Rows> rows_of(std::size_t columns);
 
 Outcome outcome_of(const study::Scenario& scenario, const study::Outcome& outcome);

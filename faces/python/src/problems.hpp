@@ -11,7 +11,8 @@
 
 namespace python {
 
-/// Thrown by this binding only. Python gets a sixstep.ScenarioError with all problems in `.problems`.
+/// Thrown only by this binding. In Python it becomes a sixstep.ScenarioError with all problems in
+/// `.problems`.
 struct Refused {
   base::Problems problems;
 };

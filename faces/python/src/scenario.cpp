@@ -24,7 +24,8 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Finds files like the command line; any controller's name means the given controller.
+/// Resolves file names as the command line does. If a controller is given, every controller's name refers to
+/// it.
 text::Resolve resolve_with(const std::string& data_dir, const std::shared_ptr<Controller>& controller) {
   return [on_disk = files::on_disk(data_dir), controller](const text::Naming& naming) {
     if (controller && naming.kind == text::Naming::Kind::controller)
@@ -42,7 +43,7 @@ HeldScenario read(const std::string& name, std::string source, const Settings& s
   return {std::move(scenario), std::move(controller)};
 }
 
-/// A tuple for each key: the key, its value as TOML, and whether the value is the same without the key.
+/// A tuple for each key: the key, its value as TOML, and whether omitting the key gives the same value.
 std::vector<std::tuple<std::string, std::string, bool>> values(const HeldScenario& held) {
   std::vector<std::tuple<std::string, std::string, bool>> out;
   for (text::WrittenValue& value : text::scenario_values(held.scenario))

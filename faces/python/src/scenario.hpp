@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A checked scenario, and the Python controller that it runs, if there is one.
+// A checked scenario, and its Python controller if there is one.
 #pragma once
 #include <pybind11/pybind11.h>
 
@@ -13,8 +13,7 @@ namespace python {
 
 struct HeldScenario {
   study::Scenario scenario;
-  std::shared_ptr<Controller> controller;  ///< null: the controller is one of the library's or a shared
-                                           ///< object
+  std::shared_ptr<Controller> controller;  ///< null: the controller is in the library or in a shared object
 };
 
 void declare_scenario(pybind11::module_& module);

@@ -25,8 +25,8 @@ namespace py = pybind11;
 
 namespace {
 
-/// Allows one call at a time. A session advances without the GIL, and meanwhile another thread may call the
-/// same session.
+/// Allows one call at a time. A session advances without the GIL; meanwhile another thread may call the same
+/// session.
 class Busy {
  public:
   explicit Busy(std::atomic<bool>& busy) : busy_(busy) {
@@ -42,8 +42,8 @@ class Busy {
   std::atomic<bool>& busy_;
 };
 
-/// Rows to which this thread's call records. They are not in the listener: a copied session keeps its own
-/// rows, but copies its listener with everything in it.
+/// The rows into which this thread's call records. They are not in the listener: a copied session copies its
+/// listener, but must record into its own rows.
 thread_local Rows* recording = nullptr;
 
 class Recording {
@@ -70,7 +70,7 @@ class Session {
     session_.emplace(taken(study::Session::open(held.scenario, listeners)));
   }
 
-  /// The copy has the rows so far.
+  /// The copy contains the rows so far.
   std::unique_ptr<Session> copied() {
     if (controller_)
       throw py::value_error(
@@ -90,7 +90,7 @@ class Session {
       // Advances in parts, with a check for Ctrl-C after each part. The parts do not change a bit.
       while (goes_on && session.now_s() + part_s_ < to_s && watch.keep_going(session.now_s()))
         goes_on = session.skip(session.now_s() + part_s_);
-      // After Ctrl-C, the values at the instant that was reached are read.
+      // After Ctrl-C, reads the values at the reached instant.
       if (goes_on) goes_on = session.advance(watch.stopped_by_nothing() ? to_s : session.now_s());
     }
     std::optional<py::error_already_set> raised;

@@ -13,8 +13,8 @@ class Watch {
   /// `progress`: None, or a function of the simulated time in s.
   explicit Watch(pybind11::object progress) : progress_(std::move(progress)) {}
 
-  /// Returns false if the run must end; stopped_by() then has the reason. Acquires the GIL at most once per
-  /// `interval`.
+  /// Returns false if the run must end; stopped_by() then returns the reason. Acquires the GIL at most once
+  /// per `interval`.
   bool keep_going(double t_s) {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < interval) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop measured on the switching simulation equals the designed one where the drive is linear.
+// The loop measured in the switching simulation is equal to the designed loop if the drive is linear.
 #include "sixstep/analysis/bode/bode_study.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ study::Scenario steady_current(bool locked) {
   return s;
 }
 
-/// The largest |L/(designed factor) - 1| where |L| is between `least` and `most`.
+/// The largest |L/(factor D) - 1| over the points with |L| between `least` and `most`. L: measured loop, D:
+/// designed loop.
 double off_by(const BodeStudy& b, double least, double most, double factor = 1.0) {
   double worst = 0;
   std::size_t looked_at = 0;
@@ -38,20 +39,22 @@ double off_by(const BodeStudy& b, double least, double most, double factor = 1.0
   return worst;
 }
 
-/// Effect of a slightly longer pulse on the current at the next sample, relative to the same voltage spread over the period. Here x = R
-/// T/L. The pulse ends at d T, so that its effect decays for (1 - d) T. A held voltage's effect decays for half a period on average.
+/// Effect of a slightly longer pulse on the current at the next sample, relative to the effect of the same
+/// voltage spread over the period. x = R T/L. The pulse ends at d T, so its effect decays for (1 - d) T. The
+/// effect of the spread voltage decays for half a period on average.
 double pulse_over_held(double R_ohm, double L_H, double period_s, double duty) {
   const double x = R_ohm * period_s / L_H;
   return std::exp(-(1 - duty) * x) * x / -std::expm1(-x);
 }
 
-/// The duty for 5 A through the locked rotor: the mean voltage is d U, or (2 d - 1) U where both switches chop.
+/// The duty for 5 A through the locked rotor. The mean voltage is d U, or (2 d - 1) U if both switches chop.
 double steady_duty(control::Chopping chopping) {
   const double part = 5 * 1.03 / 24;
   return chopping == control::Chopping::hard ? (1 + part) / 2 : part;
 }
 
-/// A locked rotor has only winding and PWM: L is the designed loop times the factor of the pulse's place in the period.
+/// With a locked rotor, the plant is the winding and the PWM: L is the designed loop times the factor of the
+/// pulse's position in the period.
 void expect_the_designed(study::Scenario s) {
   SCOPED_TRACE(static_cast<int>(s.pwm.chopping));
   const auto b = analysis::study_bode(s);
@@ -83,8 +86,9 @@ TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
     }
 }
 
-/// Samples lie in the middle of centred pulses: half of a duty's change acts before the next sample, and half after it. The halves are 1/2
-/// (1 +- x/4) and 1/2 (1 -+ x/4) of a held voltage's effect, with x = R T/L = 0.054. L differs by 1.4 % in the imaginary part.
+/// Samples are in the middle of centred pulses: half of a duty's change acts before the next sample, half
+/// after it. The halves are 1/2 (1 +- x/4) and 1/2 (1 -+ x/4) of the effect of a spread voltage, with x = R
+/// T/L = 0.054. L differs by 1.4 % in the imaginary part.
 TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   for (const int delay : {0, 1}) {
     study::Scenario s = steady_current(true);
@@ -97,7 +101,7 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
     ASSERT_TRUE(b->designed && b->figures && b->measured.phase_rad);
     EXPECT_LT(off_by(*b, 0.3, 30), 0.02) << delay;
     EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 5e-3);
-    // Pulses that begin with the period end before the sample where the duty is below 1/2, so that the loop is not linear.
+    // Edge-aligned pulses end before the sample if the duty is below 1/2, so the loop is not linear.
     s.pwm.alignment = study::Alignment::edge;
     const auto edge = analysis::study_bode(s);
     ASSERT_TRUE(edge) << to_string(edge.problems()[0]);
@@ -106,23 +110,24 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   }
 }
 
-/// The measured current selects the chopping. Above the levels of smooth chopping it is soft, with the gains of one switch, for any
-/// pwm.chopping.
+/// The measured current selects the chopping. Above the thresholds of smooth chopping, the chopping is soft,
+/// with the gains for one switch, for any pwm.chopping.
 TEST(Bode, SmoothChoppingIsTheDesignedToo) {
   study::Scenario s = steady_current(true);
   s.control.smooth_chopping.on = true;
   expect_the_designed(s);
 }
 
-/// The closed loop is z^-1, or z^-2 with a delay. The pulse's place multiplies the voltage by f = pulse_over_held, because the prediction
-/// corrects only slow errors. L therefore lies between the designed loop and f times that loop.
+/// The closed loop is z^-1, or z^-2 with a delay. The pulse's position multiplies the voltage by f =
+/// pulse_over_held, and the prediction corrects only slow errors. L is therefore between the designed loop
+/// and f times the designed loop.
 TEST(Bode, ADeadbeatLoopIsADelay) {
   for (const int delay : {0, 1, 2}) {
     study::Scenario s = steady_current(true);
     s.pwm.delay_periods = delay % 2;
     s.pwm.chopping = delay == 2 ? control::Chopping::hard : control::Chopping::complementary;
     s.control.current.type = study::CurrentLoopType::deadbeat;
-    // The gain is 19 V per ampere and period: a larger amplitude would need more than the bus voltage.
+    // The gain is 19 V per ampere and period. A larger amplitude would need more than the bus voltage.
     const auto b = analysis::study_bode(s, {.amplitude = 0.02});
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
     ASSERT_TRUE(b->designed);
@@ -134,8 +139,9 @@ TEST(Bode, ADeadbeatLoopIsADelay) {
   }
 }
 
-/// The current may reverse with both switches chopped, so that the speed loop is linear apart from commutation. The torque follows the
-/// current's mean instead of its sample: the gain near the crossover differs by 1 to 2 % from the linear loop.
+/// With both switches chopped, the current may reverse, so the speed loop is linear apart from commutation.
+/// The torque is proportional to the current's mean, not to its sample: near the crossover, the gain differs
+/// by 1 to 2 % from the linear loop.
 TEST(Bode, SpeedLoopIsTheDesigned) {
   for (const auto chopping : {control::Chopping::complementary, control::Chopping::hard}) {
     study::Scenario s = cascade(0.1);
@@ -151,8 +157,8 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   }
 }
 
-/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p): without the current's delay L = (1 - p)/(z - 1) crosses over at 2 asin((1 -
-/// p)/2)/T_s. With the delay it equals the linear loop.
+/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p). Without the current's delay, L = (1 - p)/(z -
+/// 1) has its crossover at 2 asin((1 - p)/2)/T_s. With the delay, L is equal to the linear loop.
 TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
   for (const study::SpeedLaw law : {study::SpeedLaw::state_feedback, study::SpeedLaw::disturbance_rejection,
                                     study::SpeedLaw::sliding_mode, study::SpeedLaw::pi}) {
@@ -175,8 +181,9 @@ TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
   }
 }
 
-/// A sine machine with field-oriented control has the bandwidth of its rule, T(z) = z_1 (1 - z_1)/(z^2 - z + z_1 (1 - z_1)). The three
-/// legs' pulses lie in the middle of the period, so that the winding has the held voltage.
+/// A sine machine with field-oriented control has the bandwidth of its rule, T(z) = z_1 (1 - z_1)/(z^2 - z +
+/// z_1 (1 - z_1)). The pulses of the three legs are in the middle of the period, so their effect is equal to
+/// that of a spread voltage.
 TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   study::Scenario s = maxon_scenario(control::Mode::current, 4.0);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -217,7 +224,7 @@ TEST(Bode, FieldOrientedSpeedLoopIsTheDesigned) {
   EXPECT_EQ(salient->not_linear, "a salient rotor's torque is not proportional to its current");
 }
 
-/// A hysteresis band has no linear loop for comparison; the study reports only the measurement.
+/// A hysteresis controller has no linear loop for comparison. The study reports only the measurement.
 TEST(Bode, ABandHasNoLinearLoop) {
   study::Scenario s = cascade(0.1);
   s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A multisine has power only at its lines, and the measured response of a known system equals that system.
+// A multisine has power only at its lines, and the measured response of a known system is equal to the
+// system's response.
 #include "sixstep/analysis/bode/multisine.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,8 @@ TEST(Multisine, PeaksAtItsAmplitudeAndLowerThanSinesInStep) {
     square += x * x / static_cast<double>(r.size());
   }
   EXPECT_NEAR(peak, 0.25, 1e-15);
-  // Of 32 sines in phase the crest factor is sqrt(2 32) = 8. Schroeder's phases keep it below half of that.
+  // The crest factor of 32 sines in phase is sqrt(2 32) = 8. With Schroeder's phases it is below half of this
+  // value.
   EXPECT_LT(peak / std::sqrt(square), 4.0);
 }
 
@@ -79,7 +81,7 @@ TEST(Multisine, AnswerIsTheSystems) {
   }
 }
 
-/// The square of the input appears at even lines; noise makes the periods differ.
+/// The square of the input has power only at even lines. Noise makes the periods differ.
 TEST(Multisine, SquaresFallBesideAndNoiseCostsCoherence) {
   const Multisine signal{512, analysis::odd_lines(100, 16), 1.0};
   const std::vector<double> r = samples_of(signal);
@@ -103,12 +105,13 @@ TEST(Multisine, SquaresFallBesideAndNoiseCostsCoherence) {
     EXPECT_LT(rough.lines[k].coherence, 1.0);
     EXPECT_GT(rough.lines[k].coherence, 0.8);
   }
-  EXPECT_NEAR(std::sqrt(strayed / scatter), 1.0, 0.35);  // the reported scatter is the true one
+  EXPECT_NEAR(std::sqrt(strayed / scatter), 1.0, 0.35);  // the reported scatter is equal to the actual
+                                                         // scatter
 }
 
-/// Margins are computed from points of a known loop.
+/// The margins computed from points of a known loop are the margins of the loop.
 TEST(MeasuredLoop, MarginsAreTheLoops) {
-  // L = k/(z (z - 1)); design's own scan gives crossover and margins.
+  // L = k/(z (z - 1)). design::loop_figures() gives crossover and margins for comparison.
   const design::Transfer loop = design::series({{0.1}, {0.0, 1.0}}, design::delay(1));
   const double period_s = 50e-6;
   const design::LoopFigures figures = design::loop_figures(loop, period_s);

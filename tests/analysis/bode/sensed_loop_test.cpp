@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop whose speed or position comes from a sensor includes that sensor's delay.
+// If the speed or position comes from a sensor, the loop includes the sensor's delay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,8 +46,9 @@ BodeStudy study_of(const study::Scenario& s) {
   return b ? *b : BodeStudy{};
 }
 
-/// The true speed responds with T, so that the loop with the sensor H is L H = T H/(1 - T H). H is a delay of (k + 1)/2 sectors for a speed
-/// from k edges. The measured loop equals the designed one up to the frequency that the edges no longer resolve.
+/// The true speed responds with T, so the loop with the sensor H is L H = T H/(1 - T H). For a speed from k
+/// edges, H is a delay of (k + 1)/2 sectors. The measured loop is equal to the designed loop up to the
+/// frequency that the edges resolve.
 TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   for (const auto rotor :
        {study::RotorSensing::ideal, study::RotorSensing::hall, study::RotorSensing::encoder}) {
@@ -67,8 +68,8 @@ TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   }
 }
 
-/// A speed from one edge interval is (1 + 1)/2 = 1 sector late. At the crossover the phase is smaller by that delay than with the true
-/// speed.
+/// The delay of a speed from one edge interval is (1 + 1)/2 = 1 sector. At the crossover, this delay reduces
+/// the phase compared with the true speed.
 TEST(SensedLoop, TheSensorCostsItsDelay) {
   const BodeStudy ideal = study_of(speed_by(study::RotorSensing::ideal)),
                   hall = study_of(speed_by(study::RotorSensing::hall));
@@ -89,8 +90,8 @@ double between(const std::vector<LoopPoint>& points, double w_rad_s) {
   return 0.0;
 }
 
-/// A position from Hall probes has steps, so that the phase of its lowest line is noise. Whole turns of that phase must not carry over to
-/// the other lines.
+/// A position from Hall probes has steps, so the phase of the lowest line is noise. Whole turns of this phase
+/// must not propagate to the other lines.
 TEST(SensedLoop, PhasesStandWithinATurnAndTheMarginIsOfThem) {
   for (const study::Scenario& s :
        {position_by(study::RotorSensing::hall), speed_by(study::RotorSensing::hall)}) {

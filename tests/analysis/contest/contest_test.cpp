@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The course on which controllers are compared, and the composition of its figures.
+// The course on which controllers are compared, and the calculation of the figures.
 #include "sixstep/analysis/contest/contest.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,8 @@ TEST(Contest, WindowsLieInTheirOrderAndHoldTenElectricalTurns) {
     const double turn_rad = 2 * std::numbers::pi / bench->design.motor.machine.pole_pairs;
     EXPECT_GE(c.calm_s * c.high_rad_s, 10 * turn_rad);
     EXPECT_GE(c.slow_calm_s * c.slow_rad_s, 10 * turn_rad);
-    // The high speed is at most 0.6 of the speed at which the bus just drives the full load, K_t w + 2 R i = U.
+    // The high speed is at most 0.6 times the speed at which the bus just drives the full load, K_t w + 2 R i
+    // = U.
     const design::MotorModel& m = bench->design.motor;
     EXPECT_LE(
         c.high_rad_s,
@@ -72,8 +73,7 @@ TEST(Contest, ABoardIsTakenAndItsSwitchesCostWhatIsUsualWhereItNamesNothing) {
 
 TEST(Contest, FiguresAreSumsOfGauges) {
   GaugeValues gauges{};
-  for (std::size_t n = 0; n < gauges.size(); ++n)
-    gauges[n] = std::pow(2.0, double(n));  // no two sums are equal
+  for (std::size_t n = 0; n < gauges.size(); ++n) gauges[n] = std::pow(2.0, double(n));  // all sums differ
   const auto gauge = [&](Gauge g) { return gauges[static_cast<std::size_t>(g)]; };
   const ContestValues values = contest_values_of(gauges);
   EXPECT_EQ(values[loss_figure], gauge(Gauge::copper) + gauge(Gauge::conduction) + gauge(Gauge::switching));
@@ -88,7 +88,7 @@ TEST(Contest, FiguresAreSumsOfGauges) {
   EXPECT_EQ(static_cast<std::size_t>(Gauge::none), std::size(contest_gauges));
 }
 
-/// A course with made-up runs: two contestants that spread three values, as in contest_entries().
+/// A contest with invented results: two controllers that spread three values, as in contest_entries().
 struct MadeUp {
   Contest contest;
 
@@ -101,7 +101,7 @@ struct MadeUp {
     const std::span<const Contestant> who = contestants();
     contest = contest_of(*bench, {{&who[0], {}, scenario}, {&who[1], {}, scenario}}, 2, 1);
   }
-  /// The requirements hold, and each gauge is a power of two, so that all figures differ.
+  /// All requirements hold, and each gauge is a power of two, so all figures differ.
   study::Outcome outcome() const {
     const study::Scenario& s = *contest.entries[0].scenario;
     study::Outcome o;
@@ -120,7 +120,7 @@ struct MadeUp {
   }
 };
 
-/// Spread values come first in a row, and each figure keeps its name.
+/// In a row, the values of the spread come first, and each figure keeps its name.
 TEST(Contest, AFigureIsFoundByItsNameWhateverStandsBeforeIt) {
   MadeUp made;
   EXPECT_EQ(made.contest.columns->strayed.size(), 3U);
@@ -180,7 +180,7 @@ TEST(Contest, TheWorstOfDrivesIsTheLargestAndNoValueIsWorse) {
   EXPECT_EQ(row.drives, 2U);
   EXPECT_EQ(row.held, 1U);
   EXPECT_EQ(made.contest.rows[0].drives, 0U);
-  take_drive(made.contest, made.drive(4, o));  // no controller has this number
+  take_drive(made.contest, made.drive(4, o));  // no controller has a run of this number
   EXPECT_EQ(row.drives, 2U);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of machines that exist are measured. Values of no possible machine are refused with the likely cause: a wrong unit of time or
-// voltage, wrong pole pairs or a wrong probe factor.
+// Recordings of existing machines are accepted. Values that no machine can have are refused with the likely
+// cause: a wrong unit of time or voltage, wrong pole pairs or a wrong probe factor.
 #include "sixstep/analysis/identification/built_machines.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The first message; "" where there is none.
+/// The first problem as text; "" if there is none.
 std::string told(const base::Problems& problems) { return problems.empty() ? "" : to_string(problems[0]); }
 
 EmfTruth at(double frequency_Hz, double line_peak_V_s) {
@@ -41,7 +41,7 @@ std::string measured(const EmfTruth& t, std::optional<int> pole_pairs) {
   return found ? "" : told(found.problems());
 }
 
-/// K_e in V s per rad between two lines, peak; speed in rpm; pole pairs.
+/// K_e in V s per rad between two lines (peak), speed in rpm, pole pairs.
 struct Machine {
   const char* name;
   double line_V_s, rpm;
@@ -67,7 +67,7 @@ TEST(BuiltMachines, WhatIsBuiltIsMeasured) {
 }
 
 TEST(BuiltMachines, WhatIsBuiltByNobodyIsRefused) {
-  // The values are 5e-6 V per 1000 rpm and 1e5 rad/s of the shaft.
+  // 5e-6 V per 1000 rpm, and 1e5 rad/s of the shaft.
   const double krpm = 1000.0 * base::pi / 30.0, w = 1e5;
   EXPECT_THAT(
       measured(at(w / base::turn_rad, 5e-6 / krpm), 1),
@@ -108,7 +108,7 @@ TEST(BuiltMachines, TheBoundsAreThoseThatAreStated) {
   }
 }
 
-/// The named cause is the true one: the same recording in the right unit is measured.
+/// The named cause is the true cause: with the right unit, the same recording is accepted.
 TEST(BuiltMachines, ATimeInTheWrongUnitIsNamedAndItsCureHolds) {
   const EmfTruth right = at(50.0, 2e-3);
   EXPECT_EQ(measured(right, 1), "");
@@ -124,7 +124,7 @@ TEST(BuiltMachines, ATimeInTheWrongUnitIsNamedAndItsCureHolds) {
   }
 }
 
-/// Logs of Hall lines have the same limits: the edges alone give the speed, voltages give the constant.
+/// Logs of Hall lines have the same limits: the edges determine the speed, voltages the constant.
 TEST(BuiltMachines, ALogOfHallLinesInAWrongUnitIsRefused) {
   HallTruth truth = drilled();
   EXPECT_TRUE(analysis::identify(drawn_log(truth).log));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of open-circuit voltages as an oscilloscope makes them, drawn at random, with their true values. The code follows
-// docs/reference/notation.md and shares nothing with the tested code.
+// Random recordings of open-circuit voltages, as an oscilloscope makes them, with their true values. The code
+// follows docs/reference/notation.md and shares nothing with the tested code.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,8 +19,9 @@ struct EmfTruth {
   double change_Hz_s = 0.0;
   double periods = 5.0;
   double rows_per_period = 2000.0;
-  double flux_Vs = 5e-3;              ///< peak of a phase's fundamental
-  std::array<double, 26> cos_part{};  ///< part of the fundamental by order: cos n (theta - 60 deg)
+  double flux_Vs = 5e-3;              ///< peak flux linkage of a phase's fundamental
+  std::array<double, 26> cos_part{};  ///< amplitude by order, relative to the fundamental: of cos n (theta -
+                                      ///< 60 deg)
   std::array<double, 26> sin_part{};
   int channels = 1;
   bool star = false, backward = false;
@@ -28,7 +29,7 @@ struct EmfTruth {
   std::array<double, 3> offset_V{};
 };
 
-/// The voltage shape of phase a over theta, with fundamental 1.
+/// The voltage shape of phase a over the angle theta, with a fundamental of 1.
 inline double phase_shape(const EmfTruth& t, double theta) {
   double sum = 0.0;
   for (std::size_t n = 1; n < t.cos_part.size(); ++n) {
@@ -38,13 +39,14 @@ inline double phase_shape(const EmfTruth& t, double theta) {
   return sum;
 }
 
-/// A trapezoid with this flat top, from its Fourier series, so that each order's true value is known.
+/// Sets the Fourier series of a trapezoid with this flat top, so that the true value of each order is known.
 inline void make_trapezoid(EmfTruth& t, double flat_deg) {
   const double ramp = (180.0 - flat_deg) / 2.0 * std::numbers::pi / 180.0;  // from zero to the top
   const double first = std::sin(ramp);
   for (std::size_t n = 1; n < t.cos_part.size(); n += 2) {
     const auto order = static_cast<double>(n);
-    // The middle of the top is at theta = 60 degrees: sin n x of the usual series becomes cos n y up to its sign there.
+    // The middle of the top is at theta = 60 degrees. There, sin n x of the usual series becomes cos n y,
+    // apart from the sign.
     t.cos_part[n] = std::sin(order * ramp) / (order * order) / first * (n % 4 == 1 ? 1.0 : -1.0);
   }
 }

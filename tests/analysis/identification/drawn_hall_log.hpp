@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Logs of a motor turned by hand or drill, drawn at random, with their true values. The code shares only the conventions of
-// docs/reference/notation.md with the tested code: motion, probes, wires and noise are its own, and the shaft obeys a torque instead of the
-// smoothness that identification assumes.
+// Random logs of a motor turned by hand or by a drill, with their true values. The code shares with the
+// tested code only the conventions of docs/reference/notation.md. Its motion, probes, wires and noise are
+// separate, and the shaft follows a torque, while identification assumes a smooth motion.
 #pragma once
 #include <array>
 #include <cmath>
@@ -22,27 +22,30 @@ struct HallTruth {
   Turning turning = Turning::hand;
   double row_s = 1e-4;
   double offset_deg = 0.0, hysteresis_deg = 0.0, jitter_deg = 0.1, delay_s = 0.0;
-  std::array<double, 6> own_deg{};  ///< place of each edge; sum 0
+  std::array<double, 6> own_deg{};  ///< angle error of each edge; the sum is 0
   int pole_pairs = 1;
-  std::array<double, 8> scattered_deg{};  ///< further place error of every edge of each pole pair
+  std::array<double, 8> scattered_deg{};  ///< additional angle error of all edges of each pole pair
   std::array<int, 3> probe_at_pin{0, 1, 2};
-  int inverted = 0;  ///< a set bit inverts this line of the code
+  int inverted = 0;  ///< each set bit inverts a line of the code
   bool spaced_60 = false;
   bool backward = false;       ///< the hand turns the shaft in the negative direction
   double turns = 20.0;         ///< electrical
   double usual_turns_s = 5.0;  ///< electrical
-  double glitches_s = 0.0;     ///< single rows per second with one line wrong
-  double bursts_s = 0.0;       ///< stretches in which a loose contact makes one line wrong in every other row
+  double glitches_s = 0.0;     ///< number per second of single rows with one wrong line
+  double bursts_s = 0.0;       ///< number per second of intervals in which a loose contact makes one line
+                               ///< wrong in every other row
   int burst_rows = 0;          ///< number of rows of the longest burst
   analysis::RecordedVoltages voltages = analysis::RecordedVoltages::none;
   int channels = 3;
-  double flux_Vs = 5e-3;                ///< peak of a phase's fundamental
-  std::array<double, 3> harmonics{};    ///< 5th, 7th, 11th relative to it
-  double noise_V = 0.01, step_V = 0.0;  ///< white noise; the converter's step
+  double flux_Vs = 5e-3;                ///< peak flux linkage of a phase's fundamental
+  std::array<double, 3> harmonics{};    ///< 5th, 7th, 11th harmonic, relative to the fundamental
+  double noise_V = 0.01, step_V = 0.0;  ///< noise_V: standard deviation of white noise; step_V: step of the
+                                        ///< converter
   std::array<double, 3> channel_offset_V{};
 };
 
-/// The code of probes 1 2 3 (bits 2, 1, 0) in a sector: docs/reference/notation.md, and hall.hpp for 60 degrees.
+/// The code of probes 1, 2, 3 (bits 2, 1, 0) in a sector, as in docs/reference/notation.md; for 60 degrees as
+/// in hall.hpp.
 inline int probe_code(int sector, bool spaced_60) {
   constexpr int apart_120[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   constexpr int apart_60[] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};
@@ -58,7 +61,7 @@ inline int pin_code(const HallTruth& t, int sector) {
   return pins ^ t.inverted;
 }
 
-/// Speed in electrical turns per second of a shaft with torque and friction.
+/// Speed of a shaft with torque and friction, in electrical turns per second.
 class Shaft {
  public:
   Shaft(const HallTruth& t, Draw& draw)
@@ -77,7 +80,7 @@ class Shaft {
     double wanted = usual;
     double rate = 4.0;
     switch (t_.turning) {
-      case Turning::hand:  // a hand that speeds up and slows down, with a new target at random times
+      case Turning::hand:  // a hand that changes its target speed at random instants
         if (time_ > next_) {
           wish_ = draw_.between(0.1, 1.8) * usual;
           next_ = time_ + draw_.decades(0.1, 1.0);
@@ -111,7 +114,7 @@ class Shaft {
         rate = 6.0;
         break;
     }
-    // The torque itself changes smoothly: a hand acts as a spring with a mass.
+    // The torque itself changes smoothly, like a spring with a mass.
     force_ += dt * 25.0 * (rate * (wanted - speed_) - force_);
     speed_ += dt * force_;
   }
@@ -124,8 +127,8 @@ class Shaft {
   bool pushing_ = false;
 };
 
-/// Switching of the probes. Each edge has its own place, shifted by half the hysteresis and by a new jitter each time. The line shows the
-/// edge after a delay.
+/// Switching of the probes. Each edge has its own angle, shifted by half the hysteresis and by a new jitter
+/// each time. The line changes after a delay.
 class Probes {
  public:
   Probes(const HallTruth& t, Draw& draw, double angle_deg) : t_(t), draw_(draw) {
@@ -157,7 +160,7 @@ class Probes {
           to_deg == from_deg ? 1.0 : std::min(1.0, std::max(0.0, (at - from_deg) / (to_deg - from_deg)));
       changes.emplace_back(from_s + part * (to_s - from_s) + t_.delay_s, sector_);
       draw_again();
-      // A probe that has switched switches back only after the rotor has reversed.
+      // After a probe has switched, it switches back only after the rotor has reversed.
       if (moved > 0)
         down_ = std::min(down_, at - 1e-9 - (place(sector_) - 0.5 * t_.hysteresis_deg));
       else
@@ -181,7 +184,7 @@ class Probes {
   double up_ = 0.0, down_ = 0.0;
 };
 
-/// A contact that is loose at times, drawn at random. While it is loose, one line is wrong in every other row.
+/// A contact that is loose at random times. While it is loose, one line is wrong in every other row.
 class LooseContact {
  public:
   explicit LooseContact(const HallTruth& t) : t_(t), draw_(t.seed ^ 0x9e3779b9u) {}
@@ -202,7 +205,7 @@ class LooseContact {
   int left_ = 0, line_ = 0;
 };
 
-/// Phase voltages at an angle and a speed, rad and electrical rad/s.
+/// Phase voltages at the electrical angle theta, rad, and the electrical speed w, rad/s.
 inline std::array<double, 3> phase_emf(const HallTruth& t, double theta, double w) {
   std::array<double, 3> e{};
   constexpr int orders[] = {5, 7, 11};
@@ -274,7 +277,7 @@ inline DrawnLog drawn_log(const HallTruth& truth) {
   return out;
 }
 
-/// A log with the faults of a bench: any wires and probes may be wrong, and rows are dense or sparse.
+/// A random log with the faults of a bench: any wires and probes may be wrong, and rows are dense or sparse.
 inline HallTruth drawn_truth(std::uint64_t seed, bool with_voltages) {
   Draw draw(seed);
   HallTruth t;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A log of Hall lines that leaves no doubt about the motor.
+// A log of Hall lines from which the motor is identified without doubt.
 #pragma once
 #include "tests/analysis/identification/drawn_hall_log.hpp"
 
 namespace sixstep::testing {
 
-/// Six electrical turns by a drill, forty rows per sector.
+/// Six electrical turns with a drill, forty rows per sector.
 inline HallTruth drilled() {
   HallTruth t;
   t.turning = Turning::drill;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peaks clipped by the converter: a sine of known peak is refused, or the constants' bounds contain the true peak.
+// Peaks clipped by the converter. For a sine of known peak, the recording is refused, or the bounds contain
+// the true peak.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -15,13 +16,13 @@ using namespace sixstep::testing;
 using ::testing::HasSubstr;
 
 constexpr double frequency_Hz = 50.0, peak_V = 3.0;
-/// Peak of the line voltage over the speed, V s per electrical rad.
+/// Peak of the line voltage divided by the electrical speed, V s per electrical rad.
 constexpr double true_peak = peak_V / (2 * std::numbers::pi * frequency_Hz);
 
 struct Cut {
   double part = 0.0;  ///< lost part of the peak
   double step_V = 0.0, noise_V = 0.0;
-  bool both = true;  ///< true: both peaks are clipped; false: the upper one only
+  bool both = true;  ///< true: both peaks are clipped; false: only the upper peak
 };
 
 analysis::EmfRequest recorded(const Cut& cut) {
@@ -40,8 +41,8 @@ analysis::EmfRequest recorded(const Cut& cut) {
   return out;
 }
 
-/// Steps of a converter with 12 or 8 bits over 8 V, and noise of up to half a step: a peak clipped by three steps or more is always
-/// refused.
+/// A converter with 12 or 8 bits over 8 V, and noise of up to half a step: a peak that is clipped by three
+/// steps or more is always refused.
 TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256})
     for (const double noise : {0.0, 0.3, 0.5})
@@ -54,7 +55,8 @@ TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
         }
 }
 
-/// A peak clipped by less than three steps is refused, or the bounds of peak and fundamental reach the true value.
+/// A peak that is clipped by less than three steps is refused, or the bounds of peak and fundamental contain
+/// the true value.
 TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
   for (const double step_V : {8.0 / 256, 8.0 / 64})
     for (const double noise : {0.3, 0.5})
@@ -68,7 +70,7 @@ TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
       }
 }
 
-/// A complete sine is not taken for clipped, even with coarse steps.
+/// A complete sine is not considered clipped, even with coarse steps.
 TEST(EmfClipped, AWholeSineIsMeasured) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256, 8.0 / 64, 8.0 / 32})
     for (const double noise : {0.0, 0.1, 0.3, 0.5, 2.0}) {
@@ -77,7 +79,7 @@ TEST(EmfClipped, AWholeSineIsMeasured) {
     }
 }
 
-/// A trapezoid's flat tops of any width are not taken for clipped.
+/// The flat tops of a trapezoid, of any width, are not considered clipped.
 TEST(EmfClipped, TheTopsOfATrapezoidAreItsOwn) {
   for (const double flat_deg : {60.0, 90.0, 120.0, 140.0})
     for (const double part_of_peak : {1.0 / 1000, 1.0 / 100, 1.0 / 30})

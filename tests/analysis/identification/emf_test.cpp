@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of measure_emf() for drawn recordings, and for some with a result known by hand.
+// Results of measure_emf() for random recordings, and for recordings with a known result.
 #include "sixstep/analysis/identification/emf/emf.hpp"
 
 #include <gmock/gmock.h>
@@ -58,11 +58,11 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
     EXPECT_EQ(found->backward, t.backward) << "seed " << t.seed;
     lag.count(found->channels[1].phase_deg.holds(t.backward ? 240.0 : 120.0), t.seed);
   }
-  // Four of 4400 recordings are refused: their round tops have no noise that would show them unclipped.
+  // Four of 4400 recordings are refused: their round tops have no noise that would prove them unclipped.
   EXPECT_LE(taken_for_clipped, 1 + count / 300);
   for (const HeldOften* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
-  // The interval of an absent harmonic starts at 0, so that it misses on one side only. Hum is equal in both channels, so that it cancels
-  // in their phase.
+  // The interval of an absent harmonic starts at 0, so it can miss on one side only. Hum is equal in both
+  // channels and cancels in their phase.
   none.expect_at_least_95(count);
   lag.expect_at_least_95();
 }
@@ -84,14 +84,14 @@ TEST(Emf, ATrapezoidBetweenLinesIsFoundAgain) {
     EXPECT_NEAR(h.in_phase, t.cos_part[order], 2e-6) << h.order;
     EXPECT_NEAR(h.across, 0.0, 2e-6) << h.order;
   }
-  // A trapezoid of 120 degrees has its line peak of 2 K_e at one angle only. The lines do not show the harmonics that are equal in all
-  // phases. Without these harmonics the torque per ampere is still that of the trapezoid.
+  // The line voltage of a 120 degree trapezoid reaches 2 K_e at one angle only. Line voltages do not contain
+  // harmonics that are equal in all phases. These harmonics do not contribute to the torque per ampere.
   const design::ShapeFactors ideal = design::shape_factors(design::BackEmfShape::trapezoid, 120.0);
   const double K_t = found->shape_sector_mean * found->constants.phase_peak.value;
   EXPECT_NEAR(K_t / found->constants.phase_fundamental.value, ideal.sector_mean / ideal.fundamental, 2e-3);
 }
 
-/// A probe left at x10 or a heading in mV makes the channels' mean a constant of no motor.
+/// With a probe left at x10 or a heading in mV, the mean of the channels is a constant that no motor has.
 TEST(Emf, ChannelsThatContradictEachOtherAreRefused) {
   for (const double factor : {0.001, 0.1, 0.5, 0.88, 1.2, 10.0}) {
     EmfTruth t = clean(false);
@@ -104,7 +104,7 @@ TEST(Emf, ChannelsThatContradictEachOtherAreRefused) {
   }
 }
 
-/// The bounds contain the true constant, whichever channel is right.
+/// The bounds contain the true constant, whichever channel is correct.
 TEST(Emf, ChannelsThatDifferByAFewPerCentWidenTheBounds) {
   for (const double factor : {0.92, 0.97, 1.03, 1.08}) {
     EmfTruth t = clean(false);
@@ -123,11 +123,12 @@ TEST(Emf, APhaseOfATrapezoidIsFlatForAsLongAsItIs) {
   t.star = true;
   const auto found = analysis::measure_emf(drawn_record(t));
   ASSERT_TRUE(found);
-  // A sum of 25 harmonics ripples by 1 % at the top, which widens the part above 95 % of the crest by a degree.
+  // A sum of 25 harmonics ripples by 1 % at the top. This widens the part above 95 % of the crest by a
+  // degree.
   EXPECT_NEAR(found->flat_deg, analysis::flat_of_trapezoid_deg, 2.0);
   const auto at = [&](int deg) { return found->shape[static_cast<std::size_t>(deg / 2)]; };
   EXPECT_NEAR(at(60), 1.0, 0.01);
-  EXPECT_NEAR(at(330), 0.0, 0.01);  // the zero lies half a ramp before the top from 0 to 120 degrees
+  EXPECT_NEAR(at(330), 0.0, 0.01);  // the zero is half a ramp before the top, which is from 0 to 120 degrees
   EXPECT_NEAR(at(240), -1.0, 0.01);
   t.cos_part = {};
   t.cos_part[1] = 1.0;
@@ -138,7 +139,7 @@ TEST(Emf, APhaseOfATrapezoidIsFlatForAsLongAsItIs) {
   EXPECT_NEAR(sine->shape_sector_mean, 3 * std::sqrt(3.0) / base::pi, 1e-7);
 }
 
-/// The shape over the angle is the same for both directions of rotation and for lines or a phase.
+/// The shape over the angle is the same for both directions of rotation, and for line or phase voltages.
 TEST(Emf, TheShapeIsTheMotorsWhicheverWayItIsTurnedAndProbed) {
   for (const bool star : {false, true})
     for (const bool backward : {false, true}) {
@@ -161,13 +162,14 @@ TEST(Emf, TheShapeIsTheMotorsWhicheverWayItIsTurnedAndProbed) {
     }
 }
 
-/// A complete trapezoid of height 1 instead of its first harmonics: the top is at y = 0, the flanks are straight.
+/// A complete trapezoid of height 1, not only its first harmonics. The top is at y = 0, the flanks are
+/// straight.
 double whole_trapezoid(double y, double flat_deg) {
   const double off = std::fabs(std::remainder(y, 2 * base::pi)), half = flat_deg / 2 * base::rad_per_deg;
   return std::clamp((base::pi / 2 - off) / (base::pi / 2 - half), -1.0, 1.0);
 }
 
-/// A flat top has harmonics above the 25th: their partial sum overshoots, the motor's voltage does not.
+/// A flat top has harmonics above the 25th. Their partial sum overshoots; the motor's voltage does not.
 TEST(Emf, ThePeakIsThatOfTheWaveAndNotOfItsFirstHarmonics) {
   for (const double flat_deg : {30.0, 60.0, 90.0, 120.0, 150.0, 165.0})
     for (const bool star : {false, true}) {
@@ -190,10 +192,10 @@ TEST(Emf, ThePeakIsThatOfTheWaveAndNotOfItsFirstHarmonics) {
       const analysis::EmfConstants& k = found->constants;
       EXPECT_TRUE(k.line_peak.holds(line_peak))
           << flat_deg << star << k.line_peak.low << ' ' << k.line_peak.high;
-      const bool flat = flat_deg > 60.0;  // a pointed line voltage adds two smaller phases
+      const bool flat = flat_deg > 60.0;  // a pointed line voltage is the sum of two smaller phase voltages
       EXPECT_NEAR(k.line_peak.value, line_peak, (flat ? 2.5e-3 : 0.02) * line_peak) << flat_deg << star;
       EXPECT_LT(k.line_peak.half_width(), 0.025 * line_peak);
-      if (!star) continue;  // lines do not show orders 3, 9, 15, so that the star's peak is unknown
+      if (!star) continue;  // line voltages do not contain orders 3, 9, 15, so the star's peak is unknown
       EXPECT_TRUE(k.phase_peak.holds(V)) << flat_deg << k.phase_peak.low << ' ' << k.phase_peak.high;
       EXPECT_NEAR(k.phase_peak.value, V, 4e-3 * V) << flat_deg;
     }
@@ -227,7 +229,7 @@ TEST(Emf, TheShaftsSpeedGivesThePolePairs) {
   EXPECT_THAT(to_string(at_rpm(750.0, 7).problems()[0]), HasSubstr("makes 4 pole pairs, not 7"));
 }
 
-/// A sheet prints one motor's constant in a frame: only that frame fits.
+/// A sheet states a motor's constant in one frame: only this frame fits.
 TEST(FrameCheck, NamesTheFrameThatThePrintIsIn) {
   analysis::EmfRequest request = drawn_record(clean(false));
   request.pole_pairs = 4;
@@ -276,7 +278,7 @@ TEST(FrameCheck, EveryPrintOfTheTorqueConstantIsHeldAgainstTheVoltage) {
   EXPECT_EQ(without[0].key, "flux_linkage_mWb");
 }
 
-/// Each fault has one message that names the place and the cure.
+/// For each fault, one message names the place and the cure.
 TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   const auto told = [](const analysis::EmfRequest& request) {
     const auto found = analysis::measure_emf(request);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A burst of edges counts as one event for any number of rows. Its cause is a contact that is loose for a moment, or an edge that bounces.
+// A burst of edges counts as one event, for any number of rows. A burst is caused by a contact that is loose
+// for a moment, or by an edge that bounces.
 #include <gmock/gmock.h>
 
 #include "sixstep/analysis/identification/hall/hall_edges.hpp"
@@ -13,7 +14,8 @@ using analysis::HallEdges;
 using analysis::HallLog;
 using Code = std::uint8_t;
 
-/// `log` with bursts on line H1: in the first `turns` sectors with the code `at`, every other one of the middle 24 rows has H1 wrong.
+/// Adds bursts on line H1 to the log: in the first `turns` sectors with the code `at`, H1 is wrong in every
+/// other row of the middle 24 rows.
 HallLog loose(HallLog log, Code at, int turns) {
   const std::vector<Code> clean = log.codes;
   for (std::size_t n = 1; n < clean.size() && turns > 0; ++n) {
@@ -37,21 +39,21 @@ void expect_same_way(const HallLog& clean, const HallLog& broken) {
   }
 }
 
-/// Code 000 is impossible with probes 120 degrees apart. It occurs 36 times, against 12 times 010 and 101: a count of single edges would
-/// give probes 60 degrees apart.
+/// Code 000 is impossible with probes 120 degrees apart. It occurs 36 times, codes 010 and 101 occur 12
+/// times. A count of single edges would therefore indicate probes 60 degrees apart.
 TEST(HallBursts, ImpossibleCodesOfALooseContactCountOncePerBurst) {
   const HallLog clean = drawn_log(drilled()).log;
   expect_same_way(clean, loose(clean, 0b100, 3));
 }
 
-/// H1 changes 96 times and a good line 24 times. The good line must not be reported as dead.
+/// H1 changes 96 times, an intact line 24 times. The intact line must not be reported as dead.
 TEST(HallBursts, ABurstOnOneLineMakesNoOtherOneDead) {
   HallLog broken = drawn_log(drilled()).log;
   for (int n = 0; n < 2; ++n) broken = loose(broken, n == 0 ? 0b100 : 0b110, 5);
   expect_same_way(drawn_log(drilled()).log, broken);
 }
 
-/// A rotor that swings over one edge changes one line; the two others are constant.
+/// A rotor that oscillates around one edge changes one line; the two other lines are constant.
 TEST(HallBursts, LinesThatNeverChangeAreToldHoweverOftenTheThirdDoes) {
   HallLog log = drawn_log(drilled()).log;
   for (std::size_t n = 0; n < log.codes.size(); ++n) log.codes[n] = n / 20 % 2 == 0 ? 0b100 : 0b110;

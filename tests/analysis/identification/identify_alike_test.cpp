@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltages recorded with Hall lines that contradict one motor. A wrong divider or unit of one column gives a constant of no motor, and so
-// does a reversed probe: both are refused. A difference of a few per cent is a real motor's own and is accepted.
+// Recorded voltages that contradict the assumption of one motor. A wrong divider or unit of one column, or a
+// reversed probe, gives a constant that no motor has: the log is refused. A difference of a few per cent is
+// accepted, because real motors have it.
 #include <gmock/gmock.h>
 
 #include "sixstep/analysis/identification/hall/identify.hpp"
@@ -22,7 +23,7 @@ HallLog between_lines(int channels) {
   return drawn_log(t).log;
 }
 
-/// Terminal b is the reference: u_a = u_ab, u_b = 0, u_c = -u_bc.
+/// Voltages against terminal b: u_a = u_ab, u_b = 0, u_c = -u_bc.
 HallLog against_b() {
   HallLog log = between_lines(2);
   log.voltages = RecordedVoltages::terminals;
@@ -50,7 +51,8 @@ TEST(IdentifyAlike, AFactorOfOneColumnIsRefused) {
   for (const std::size_t column : {0, 2}) expect_told(against_b(), column);
 }
 
-/// The voltages u_ab and -u_bc are 60 degrees apart: the third side of their triangle is sqrt(3) times as long.
+/// The voltages u_ab and -u_bc are 60 degrees apart, so the third side of their triangle is sqrt(3) times as
+/// long.
 TEST(IdentifyAlike, AProbeTheWrongWayRoundIsRefused) {
   for (const std::size_t column : {0, 1}) {
     HallLog log = between_lines(2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The certainty of identify() over drawn logs: 95 % intervals hold the truth in 93 to 97 of 100 cases, and answers with the stated
-// probability p are right in the part p of the cases.
+// Reliability of identify() over random logs. The 95 % intervals contain the truth in 93 to 97 of 100 cases.
+// Results with a stated probability p are right in the fraction p of the cases.
 #include "sixstep/analysis/identification/hall/identify.hpp"
 #include "tests/analysis/identification/counted.hpp"
 #include "tests/analysis/identification/drawn_hall_log.hpp"
@@ -12,7 +12,7 @@ using namespace sixstep::testing;
 using analysis::HallIdentity;
 using analysis::Interval;
 
-/// The codes at the pins from the log's true wiring.
+/// The codes at the pins, from the true wiring of the log.
 analysis::PinCodes true_codes(const HallTruth& t, int turned_sectors = 0) {
   analysis::PinCodes codes{};
   for (int sector = 0; sector < 6; ++sector)
@@ -20,8 +20,8 @@ analysis::PinCodes true_codes(const HallTruth& t, int turned_sectors = 0) {
   return codes;
 }
 
-/// The common offset of all edges in the log's direction: with one direction it contains half the hysteresis and the rotation during the
-/// delay.
+/// The common offset of all edges in the log's direction. If the log has only one direction, the offset
+/// includes half the hysteresis and the rotation during the delay.
 double shown_offset_deg(const DrawnLog& drawn, const HallIdentity& found) {
   const HallTruth& t = drawn.truth;
   if (found.place->hysteresis_deg) return t.offset_deg;
@@ -31,7 +31,7 @@ double shown_offset_deg(const DrawnLog& drawn, const HallIdentity& found) {
 
 double whole_sectors(double deg) { return std::floor((deg + 30.0) / 60.0); }
 
-/// The true place of the edge between two codes, from the pins' codes on either side of it.
+/// The true angle error of the edge between two codes, found by the pins' codes before and after the edge.
 double true_own_deg(const HallTruth& t, std::uint8_t before, std::uint8_t after, bool& mirrored) {
   for (int n = 0; n < 6; ++n) {
     const int behind = pin_code(t, n - 1), ahead = pin_code(t, n);
@@ -95,8 +95,9 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// Only a log with rotation in both directions separates hysteresis from offset, and few logs have both. Jitter at the reversals biases the
-/// sample, so that many reversals and much jitter are the hard cases.
+/// Only a log with rotation in both directions separates hysteresis from offset, and few random logs contain
+/// both directions. Jitter at the reversals biases the sample: many reversals with much jitter are the
+/// difficult cases.
 TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
   const int count = drawn_count(40);
   HeldOften hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");
@@ -116,14 +117,14 @@ TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
     if (place.delay_s) delay.count(place.delay_s->holds(truth.delay_s), truth.seed);
   }
   for (const HeldOften* held : {&hysteresis, &offset, &delay}) held->expect_95();
-  // Intervals miss on both sides equally often: a miss on one side only would be a bias.
+  // Intervals must miss on both sides equally often. More misses on one side indicate a bias.
   std::printf("hysteresis below its bounds in %.0f, above them in %.0f\n", missed_by_lower, missed_by_upper);
   const double missed = missed_by_lower + missed_by_upper;
   EXPECT_NEAR(missed_by_lower, 0.5 * missed, 2.0 * std::sqrt(missed) + 1.0);
 }
 
-/// A contact that is loose for up to a third of a sector makes a cluster of edges, which counts as one event. Impossible codes and places
-/// keep their stated certainty.
+/// A contact that is loose for up to a third of a sector causes a cluster of edges, which counts as one
+/// event. The probabilities of impossible codes and angles remain correct.
 TEST(IdentifyCalibration, BurstsOfALooseContact) {
   const int count = drawn_count(60);
   HeldOften own("own place of an edge, with bursts");
@@ -153,7 +154,8 @@ TEST(IdentifyCalibration, BurstsOfALooseContact) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// An offset close to half a sector leaves the sector uncertain, and the stated probability shows it.
+/// If the offset is close to half a sector, the sector is uncertain, and the stated probability is
+/// correspondingly low.
 TEST(IdentifyCalibration, AnOffsetOfHalfASectorIsAsDoubtfulAsItSays) {
   const int count = std::min(drawn_count(60), 400);
   double right = 0.0, expected = 0.0, variance = 0.0, doubtful = 0.0;

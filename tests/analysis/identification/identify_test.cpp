@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every wiring of three probes is identified, and an unusable log is refused with the reason.
+// Every wiring of three probes is identified. A log that cannot be used is refused with the reason.
 #include "sixstep/analysis/identification/hall/identify.hpp"
 
 #include <gmock/gmock.h>
@@ -47,8 +47,8 @@ TEST(HallWires, EveryOrderOfCodesHasOneWayOfProbes120DegreesApart) {
   EXPECT_TRUE(analysis::wires_behind({1, 1, 1, 1, 1, 1}).empty());
 }
 
-/// Probes 120 degrees apart never show 000 and 111, with none or all of them inverted. The wires that identify() lists first agree with
-/// this.
+/// Probes 120 degrees apart never give 000 or 111 if no or all lines are inverted. The first wiring that
+/// identify() lists agrees with this.
 TEST(HallWires, TheCodesThatNeverOccurAndTheSpacingAgree) {
   for (const bool spaced_60 : {false, true})
     for (int order = 0; order < 6; ++order)
@@ -77,7 +77,7 @@ TEST(HallWires, TheGeneratorsProbesAreTheDrives) {
   }
 }
 
-/// The table of sectors is that of docs/reference/notation.md.
+/// The table of sectors is equal to the table in docs/reference/notation.md.
 TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
   const auto table = analysis::commutation_of(analysis::codes_behind({}));
   ASSERT_EQ(table.size(), 6u);
@@ -89,8 +89,9 @@ TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
   EXPECT_EQ(table[0].pair, (control::Pair{control::Leg::c, control::Leg::a}));
 }
 
-/// The cases are 6 orders, 8 inversions, 2 spacings and both directions, with voltages between lines and at terminals in turn. identify()
-/// finds the codes of every sector, and the drawn wires are among those with these codes.
+/// The cases are 6 orders, 8 inversions, 2 spacings and both directions, with line voltages and terminal
+/// voltages in turn. identify() finds the code of every sector. The true wiring is in the list of wirings
+/// with these codes.
 TEST(Identify, EveryWiringIsFoundWithVoltages) {
   int n = 0;
   for (const bool spaced_60 : {false, true})
@@ -120,7 +121,8 @@ TEST(Identify, EveryWiringIsFoundWithVoltages) {
       }
 }
 
-/// Each turn has a whole number of rows: every edge lies at the same place between two rows, so that more turns do not narrow the interval.
+/// Each turn has a whole number of rows, so every edge is at the same position between two rows. More turns
+/// do not narrow the interval.
 TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   int held = 0, all = 0;
   double sum = 0.0;
@@ -151,7 +153,7 @@ TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   EXPECT_LT(sum / all, 0.9);
 }
 
-/// A log without voltages shows the two codes that never occur, but no rotor angle.
+/// A log without voltages shows which two codes never occur, but no rotor angle.
 TEST(Identify, CodesAloneTellWhichOnesNeverOccur) {
   for (int inverted = 0; inverted < 8; ++inverted) {
     HallTruth t = drilled();
@@ -167,7 +169,7 @@ TEST(Identify, CodesAloneTellWhichOnesNeverOccur) {
   }
 }
 
-/// An irregular magnet: only a whole turn of the shaft shows it.
+/// An irregular magnet: only edges over a whole mechanical turn reveal it.
 TEST(Identify, EdgesOfEachPolePairOfTheShaft) {
   HallTruth t = with_voltages(drilled());
   t.turns = 42.0;
@@ -198,7 +200,7 @@ TEST(Identify, EdgesOfEachPolePairOfTheShaft) {
   EXPECT_THAT(to_string(blind.problems()[0]), HasSubstr("pole_pairs = 7 needs voltages"));
 }
 
-/// A logic analyzer exports only the rows with a change.
+/// A logic analyzer may export only the rows in which a line changes.
 TEST(Identify, RowsThatAreChanges) {
   HallTruth t = drilled();
   t.own_deg = {2, -1, 0, 1, -2, 0};
@@ -218,7 +220,7 @@ TEST(Identify, RowsThatAreChanges) {
     EXPECT_NEAR(found->edges[n].own_deg.value, from_all->edges[n].own_deg.value, 0.02);
 }
 
-/// Spikes on a line, a bouncing edge and a lost contact leave the motion unchanged.
+/// Spikes on a line, a bouncing edge and a lost contact do not change the identified motion.
 TEST(Identify, GlitchesDoNotMoveTheWay) {
   const HallLog clean = drawn_log(drilled()).log;
   const auto edges = analysis::hall_edges(clean);

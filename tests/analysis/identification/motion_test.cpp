@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter against the same model as one dense system, and its parts against known numbers.
+// The filter is compared with the same model solved as one dense system, and its parts with known numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using sixstep::testing::Draw;
 
 using Dense = std::vector<std::vector<double>>;
 
-/// Gauss-Jordan inversion, independent of the library.
+/// Gauss-Jordan inversion, independent of the library's code.
 Dense inverse(Dense m, double* log_determinant = nullptr) {
   const std::size_t n = m.size();
   Dense out(n, std::vector<double>(n));
@@ -37,7 +37,7 @@ Dense inverse(Dense m, double* log_determinant = nullptr) {
   return out;
 }
 
-/// Covariance of two values of white noise integrated `order` times from 0 on.
+/// Covariance of two values at times s and t, of white noise integrated `order` times from 0 on.
 double integrated(double s, double t, int order, double intensity) {
   const double m = std::min(s, t), M = std::max(s, t);
   if (order == 2) return intensity * (m * m * M / 2 - m * m * m / 6);
@@ -53,7 +53,8 @@ struct DenseFit {
   std::vector<double> angles;
 };
 
-/// Generalised least squares. The unknowns are the effects and the start of each stretch; everything else is covariance.
+/// Generalised least squares. The unknowns are the effects and the initial state of each stretch. Everything
+/// else is part of the covariance.
 DenseFit dense_fit(const std::vector<Sighting>& all, std::size_t effects, const MotionNoise& noise) {
   const int order = noise.smoothness == Smoothness::second ? 2 : 3;
   std::vector<std::size_t> stretch(all.size());
@@ -106,7 +107,7 @@ DenseFit dense_fit(const std::vector<Sighting>& all, std::size_t effects, const 
   }
   for (std::size_t c = 0; c < columns; ++c) square -= out.unknowns[c] * right[c];
   out.log_likelihood = -0.5 * (log_V + log_X + square);
-  // The angle at every sighting: the start plus the residuals weighted by the covariance.
+  // The angle at every sighting: the fitted value plus the residuals weighted by the covariance.
   std::vector<double> residual(rows), weighted(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     residual[i] = all[seen[i]].says_deg;
@@ -168,7 +169,7 @@ TEST(Motion, TheFilterIsGeneralisedLeastSquares) {
         EXPECT_NEAR(fit->covariance.at(n, k), dense.covariance[n][k],
                     1e-6 * size * std::sqrt(dense.covariance[k][k]));
     }
-    // The likelihoods are equal up to the same constant.
+    // The two likelihoods differ by a constant, so their differences are compared.
     EXPECT_NEAR(fit->log_likelihood - other_fit->log_likelihood,
                 dense.log_likelihood - other_dense.log_likelihood, 1e-6)
         << "seed " << seed;
@@ -180,7 +181,7 @@ TEST(Motion, TheFilterIsGeneralisedLeastSquares) {
 }
 
 TEST(Motion, APathIsTheSplineThroughItsPoints) {
-  // A cubic equals its Hermite spline.
+  // A cubic polynomial is equal to its Hermite spline.
   const auto angle = [](double t) { return 3.0 + 40.0 * t - 7.0 * t * t + 2.0 * t * t * t; };
   const auto speed = [](double t) { return 40.0 - 14.0 * t + 6.0 * t * t; };
   std::vector<MotionPoint> points;
@@ -195,7 +196,7 @@ TEST(Motion, APathIsTheSplineThroughItsPoints) {
   for (const double t : {-0.1, 2.0, 6.1}) EXPECT_FALSE(path.at(t)) << t;
 }
 
-/// An edge that is 10 deviations off has the only large surprise.
+/// Only an edge that is 10 standard deviations off has a large surprise.
 TEST(Motion, WhatContradictsAllOthersSurprises) {
   std::vector<Sighting> seen;
   Draw draw(7);
@@ -217,7 +218,7 @@ TEST(Distributions, AreThoseOfTheTables) {
   EXPECT_DOUBLE_EQ(normal_cdf(0.0), 0.5);
   for (const double x : {-8.0, -3.3, -1.0, -0.1, 0.4, 1.959963984540054, 3.99, 4.01, 7.0})
     EXPECT_NEAR(normal_cdf(x), 0.5 * std::erfc(-x / std::sqrt(2.0)), 2e-15) << x;
-  // The values are those of Abramowitz and Stegun, table 26.10.
+  // Reference values: Abramowitz and Stegun, table 26.10.
   EXPECT_NEAR(student_95(3), 3.182, 0.032);
   EXPECT_NEAR(student_95(6), 2.447, 5e-4);
   EXPECT_NEAR(student_95(10), 2.228, 5e-4);
@@ -239,7 +240,8 @@ TEST(Distributions, AMixtureHas25InAThousandOnEachSide) {
   EXPECT_NEAR(mixture_95(certain).low, 4.0, 1e-9);
 }
 
-/// The interval's coverage equals the counted one: lengths of vectors with noise in both coordinates.
+/// The coverage of the interval is equal to the counted coverage, for lengths of vectors with noise in both
+/// coordinates.
 TEST(Distributions, ALengthIsHeldAsOftenAsItSays) {
   for (const double length : {0.0, 0.5, 2.0, 10.0}) {
     Draw draw(static_cast<std::uint64_t>(10.0 * length) + 1);
@@ -254,8 +256,8 @@ TEST(Distributions, ALengthIsHeldAsOftenAsItSays) {
     EXPECT_LT(part, length > 1.0 ? 0.95 + width : 1.0) << length;
   }
   EXPECT_EQ(length_95(3.0, 0.0).low, 3.0);
-  // Each end of the interval leaves 2.5 %, by Rice's distribution as a sum of noncentral chi-square distributions with 2 degrees of
-  // freedom.
+  // Each end of the interval excludes 2.5 %, according to Rice's distribution as a sum of noncentral
+  // chi-square distributions with 2 degrees of freedom.
   const auto below = [](double r, double length) {
     const double half = 0.5 * length * length, x = 0.5 * r * r;
     double sum = 0.0, weight = std::exp(-half), tail = std::exp(-x), gamma = 1.0 - tail;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's log against a simulation, with figures known beforehand.
+// A board's log is compared with a simulation; the differences are known.
 #include "sixstep/analysis/identification/log/trace_comparison.hpp"
 
 #include <gmock/gmock.h>
@@ -64,8 +64,8 @@ TEST(TraceComparison, FindsTheShiftOfARipple) {
   EXPECT_GT(trace_comparison(simulated, log, 0.0)[0].rms, 5e-2);
 }
 
-/// The first column is slow and does not show the clock's offset; the second, fast one does. The log is the rounded run itself: its shift
-/// is 0.
+/// The first column changes slowly and does not show the clock's offset; the second column changes fast and
+/// does. A log that is the rounded run itself has a shift of 0.
 TEST(TraceComparison, AllColumnsDecideTheShiftAndNothingIsGainedByNone) {
   study::Trace simulated = trace({{"t_s", {}}, {"speed_rad_s", {}}, {"i_m_A", {}}}), log = simulated,
                late = simulated;
@@ -95,7 +95,7 @@ TEST(TraceComparison, AClockThatStartedLongBeforeCountsFromItsFirstRow) {
   EXPECT_EQ(start_shift_s(simulated, trace({{"t_s", {-1, 0.5}}, {"duty", {0, 1}}})), 0.0);
 }
 
-/// The difference over a single row may be 0 and proves nothing.
+/// A comparison over a single row may give 0 and proves nothing, so several rows are required.
 TEST(TraceComparison, AHandfulOfRowsAtTheLeast) {
   const study::Trace simulated = trace({{"t_s", {0, 1}}, {"duty", {0, 1}}, {"i_q_A", {NAN, NAN}}});
   const auto of = [&](std::vector<double> t_s) {

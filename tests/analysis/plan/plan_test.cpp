@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of a plan: the law of each design's name judges them.
+// Points of a plan are checked against the law of each sampling method.
 #include "sixstep/analysis/plan/plan.hpp"
 
 #include <gmock/gmock.h>

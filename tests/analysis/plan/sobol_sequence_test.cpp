@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sobol's sequence against its defining law, and against published points.
+// Sobol's sequence is checked against its defining property and against published points.
 #include "sixstep/analysis/plan/sobol_sequence.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,8 @@ TEST(SobolSequence, BeginsAsPublished) {
       EXPECT_EQ(analysis::sobol_bits(d, n) * 0x1p-32, points[n][d]) << n << " " << d;
 }
 
-/// Each block of 2^m points has exactly one in each of 2^m equal parts, in every dimension, from any multiple of 2^m on.
+/// From any multiple of 2^m on, each block of 2^m points has exactly one point in each of 2^m equal parts, in
+/// every dimension.
 TEST(SobolSequence, EveryDimensionIsEven) {
   for (std::size_t d = 0; d < analysis::sobol_dimensions; ++d)
     for (const std::uint32_t from : {0u, 1024u, 1024u * 77u}) {
@@ -51,7 +52,7 @@ TEST(SobolSequence, TheFirstTwoDimensionsAreANet) {
   }
 }
 
-/// Shifted points stay even, differ between seeds and never touch 0 or 1.
+/// Shifted points remain even, differ between seeds, and are never 0 or 1.
 TEST(SobolSequence, ShiftedPointsAreAsEven) {
   for (const std::uint64_t seed : {1u, 2u, 99u})
     for (std::size_t d = 0; d < 8; ++d) {
@@ -66,7 +67,8 @@ TEST(SobolSequence, ShiftedPointsAreAsEven) {
   EXPECT_NE(analysis::sobol(0, 5, 1), analysis::sobol(0, 5, 2));
 }
 
-/// The integral of a product of (1 + (x - 1/2)) over six dimensions is 1: the error of 4096 points is below that of random points.
+/// The integral of the product of (1 + (x - 1/2)) over six dimensions is 1. The error with 4096 points is
+/// below the error with random points.
 TEST(SobolSequence, IntegratesBetterThanChance) {
   double sum = 0.0;
   const int count = 4096;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls that the check of symbols must find, because a compiler cannot evaluate them.
+// Calls of the C library that the check of symbols must find: a compiler cannot evaluate them.
 #include <cmath>
 
 double planted(double x, double y) { return std::pow(x, y) + std::sqrt(x); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning and the start by pulses as firmware links them, in fixed point: compiled without floating-point registers where the
-// compiler has such an option.
+// Commissioning and the start by pulses in fixed point, as firmware uses them. Compiled without
+// floating-point registers if the compiler has such an option.
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "sixstep/control/commissioning/pulse_start.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoders alone for a chip, in fixed point: compiled without floating-point registers where the compiler has such an option.
+// Only the decoders, for a chip, in fixed point. Compiled without floating-point registers if the compiler
+// has such an option.
 #include "tests/control/alone/decoders.hpp"
 
 namespace firmware {

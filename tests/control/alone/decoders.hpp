@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoders of rotor position as firmware links them.
+// The decoders of rotor position, as firmware uses them.
 #pragma once
 #include "sixstep/control/sensing/gray.hpp"
 #include "sixstep/control/sensing/hall_calibration.hpp"

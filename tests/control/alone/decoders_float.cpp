@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoders alone for a chip, in single precision.
+// Only the decoders, for a chip, in single precision.
 #include "tests/control/alone/decoders.hpp"
 
 template struct firmware::Decoders<float>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file compiles alone for a chip: freestanding, without exceptions and RTTI.
+// This file is compiled separately for a chip: freestanding, without exceptions and RTTI.
 #include "sixstep/control/drive.hpp"
 
-// Firmware links both entries in single precision. They need no library function.
+// Both entry points in single precision, as firmware uses them. They need no library function.
 namespace firmware {
 
 using namespace sixstep::control;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive in fixed point, compiled without floating-point registers where the compiler has such an option.
+// The drive in fixed point. Compiled without floating-point registers if the compiler has such an option.
 #include "tests/control/alone/field_drive.hpp"
 
 namespace firmware {

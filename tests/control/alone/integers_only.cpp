@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive in fixed point, compiled without floating-point registers where the compiler has such an option: a floating-point
-// operation at run time would not compile, and on a chip would call a library.
+// The product's drive in fixed point. Compiled without floating-point registers if the compiler has such an
+// option: a floating-point operation at run time, which would call a library on a chip, would then not
+// compile.
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/gates.hpp"
 #include "sixstep/control/pi_positional.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file compiles alone for a chip: freestanding, without exceptions and RTTI.
+// This file is compiled separately for a chip: freestanding, without exceptions and RTTI.
 #include "sixstep/control/protected_drive.hpp"
 
-// Firmware links both entries of the product's drive in single precision.
+// Both entry points of the product's drive in single precision, as firmware uses them.
 namespace firmware {
 
 using namespace sixstep::control;

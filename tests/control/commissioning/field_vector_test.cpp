@@ -14,7 +14,8 @@ using namespace sixstep::control;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The voltages between the legs are the vector, in every direction, to six roundings of 2^-20 of the bus.
+/// The voltages between the legs are the commanded vector, in every direction, within six roundings of 2^-20
+/// of the bus.
 template <class Scalar>
 void expect_vector(double digit) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -54,7 +55,8 @@ TEST(FieldVector, ACurrentIsSeenAlongAndAcross) {
       eighths[k] = static_cast<std::int32_t>(std::lround(along * std::cos(at) - across * std::sin(at)));
     }
     const FieldVector seen = seen_along(eighths, angle);
-    // The error is half an eighth in each of three currents, and half a unit in each of four products.
+    // The error is half an eighth of a count in each of three currents, and half a unit in each of four
+    // products.
     EXPECT_NEAR(seen.along, 3 * along, 4.0) << seed;
     EXPECT_NEAR(seen.across, 3 * across, 4.0) << seed;
   }

@@ -16,7 +16,8 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<HallSurveyState>);
 
-/// Probe k is high over half a turn, 120 k or 60 k degrees behind the first (model.md 3); the order assigns probes to pins.
+/// Probe k is high over half a turn, 120 k or 60 k degrees behind the first probe (model.md 3). `order`
+/// assigns probes to pins.
 struct Mounted {
   std::array<int, 3> order{0, 1, 2};
   unsigned inverted = 0;
@@ -38,8 +39,8 @@ struct Turn {
   std::array<double, 6> own_deg{};
   int turns = 2, first = 0;
 
-  /// Survey over `turns` turns of the field forward, then as many backward. The field's angle leads the d axis by the lag in the direction
-  /// of rotation.
+  /// Survey over `turns` turns of the field forward, then as many backward. The field's angle leads the d
+  /// axis by the lag in the direction of rotation.
   HallSurveyState survey(const HallSurveyConfig& config, const Mounted& mounted) const {
     HallSurveyState state;
     int sector = first;
@@ -60,7 +61,8 @@ struct Turn {
 constexpr std::array<std::array<int, 3>, 6> orders = {
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-/// Every order, inversion, spacing and lag: the survey finds the table, the lines by name, and each edge to two units.
+/// For every order, inversion, spacing and lag, the survey finds the table, the name of each line, and each
+/// edge to two units.
 TEST(HallSurvey, FindsEveryWiring) {
   const HallSurveyConfig config;
   for (const bool spaced_60 : {false, true})
@@ -91,8 +93,8 @@ TEST(HallSurvey, FindsEveryWiring) {
         }
 }
 
-/// A wiring that hall.hpp decodes directly needs no table: `plain` marks the four of 96 wirings for which this holds, and both decodings
-/// agree.
+/// A wiring that hall.hpp decodes directly needs no table. `plain` is set for these wirings, 4 of 96, and
+/// both decodings agree.
 TEST(HallSurvey, PlainOnesAreThoseThatHallDecodes) {
   const HallSurveyConfig config;
   int plain = 0;
@@ -106,7 +108,8 @@ TEST(HallSurvey, PlainOnesAreThoseThatHallDecodes) {
         for (int s = 0; s < 6; ++s)
           EXPECT_EQ(sector_of_hall(as_120_degrees(found.config.arrangement, mounted.pins(s))), s);
       }
-  EXPECT_EQ(plain, 4);  // either arrangement, plain or as the other one with a line inverted and two crossed
+  EXPECT_EQ(plain, 4);  // both arrangements: straight, or equal to the other arrangement with one line
+                        // inverted and two lines crossed
 }
 
 TEST(HallSurvey, NamesWhatIsWrong) {

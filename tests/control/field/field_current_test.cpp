@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of the field-oriented drive against their equations, in floating and in fixed point.
+// The blocks of the field-oriented drive are compared with their equations, in floating point and in fixed
+// point.
 #include "sixstep/control/field/field_current.hpp"
 
 #include <cmath>
@@ -52,7 +53,7 @@ TYPED_TEST(FieldBlocks, TurningMakesTheVoltagesOfTheEquations) {
       }
 }
 
-/// Without a current error the output is the feed-forward voltage e alone.
+/// Without a current error, the output is the feed-forward voltage e.
 TYPED_TEST(FieldBlocks, WithoutAnErrorTheAnswerIsWhatTurningMakes) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   FieldCurrentState<TypeParam> state;
@@ -74,12 +75,13 @@ TYPED_TEST(FieldBlocks, TheVectorStaysWithinTheCircleAndDComesFirst) {
     EXPECT_LE(std::hypot(number(v.d), number(v.q)), circle + 4 * digit<TypeParam>());
   }
   EXPECT_NEAR(number(state.voltage.d), -circle, 4 * digit<TypeParam>()) << "all of it holds the field down";
-  // At q = 0 the voltage circle runs parallel to the q axis: an error of one digit in d gives an error of about sqrt(2 digits) in q.
+  // At q = 0, the voltage circle is parallel to the q axis: an error of one digit in d causes an error of
+  // about sqrt(2 digits) in q.
   EXPECT_NEAR(number(state.voltage.q), 0.0, 3 * std::sqrt(digit<TypeParam>()));
 }
 
-/// The voltage of the other axis moves an axis's bound. The PI keeps the limited value, so that the first error of the other sign leaves
-/// the limit at once.
+/// The voltage of the other axis changes an axis's bound. The PI stores the limited value, so the first error
+/// of the other sign leaves the limit at once.
 TYPED_TEST(FieldBlocks, NoAxisWindsUp) {
   for (const VoltageLimit limit : {VoltageLimit::axes, VoltageLimit::circle}) {
     const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(limit);
@@ -105,8 +107,8 @@ TYPED_TEST(FieldBlocks, EachAxisStaysWithinItsOwnLimit) {
   EXPECT_EQ(state.voltage.q, c.q.limit);
 }
 
-/// Where |v| exceeds the part m of the voltage circle, i_d falls by K times the excess in each period. Where |v| is smaller, i_d rises to 0
-/// in the same way.
+/// If |v| exceeds the fraction m of the voltage circle, i_d decreases in each period by K times the excess.
+/// If |v| is smaller, i_d increases to 0 in the same way.
 TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   const FieldWeakeningConfig<TypeParam> c{Gain<TypeParam>(0.1), Gain<TypeParam>(0.9), TypeParam(0.5)};
   FieldWeakeningState<TypeParam> state;
@@ -123,8 +125,8 @@ TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   EXPECT_EQ(field_weakening_step(FieldWeakeningConfig<TypeParam>{}, state, v, TypeParam(0.9)), TypeParam{});
 }
 
-/// The bound keeps the voltage w p L_q i_q within the part m of the voltage circle for any requested i_q. A request that needs less voltage
-/// is unchanged, and so is any request without weakening.
+/// For any requested i_q, the bound keeps the voltage w p L_q i_q within the fraction m of the voltage
+/// circle. A request that needs less voltage is unchanged. Without weakening, every request is unchanged.
 TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   const FieldWeakeningConfig<TypeParam> weakens{Gain<TypeParam>(0.1), Gain<TypeParam>(0.5), TypeParam(0.5)};
@@ -133,14 +135,15 @@ TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   for (const double w : {-0.9, -0.5, 0.0, 0.7})
     for (const double most : {0.1, 0.5, 0.9}) {
       const double asked_V = std::fabs(w) * most * 0.5, allowed = asked_V > V ? most * V / asked_V : most;
-      // asked_V is accurate to two digits, and is at least 0.14 where it limits.
+      // asked_V is accurate to two digits, and is at least 0.14 if it limits the current.
       EXPECT_NEAR(number(voltage_bound(weakens, c, TypeParam(w), bus, TypeParam(most))), allowed,
                   16 * digit<TypeParam>());
       EXPECT_EQ(voltage_bound({}, c, TypeParam(w), bus, TypeParam(most)), TypeParam(most));
     }
 }
 
-/// The torque is stationary along the current circle at the curve of maximum torque per ampere; on either side of it the torque is smaller.
+/// On the curve of maximum torque per ampere, the torque is stationary along the current circle. On either
+/// side it is smaller.
 TYPED_TEST(FieldBlocks, ThereIsNoMoreTorquePerAmpere) {
   const double saliency = 1.6;  // (L_q - L_d)/psi per ampere
   const TorquePerAmpereConfig<TypeParam> c{Gain<TypeParam>(saliency / 2)};
@@ -160,7 +163,8 @@ TYPED_TEST(FieldBlocks, ThereIsNoMoreTorquePerAmpere) {
 TYPED_TEST(FieldBlocks, TheMagnetPoints150DegreesBehindAndTurnsOnWithTheSpeed) {
   const FieldAdvanceConfig<TypeParam> c{Gain<TypeParam>(0.8)};
   constexpr double pi = std::numbers::pi;
-  // The tolerance is 3.1e-7 from sine.hpp, and two digits in 16 bits; the angle's truncation is far smaller.
+  // The tolerance is 3.1e-7 from sine.hpp, and two digits in 16 bits; the truncation of the angle is far
+  // smaller.
   const double allowed = 4e-7 + 3 * digit<TypeParam>();
   for (int n = 0; n < 24; ++n)
     for (const double w : {-0.9, 0.0, 0.6}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The selection among the states of three legs, against a stepwise solution of the winding's equation and a sort.
+// The selection among the states of three legs is compared with a numerical solution of the winding's
+// equation and with a sort.
 #include "sixstep/control/field/finite_set.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ using namespace sixstep::control;
 
 constexpr double pi = std::numbers::pi;
 
-/// The motor of a drone with a salient rotor, at 20 kHz.
+/// A drone motor with a salient rotor, at 20 kHz.
 struct Machine {
   double R = 0.1, L_d = 60e-6, L_q = 90e-6, p = 7, psi = 2e-3, T = 50e-6;
 };
@@ -42,8 +43,8 @@ FiniteSetConfig<Scalar> config_of(const Machine& m) {
   return c;
 }
 
-/// Currents in the magnet's frame by Runge-Kutta in many small steps, with constant leg states. This check uses neither half rotations nor
-/// exponentials.
+/// Currents in the magnet's frame, by Runge-Kutta in many small steps with constant leg states. Unlike the
+/// block, the solver uses no half rotations and no exponentials.
 Dq<double> solved(const Machine& m, Dq<double> i, unsigned legs, double bus_V, double magnet, double w) {
   const int steps = 50;
   const double h = m.T / steps, w_e = m.p * w;
@@ -94,7 +95,7 @@ FiniteSetInput<Scalar> input_of(const Machine& m, const Case& x) {
           .e_next = e};
 }
 
-/// The eight candidate currents, by the solver.
+/// The currents after each of the eight states, from the solver.
 std::array<Dq<double>, 8> currents(const Machine& m, const Case& x, bool foretells) {
   Dq<double> i = x.measured;
   double magnet = x.magnet;
@@ -109,8 +110,9 @@ std::array<Dq<double>, 8> currents(const Machine& m, const Case& x, bool foretel
 
 double distance(const Dq<double>& a, const Dq<double>& b) { return std::hypot(a.d - b.d, a.q - b.q); }
 
-/// The model's error with a mid-period angle, for a period that turns by x = w_e T: voltage and e by x^2/24, and half of the current's
-/// change in the saliency term. A period changes the current by D at most.
+/// The model's error with the angle in the middle of a period, for a period that turns by x = w_e T: x^2/24
+/// of voltage and e, and half of the current's change in the saliency term. A period changes the current by
+/// at most D.
 double model_A(const Machine& m, const Case& x, bool foretells) {
   const double turn = std::fabs(m.p * x.w * m.T), b = m.T / m.L_d,
                D = b * (2 * x.bus_V / 3 + std::fabs(x.w) * m.p * m.psi);
@@ -140,7 +142,8 @@ TYPED_TEST(FiniteSet, ForetellsTheCurrentOfTheWindingsEquation) {
     }
 }
 
-/// Of the eight states none gives a current nearer to the reference than the chosen state does, by more than the model's error.
+/// No other state gives a current that is closer to the reference than the current of the chosen state, by
+/// more than the model's error.
 TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   const Machine m;
   std::mt19937 random(8);
@@ -161,7 +164,8 @@ TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   EXPECT_GT(changed, 500);
 }
 
-/// A sort of all states by their costs, from the block's own prediction of each state alone, selects the same state.
+/// A sort of all states by their costs selects the same state. The costs use the block's own prediction of
+/// each state.
 TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   const Machine m;
   std::mt19937 random(9);
@@ -192,7 +196,7 @@ TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
     std::sort(all.begin(), all.end());
     FiniteSetState<TypeParam> state{x.legs, {}};
     const LegBits legs = finite_set_step(c, state, in);
-    // Two equal states may change places by rounding: the selected one is as good as the first.
+    // Rounding may exchange two equal states: the selected state is as good as the first.
     const auto own =
         *std::find_if(all.begin(), all.end(), [&](const auto& a) { return std::get<3>(a) == legs; });
     const double rounding = 4000 * 64 * std::numeric_limits<TypeParam>::epsilon() + 4000 * 4e-7;
@@ -207,7 +211,7 @@ TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   EXPECT_GT(kept, 300);
 }
 
-/// The distance to a current within the bus's hexagon is at most the triangles' radius.
+/// If the reference is within the bus's hexagon, the distance to it is at most the radius of the triangles.
 TYPED_TEST(FiniteSet, ComesWithinTheRadiusOfTheTriangles) {
   Machine m;
   m.L_q = m.L_d;
@@ -273,7 +277,7 @@ TYPED_TEST(FiniteSet, TheDriveAnswersLegsThatStandForAPeriod) {
   EXPECT_FALSE(field_drive_step(c, state, in, Setpoint<TypeParam>{}, telemetry).enabled);
 }
 
-/// Both floating-point types select the same state, unless two are equal.
+/// Both floating-point types select the same state, unless two states are equal.
 TEST(FiniteSets, DoubleAndFloatAgree) {
   const Machine m;
   std::mt19937 random(11);

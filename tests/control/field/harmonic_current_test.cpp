@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents along the shape of a back-EMF, against the closed form of a trapezoid with 120 degrees flat.
+// Currents along the shape of a back-EMF are compared with the closed form for a trapezoid with 120 degrees
+// flat.
 #include "sixstep/control/field/harmonic_current.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::control;
 
 constexpr double pi = std::numbers::pi;
-/// Peak of the trapezoid's fundamental: 4/pi sin(h)/h with ramps from top to zero of h = pi/6.
+/// Peak of the trapezoid's fundamental: 4/pi sin(h)/h, where h = pi/6 is the ramp from the top to zero.
 const double fundamental = 4 / pi * std::sin(pi / 6) / (pi / 6);
 
 /// Back-EMF shape of one phase, x rad from the middle of its flat top.
@@ -26,8 +27,8 @@ double trapezoid(double x) {
   return std::clamp((pi / 2 - x) / (pi / 6), -1.0, 1.0);
 }
 
-/// The shape vector g of the three phases in the magnet's frame, for the magnet's direction `magnet` in rad. The top of phase a is a
-/// quarter turn before the magnet's axis.
+/// The shape vector g of the three phases in the magnet's frame, for the magnet's direction `magnet` in rad.
+/// The top of phase a is a quarter turn before the magnet's axis.
 Dq<double> exact(double magnet) {
   const Abc<double> f{trapezoid(magnet + pi / 2), trapezoid(magnet + pi / 2 - 2 * pi / 3),
                       trapezoid(magnet + pi / 2 - 4 * pi / 3)};
@@ -39,7 +40,7 @@ template <class Scalar>
 HarmonicCurrentConfig<Scalar> of_the_trapezoid() {
   HarmonicCurrentConfig<Scalar> c;
   c.on = true;
-  // Between the corners of a hexagon the shape vector moves along a side: its least length is the inradius.
+  // Between the corners of a hexagon, the shape vector moves along a side. Its least length is the inradius.
   c.least = static_cast<Scalar>(2 / std::numbers::sqrt3 / fundamental);
   for (int n = 0; n < shape_points; ++n) {
     const Dq<double> g = exact(n * pi / 3 / shape_points);
@@ -53,7 +54,8 @@ class HarmonicCurrent : public ::testing::Test {};
 using Floats = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(HarmonicCurrent, Floats);
 
-/// Straight lines between points D apart differ from g by at most D^2/8 times the largest |g''|, which is 1.6 here.
+/// Straight lines between points at the distance D differ from g by at most D^2/8 times the largest |g''|,
+/// which is 1.6 here.
 constexpr double met = 1.6 * (pi / 96) * (pi / 96) / 8;
 
 template <class Scalar>
@@ -74,8 +76,8 @@ TYPED_TEST(HarmonicCurrent, TheTableMeetsTheShapeEverywhere) {
   }
 }
 
-/// The torque T = 3/2 p psi (g . i) equals that of I at every angle. A table error in g changes the torque by itself over |g|; the error's
-/// rotation of g has no effect of first order.
+/// The torque T = 3/2 p psi (g . i) is equal to the torque of I at every angle. A table error changes the
+/// torque by the relative error of |g|; a rotation of g has no effect of first order.
 TYPED_TEST(HarmonicCurrent, TheTorqueIsTheSameAtEveryAngleAndTheCurrentTheShortest) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double I = 4.0;
@@ -90,14 +92,15 @@ TYPED_TEST(HarmonicCurrent, TheTorqueIsTheSameAtEveryAngleAndTheCurrentTheShorte
     EXPECT_NEAR(std::hypot(d, q), shortest, shortest * (2 * met + 8 * eps<TypeParam>));
     square += (d * d + q * q) / angles;
   }
-  // The copper loss is f_1^2 times the mean of 1/|f|^2 over x = -1..1, |f|^2 = 4/3 + 4 x^2/9: f_1^2 sqrt 3 pi/8, 0.55 % more than with the
-  // constant i_q of the same mean torque.
+  // The copper loss is f_1^2 times the mean of 1/|f|^2 over x = -1..1, with |f|^2 = 4/3 + 4 x^2/9. The mean
+  // gives f_1^2 sqrt 3 pi/8, which is 0.55 % more than with the constant i_q of the same mean torque.
   const double copper = fundamental * fundamental * std::numbers::sqrt3 * pi / 8;
   EXPECT_NEAR(copper, 1.0055, 1e-4);
   EXPECT_NEAR(square / (I * I), copper, 4 * met + 8 * eps<TypeParam>);
 }
 
-/// The torque of a constant i_q varies as g_q: from the middle of a hexagon's side to its corner, 2/sqrt 3 to 4/3.
+/// The torque of a constant i_q is proportional to g_q, which varies from the middle of a hexagon's side to
+/// its corner, from 2/sqrt 3 to 4/3.
 TYPED_TEST(HarmonicCurrent, WithoutItTheTorqueSwingsAsTheShapeDoes) {
   const auto c = of_the_trapezoid<TypeParam>();
   double least = 2.0, most = 0.0;
@@ -121,8 +124,8 @@ TYPED_TEST(HarmonicCurrent, ASineGetsWhatItHadWithoutIt) {
   }
 }
 
-/// The weakening current is perpendicular to g and makes no torque. Its sum with the torque's current stays within the limit that `least`
-/// keeps.
+/// The weakening current is perpendicular to g and produces no torque. Its sum with the torque-producing
+/// current stays within the limit, because `least` bounds |g| from below.
 TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double limit = 5.0, weakening = -3.0;
@@ -140,7 +143,7 @@ TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   EXPECT_NEAR(along, weakening, 0.01 * std::fabs(weakening)) << "the turn of g takes up to 0.6 % of it";
 }
 
-/// The drive uses the shape at the angle that the magnet reaches `lead` later, in both directions of rotation.
+/// The drive uses the shape at the angle of the magnet `lead` later, in both directions of rotation.
 TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   auto c = of_the_trapezoid<TypeParam>();
   c.lead_rad_s = static_cast<TypeParam>(2e-3);
@@ -157,7 +160,7 @@ TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   }
 }
 
-/// Both floating-point types give the same current, to float's rounding.
+/// Both floating-point types give the same current, within the rounding of float.
 TEST(HarmonicCurrents, DoubleAndFloatAgree) {
   const auto wide = of_the_trapezoid<double>();
   const auto narrow = of_the_trapezoid<float>();
@@ -169,7 +172,8 @@ TEST(HarmonicCurrents, DoubleAndFloatAgree) {
   }
 }
 
-/// The back-EMF's shape at the time of action is fed forward, so that a current at its reference needs no other voltage.
+/// The feed-forward uses the back-EMF's shape at the instant at which it acts. A current at its reference
+/// then needs no other voltage.
 TYPED_TEST(HarmonicCurrent, TheDriveFeedsTheShapeForward) {
   FieldDriveConfig<TypeParam> c;
   c.drive.mode = Mode::current;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The currents that a voltage can hold, against their definition: they need at most the available voltage, reachable ones are unchanged,
-// and others are as near to the reference as possible.
+// The currents that a voltage can maintain: they need at most the available voltage. A reachable reference is
+// unchanged, and for any other reference the result is as close to it as possible.
 #include "sixstep/control/field/reachable_current.hpp"
 
 #include <cmath>
@@ -37,7 +37,8 @@ double length_of(const FieldCurrentConfig<double>& c, const Dq<double>& i, doubl
   return std::hypot(v.d, v.q);
 }
 
-/// The error of products of numbers below 1 is a digit each; divided by |Z|^2 >= 0.04 and by |v| it is some hundred digits at most.
+/// The error of products of numbers below 1 is a digit each. Divided by |Z|^2 >= 0.04 and by |v|, it is at
+/// most some hundred digits.
 TYPED_TEST(ReachableCurrent, ItNeedsNoMoreVoltageThanThereIs) {
   const auto c = machine<TypeParam>();
   const auto exact = machine<double>();
@@ -57,7 +58,8 @@ TYPED_TEST(ReachableCurrent, ItNeedsNoMoreVoltageThanThereIs) {
       }
 }
 
-/// A back-EMF above the bus makes a current of at least (|E| - V)/|Z|; with a zero reference the current equals that.
+/// A back-EMF above the bus causes a current of at least (|E| - V)/|Z|. With a zero reference, the current is
+/// equal to this value.
 TYPED_TEST(ReachableCurrent, BeyondTheBusTheLeastCurrentFlows) {
   for (const double w : {-0.9, 0.7}) {
     const Dq<TypeParam> i =
@@ -89,8 +91,8 @@ Drawn drawn(std::mt19937& random) {
   return x;
 }
 
-/// A projection increases no distance between two points, so that |i'| <= |i| + the least current. At an unchanged i_d the torque-producing
-/// current shrinks but never changes sign.
+/// A projection does not increase the distance between two points, so |i'| <= |i| + the least current. At an
+/// unchanged i_d, the torque-producing current becomes smaller but never changes its sign.
 TEST(ReachableCurrentLaw, ItIsNoLongerThanTheReferenceAndTheLeastCurrentTogether) {
   const unsigned seed = 20261127;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -114,7 +116,8 @@ TEST(ReachableCurrentLaw, ItIsNoLongerThanTheReferenceAndTheLeastCurrentTogether
   EXPECT_GT(beyond, 1000);
 }
 
-/// A braked round rotor gets the nearest current of all: no point of a fine polar grid of the disc is nearer.
+/// For a braked round rotor, the current is the closest possible one: no point of a fine polar grid of the
+/// disc is closer.
 TEST(ReachableCurrentLaw, ABrakedRotorGetsTheNearestCurrent) {
   std::mt19937 random(7);
   int tried = 0;

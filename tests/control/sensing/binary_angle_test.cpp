@@ -118,7 +118,8 @@ TYPED_TEST(BinaryAngleIn, HalfTurnsAndWholeNumbersAreRoundedOnce) {
         << drawn.seed;
     const auto x = static_cast<std::int32_t>(drawn.word()) >> drawn.below(31);
     const double gain = 0.9 / (std::fabs(x) + 1.0) * drawn.unit();
-    // numbers and gains are rounded to 2^-15 or 2^-31 of themselves, small gains to multiples of 2^-30 or 2^-62
+    // numbers and gains have a relative rounding error of 2^-15 or 2^-31; small gains are multiples of 2^-30
+    // or 2^-62
     const double storage = is_fixed<S> ? std::ldexp(1.0, sizeof(S) == 2 ? -15 : -31) : digit<S>();
     const double least = is_fixed<S> ? std::ldexp(digit<S>(), sizeof(S) == 2 ? -30 : -62) / 2 : 0.0;
     ASSERT_NEAR(
@@ -158,8 +159,9 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
 TYPED_TEST(BinaryAngleIn, SineAndCosineAreRightToTheStatedError) {
   using S = TypeParam;
   const double cubic = std::pow(std::numbers::pi / 256, 3) / 6;
-  // In fixed point the table, two products and the range adjustment round by half a digit each. A format that ends below 1 adds up to one
-  // digit, and rounding before a gain a hundredth. In floating point the table and two sums round by at most a quarter of a digit each.
+  // In fixed point, the table, two products and the range adjustment are each rounded by half a digit. A
+  // format whose range ends below 1 adds up to one digit, and the rounding before a gain adds a hundredth. In
+  // floating point, the table and two sums are each rounded by at most a quarter of a digit.
   const double digits = is_fixed<S> ? 2.1 + (static_cast<double>(one<S>) < 1 ? 0.6 : 0.0) : 1.0;
   const double bound = cubic + 1e-9 + digits * digit<S>();
   double worst = 0;

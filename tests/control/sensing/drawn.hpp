@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers for properties of decoders. A failure prints the seed that repeats them.
+// Random numbers for tests of decoders. A failed test prints the seed with which it can be repeated.
 #pragma once
 #include <cstdint>
 

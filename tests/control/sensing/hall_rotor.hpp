@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall edges of a rotor by their definition (model.md 3 and 10): edge n at 60 n degrees plus an offset, its own misplacement and half the
-// hysteresis in the direction of motion, detected after a delay.
+// Hall edges of a rotor by their definition (model.md 3 and 10): edge n is at 60 n degrees plus an offset,
+// the edge's misplacement and half the hysteresis in the direction of motion. It is detected after a delay.
 #pragma once
 #include <cmath>
 #include <cstdint>

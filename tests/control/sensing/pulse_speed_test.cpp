@@ -27,7 +27,8 @@ PulseSpeedConfig<S> config(double base = 1.0) {
   return {static_cast<TickRatio<S>>(timer_Hz / counts_per_rad / base), 200000};
 }
 
-/// An encoder whose position, in counts, is a monotonic function of time between two control ticks. Each edge gets its own timer count.
+/// An encoder whose position, in counts, is a monotonic function of time between two control ticks. Each edge
+/// has its own timer count.
 class Encoder {
  public:
   explicit Encoder(std::function<double(double)> place) : place_(std::move(place)) {
@@ -65,8 +66,8 @@ template <class Scalar>
 class PulseSpeed : public ::testing::Test {};
 TYPED_TEST_SUITE(PulseSpeed, SensingScalars);
 
-/// From 1 to 10000 rad/s, in both directions, the speed is right to one timer tick in T. T is at least the period minus the time of a
-/// count, and at least that time.
+/// From 1 to 10000 rad/s, in both directions, the speed is accurate to one timer tick in the time T. T is at
+/// least the period minus the time of a count, and at least the time of a count.
 TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 10400.0 : 1.0, period = 1e-3;
@@ -83,8 +84,8 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
         const double found = static_cast<double>(pulse_speed(c, state, Encoder::ticks(t))) * base;
         if (t < 2 * (period + count_s)) continue;  // two ticks with an edge
         const double T_ticks = timer_Hz * std::max(count_s, period - count_s);
-        // Times are truncated to ticks: T by one, and so is `since`, which bounds the speed. The format's ratio is rounded by half a digit
-        // over the product for M = 1.
+        // Times are truncated to ticks: T by one tick, and `since`, which bounds the speed, also by one. The
+        // ratio in the format is rounded by half a digit, relative to the product for M = 1.
         const double ratio = is_fixed<S> ? 0.5 * digit<S>() * base / (timer_Hz / counts_per_rad) : digit<S>();
         const double bound = w * (1 / (T_ticks - 1) + ratio) + digit<S>() * (is_fixed<S> ? base : w);
         ASSERT_NEAR(found, sign * w, bound) << w << " at " << n;
@@ -95,7 +96,7 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   EXPECT_GT(worst_part, 0.5) << "the bound is no wider than it must be";
 }
 
-/// A rotor stops: the speed falls at least as fast as the missing edge implies, then to 0.
+/// If a rotor stops, the speed decreases at least as fast as the missing edge implies, then becomes 0.
 TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   const auto c = config<double>();
   Encoder encoder([](double t) { return 400.0 * counts_per_rad * std::min(t, 0.05); });
@@ -106,7 +107,7 @@ TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
     encoder.run(state, t);
     const double w = pulse_speed(c, state, Encoder::ticks(t));
     if (t < 0.0505) continue;
-    const double since = t - 0.05;  // the last edge is at most a count older
+    const double since = t - 0.05;  // the last edge is at most one count older
     EXPECT_LE(w, 1 / (counts_per_rad * (since - 2e-6)));
     EXPECT_LE(w, last);
     if (since > 0.2) {
@@ -119,7 +120,8 @@ TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   }
 }
 
-/// The edges are at 1000 and 1500, truncated to ticks. 2000 ticks after the last edge, the true interval may be as short as 1999.
+/// The edges are at 1000 and 1500, truncated to ticks. 2000 ticks after the last edge, the true interval may
+/// be only 1999 ticks.
 TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   const PulseSpeedConfig<double> c{1e6, 100000};
   PulseSpeedState state;
@@ -129,12 +131,12 @@ TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   EXPECT_EQ(pulse_speed(c, state, 1510), 1e6 / 500);
   EXPECT_EQ(pulse_speed(c, state, 2001), 1e6 / 500) << "still due";
   EXPECT_EQ(pulse_speed(c, state, 3500), 1e6 / 1999);
-  pulse_edge(state, -3, -1, 4500);  // the rotor passes the last edge backwards, and two more
+  pulse_edge(state, -3, -1, 4500);  // the rotor passes the last edge backwards, and then two more edges
   EXPECT_EQ(pulse_speed(c, state, 4510), -2e6 / 3000);
 }
 
-/// The speed during a reversal is the rotor's true movement over the time between the last edges of two ticks, or the limit from a missing
-/// edge. An edge passed backwards adds nothing.
+/// During a reversal, the speed is the rotor's movement divided by the time between the last edges of two
+/// ticks, or the limit from a missing edge. An edge that is passed backwards adds nothing.
 TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
   const auto c = config<double>();
   const auto place = [](double t) { return 1000.5 - 4e5 * (t - 0.1003) * (t - 0.1003); };
@@ -155,7 +157,7 @@ TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
     const double T_ticks = (to - from) * timer_Hz, since_ticks = (t - to) * timer_Hz;
     const double mean = (place(to) - place(from)) / counts_per_rad / (to - from);
     const double allowed = timer_Hz / counts_per_rad / (since_ticks + 1);
-    // T is accurate to a tick; places are accurate to 1e-10 s.
+    // T is accurate to a tick, positions to 1e-10 s.
     EXPECT_LE(std::fabs(w), std::fabs(mean) * (1 + 1 / (T_ticks - 1)) + 1e-4) << t;
     EXPECT_GE(std::fabs(w), std::fmin(std::fabs(mean) * (1 - 1 / T_ticks), allowed) - 1e-4) << t;
     EXPECT_GE(w * mean, 0) << t;
@@ -167,7 +169,7 @@ TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
   EXPECT_GT(bounded, 0);
 }
 
-/// Oscillation about one edge gives no speed, at any number of passes.
+/// Oscillation around one edge gives a speed of 0, for any number of passes.
 TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   const auto c = config<double>();
   PulseSpeedState state;
@@ -184,8 +186,9 @@ TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   }
 }
 
-/// Every 37th edge is missing. Edges are 1000 timer ticks apart, and a control tick shifts by one timer tick against them, so that every
-/// phase occurs equally. The header gives the mean's reduction: 2 - ln 2 - 1/(M (M + 1)) of the missing fraction.
+/// Every 37th edge is missing. Edges are 1000 timer ticks apart. The control tick shifts by one timer tick
+/// relative to the edges, so that every phase occurs equally often. According to the header, the mean is
+/// reduced by 2 - ln 2 - 1/(M (M + 1)) times the missing fraction.
 TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
   for (const int M : {1, 2, 3, 5, 9}) {
     const PulseSpeedConfig<double> c{1000.0, 1000000};  // one edge per 1000 ticks is a speed of 1
@@ -208,7 +211,8 @@ TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
       ticks += to - from;
     }
     const double share = 1.0 / 37, law = 2 - std::log(2.0) - 1.0 / (M * (M + 1));
-    // The tolerance is a tick of 1000 in the bound, and a thousandth of the control ticks with one edge more than M.
+    // The tolerance is a tick of 1000 in the bound, and a thousandth of the control ticks, in which M + 1
+    // edges occur.
     EXPECT_NEAR(sum / (readings - 2) / share, law, 0.004) << M;
     EXPECT_NEAR(1000 * counted / ticks, 1 - share, 1.0 / (readings * M))
         << "over its own windows, but for a miss at their ends";

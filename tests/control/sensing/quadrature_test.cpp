@@ -14,8 +14,8 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<QuadratureState>);
 
-/// The encoder by its definition, its place in counts (model.md 10): A high over the first half of a line, B a
-/// quarter of a line later, Z over the first line of a turn.
+/// The encoder by its definition (model.md 10), as a function of its position in counts: A is high over the
+/// first half of a line, B a quarter of a line later, Z over the first line of a turn.
 struct Lines {
   bool a, b, z;
 };
@@ -76,7 +76,8 @@ TEST(Quadrature, BothLinesAtOnceAreIllegalAndCountTwoOn) {
   }
 }
 
-/// A disturbance makes the count wrong by n. The next index, in either direction, reports n, and the angle is right from there on.
+/// A disturbance makes the count wrong by n. The next index, in either direction, reports n, and the angle is
+/// correct from then on.
 TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})
@@ -104,7 +105,8 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
     }
 }
 
-/// An index whose edges are less than two counts early or late is still evaluated at the right count.
+/// If the edges of an index are less than two counts early or late, the index is still evaluated at the right
+/// count.
 TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})
@@ -117,7 +119,8 @@ TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
           const Lines l = lines_at(in_turn, 64);
           quadrature_step(config, state, l.a, l.b, signed_place >= rises && signed_place < 4 + falls);
         }
-        // The index is evaluated only at the third count: Z must be high there, and low four counts before and after.
+        // The index is evaluated only at the third count. Z must be high at this count, and low four counts
+        // before and after it.
         const bool sound = rises > -2 && rises <= 2 && falls > -2 && falls <= 2;
         const auto place = static_cast<std::uint32_t>((direction * 399 % 64 + 64) % 64);
         EXPECT_EQ(state.referenced && state.corrections == 0 && state.in_turn == place, sound)

@@ -22,7 +22,8 @@ static_assert(std::is_trivially_copyable_v<ResolverState>);
 constexpr double pi = std::numbers::pi, turn = 4294967296.0;
 constexpr double amplitude = 0.6;  // relative to the chip's signals
 
-/// Windings and converter by their definition (model.md 10): amplitude k V_R, offsets and noise in counts, imbalance a, skew q in rad.
+/// Windings and converter by their definition (model.md 10): amplitude k V_R, offsets and noise in counts,
+/// amplitude imbalance a, skew q in rad.
 struct Windings {
   double counts = 1800, a = 0, q = 0, cos_offset = 2048, sin_offset = 2048, noise = 0;
   int most = 4095;
@@ -49,7 +50,7 @@ ResolverConfig<S> config(const Windings& w, const SecondOrder& loop) {
           .lost_after = 3};
 }
 
-/// Error, in rad, of the angle found after `samples` results of a rotor at rest at `phi`.
+/// Error, in rad, of the angle after `samples` results of a rotor at rest at `phi`.
 template <class S>
 double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn& drawn, int samples = 400) {
   ResolverState state;
@@ -61,8 +62,9 @@ double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn
   return std::remainder(r.angle / turn * 2 * pi - phi, 2 * pi);
 }
 
-/// Bound of the angle's error at rest, rad. Half a count is rounded in each winding's halved difference (two half counts). Four digits of
-/// the format are rounded in each signal and in the two products of the detector, with the sine table.
+/// Bound of the angle's error at rest, rad. Half a count is rounded in the halved difference of each winding
+/// (two half counts). Four digits of the format are rounded in each signal and in the two products of the
+/// detector, with the sine table.
 template <class S>
 double static_bound(const Windings& w) {
   const double digits = is_fixed<S> ? 8 * digit<S>() / amplitude : 8 * digit<S>();
@@ -73,7 +75,7 @@ template <class Scalar>
 class Resolver : public ::testing::Test {};
 TYPED_TEST_SUITE(Resolver, SensingScalars);
 
-/// Known imbalance, skew and offsets are removed over the whole turn; unknown ones remain.
+/// Known imbalance, skew and offsets are corrected over the whole turn. Unknown ones remain as errors.
 TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -90,13 +92,13 @@ TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   }
   std::printf("largest error %.3g rad, bound %.3g\n", worst, static_bound<S>(w));
   EXPECT_LE(worst, static_bound<S>(w));
-  // By the law the error is the largest a/2 sin 2 phi + q (1 + cos 2 phi)/2, which is q/2 + sqrt((a/2)^2 + (q/2)^2). Terms of second order
-  // change it by less than a tenth.
+  // The law: the error is the largest a/2 sin 2 phi + q (1 + cos 2 phi)/2, which is q/2 + sqrt((a/2)^2 +
+  // (q/2)^2). Terms of second order change it by less than a tenth.
   const double law = w.q / 2 + std::hypot(w.a / 2, w.q / 2);
   EXPECT_NEAR(worst_plain, law, 0.1 * law);
 }
 
-/// A constant offset that remains in a demodulated signal is subtracted too.
+/// A constant offset in a demodulated signal is subtracted too.
 TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -117,7 +119,7 @@ TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   EXPECT_NEAR(static_cast<double>(x.s), 0.40, half_count + own);
 }
 
-/// The loop locks to the rotor from any angle, including exactly half a turn off.
+/// The loop locks to the rotor from any angle, also from exactly half a turn off.
 TYPED_TEST(Resolver, LocksFromAnywhere) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.8);
@@ -128,12 +130,13 @@ TYPED_TEST(Resolver, LocksFromAnywhere) {
       ResolverConfig<S> c = config<S>(w, loop);
       c.normalise = normalise;
       const double phi = 2 * pi * k / 64;
-      // Without normalisation the loop's natural frequency falls with the amplitude.
+      // Without normalisation, the loop's natural frequency decreases with the amplitude.
       EXPECT_LE(std::fabs(error_at(phi, w, c, drawn, 1000)), static_bound<S>(w)) << k << ' ' << normalise;
     }
 }
 
-/// The found angle of a turning rotor is the angle in the middle between two samples, a quarter of an excitation period earlier.
+/// For a turning rotor, the result is the angle in the middle between two samples, a quarter of an excitation
+/// period earlier.
 TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -147,7 +150,8 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
       const auto r = resolver_step(c, state, w.at(phi, n % 2 == 0, drawn), n % 2 == 0);
       if (n < 300) continue;
       const double off = std::remainder(r.angle / turn * 2 * pi - (phi - per_sample / 2), 2 * pi);
-      // The loop predicts from earlier results. Their rounding errors, weighted by the loop's step response, at most double the error.
+      // The loop predicts from earlier results. Their rounding errors, weighted by the loop's step response,
+      // at most double the error.
       const double tail = 1 + loop.K_p() + loop.K_i();
       ASSERT_LE(std::fabs(off), 2 * tail * static_bound<S>(w)) << per_sample;
       ASSERT_NEAR(r.speed / turn * 2 * pi, per_sample, 4 * (loop.K_p() + loop.K_i()) * static_bound<S>(w));
@@ -155,7 +159,7 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   }
 }
 
-/// Small steps decay as in the linear loop: the detector's tangent exceeds e by at most e^3/3.
+/// Small steps decay as in the linear loop: the detector's tangent exceeds the error e by at most e^3/3.
 TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.6);
@@ -173,7 +177,7 @@ TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
       const bool positive = n % 2 == 0;
       const auto r = resolver_step(c, state, weaker.at(1, positive, drawn), positive);
       const double off = r.angle / turn * 2 * pi - 1;
-      double answers = 0;  // each tick's error of the detector, weighted by the loop's response
+      double answers = 0;  // the detector's error in each tick, weighted by the loop's response
       for (int k = 1; k <= n; ++k) answers += std::fabs(loop.error(k) - loop.error(k - 1));
       const double detector = static_bound<S>(weaker) / part + step * step * step / 3;
       ASSERT_NEAR(off, step * loop.error(n), answers * detector + 1e-9) << n << " at " << part;
@@ -192,7 +196,8 @@ TEST(ResolverLaw, ConstantAccelerationLeavesAlphaByKa) {
   double mean = 0;
   const int from = 500, to = 1500;
   for (int n = 0; n < to; ++n) {
-    const double at = n - 0.5;  // the middle; the chord's angle equals that of its middle to alpha/8
+    const double at = n - 0.5;  // the middle; the angle of the chord is equal to the angle in its middle, to
+                                // alpha/8
     const auto r = resolver_step(c, state, w.at(alpha * n * n / 2, n % 2 == 0, drawn), n % 2 == 0);
     if (n >= from)
       mean += std::remainder(alpha * at * at / 2 - r.angle / turn * 2 * pi, 2 * pi) / (to - from);
@@ -214,7 +219,7 @@ TEST(ResolverLaw, TheAmplitudeTakenForOneMakesTheLoopSlower) {
     resolver_step(c, state, w.at(0.02, true, drawn), true);
     first[normalise] = state.loop.error;
   }
-  // The tolerance is half a count in each of the two.
+  // The tolerance is half a count in each of the two amplitudes.
   EXPECT_NEAR(first[0] / first[1], amplitude, 2 * std::sqrt(0.5) / w.counts / 0.02);
 }
 
@@ -240,7 +245,7 @@ TYPED_TEST(Resolver, LossOfSignalIsTold) {
   EXPECT_EQ(lost_after({4095, 4095}, {0, 0}), 4) << "both at their ends";
 }
 
-/// Two results outside the limits and one inside, repeatedly, are never three in a row outside.
+/// A sequence of two results outside the limits and one inside never has three in a row outside.
 TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   const SecondOrder loop(0.1, 0.8);
   const Windings w;
@@ -250,7 +255,7 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   ResolverState state;
   int outside = 0;
   for (int n = 0; n < 300; ++n) {
-    // A missing sample spoils two results: those with the sample before it and after it.
+    // A missing sample makes two results wrong: those with the sample before it and after it.
     const bool missing = n % 3 == 2;
     const auto r = resolver_step(
         c, state, missing ? ResolverCounts{2048, 2048} : w.at(0.5, n % 2 == 0, drawn), n % 2 == 0);
@@ -260,7 +265,7 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   EXPECT_GT(outside, 150);
 }
 
-/// Without signals the angle stays.
+/// Without signals, the angle does not change.
 TEST(ResolverLaw, ADeadResolverDoesNotTurn) {
   const SecondOrder loop(0.1, 0.8);
   const ResolverConfig<Q15> c = config<Q15>(Windings{}, loop);

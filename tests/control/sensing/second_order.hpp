@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The linear equivalent of a tracking loop, from its poles exp(s T): independent of the design's formulas.
+// The linear equivalent of a tracking loop, computed from its poles exp(s T), independent of the design's
+// formulas.
 #pragma once
 #include <cmath>
 #include <complex>
@@ -10,7 +11,7 @@ namespace sixstep::control {
 
 class SecondOrder {
  public:
-  /// x = w_n T; damping up to 1, where the poles are kept slightly apart.
+  /// x = w_n T, with the natural frequency w_n; damping up to 1, for which the poles are kept slightly apart.
   SecondOrder(double x, double damping)
       : z_(std::exp(
             std::complex<double>(-damping * x, x * std::sqrt(std::fmax(1 - damping * damping, 1e-8))))) {}
@@ -22,8 +23,9 @@ class SecondOrder {
   /// The error n ticks after a step of 1: e[0] = 1, e[1] = 1 - K_p - K_i, e[n] = Re(b z^n).
   double error(int n) const { return (start() * std::pow(z_, n)).real(); }
 
-  /// Largest effect of rounding on the error, in units of the angle. Each tick adds half a unit to the speed and half a unit to the error,
-  /// and each part decays as a step does. The speed's own rounding of 2^-17 accumulates until the loop corrects it.
+  /// Largest effect of rounding on the error, in units of the angle. Each tick adds half a unit to the speed
+  /// and half a unit to the error, and each of them decays like a step. The rounding of the speed by 2^-17
+  /// accumulates until the loop corrects it.
   double rounding() const {
     double sum = 0, speed_sum = 0, moved = 0;
     std::complex<double> z = 1;

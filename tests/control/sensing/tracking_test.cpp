@@ -20,7 +20,7 @@ static_assert(std::is_trivially_copyable_v<TrackingState>);
 
 constexpr double turn = 4294967296.0;
 
-/// The error after a step of the angle is that of the linear loop, by its poles.
+/// After a step of the angle, the error is that of the linear loop, computed from the poles.
 TEST(Tracking, AStepDecaysAsThePolesSay) {
   for (const double damping : {0.4, 0.7, 0.95})
     for (const double x : {0.003, 0.03, 0.3}) {
@@ -38,7 +38,7 @@ TEST(Tracking, AStepDecaysAsThePolesSay) {
     }
 }
 
-/// The error is 0 at constant speed and a/K_a at constant acceleration, through many turns.
+/// Over many turns, the error is 0 at constant speed and a/K_a at constant acceleration a.
 TEST(Tracking, ConstantAccelerationLeavesItsErrorAndNoMore) {
   for (const double damping : {0.5, 1.0})
     for (const double x : {0.01, 0.1})
@@ -54,7 +54,7 @@ TEST(Tracking, ConstantAccelerationLeavesItsErrorAndNoMore) {
           place += speed;
         }
         EXPECT_NEAR(state.error, e, rounding + std::fabs(e) * 1e-6) << damping << ' ' << x << ' ' << a;
-        // The next step is w[n+1] + K_p e: the speed therefore lags the truth by K_p e.
+        // The next step is w[n+1] + K_p e, so the speed lags the true speed by K_p e.
         EXPECT_NEAR(tracking_speed(state), static_cast<double>(speed) - law.K_p() * e,
                     2 * rounding + std::fabs(e) * 1e-6);
         EXPECT_GT(std::abs(place), std::int64_t{1} << (a == 0 ? 33 : 22)) << "it moved";
@@ -74,7 +74,7 @@ TEST(Tracking, ForwardAndBackwardAreMirrored) {
   }
 }
 
-/// The speed stays within half a turn per tick, however long an error lasts.
+/// The speed stays within half a turn per tick, for an error of any duration.
 TEST(Tracking, TheSpeedIsBounded) {
   const SecondOrder law(0.5, 0.7);
   TrackingState state;

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
-/// Control ticks at which the field advances by itself.
+/// Control ticks at which the ramp advances the field.
 std::vector<double> field_steps(const StartUpConfig<double>& config, int count) {
   StartUpState state;
   ramp_begin(config, state, 0);
@@ -20,7 +20,7 @@ std::vector<double> field_steps(const StartUpConfig<double>& config, int count) 
       at.push_back(n);
       const std::uint32_t angle = state.angle;
       ramp_commutated(state);
-      state.angle = angle;  // keeps the part of the angle beyond the sector's end
+      state.angle = angle;  // keeps the part of the angle that exceeds the sector's end
     }
   return at;
 }
@@ -75,7 +75,8 @@ TEST(StartUp, CountsCrossingsThatFollowEachOther) {
   EXPECT_EQ(state.trusted, 0) << "the field had to go on by itself";
 }
 
-/// An oscillation without friction: the current is low while the speed grows, full while it falls.
+/// An oscillation without friction: the current is low while the speed increases, and full while it
+/// decreases.
 TEST(StartUp, TheSwingsSpeedIsToldToGrowOrToShrink) {
   const StartUpConfig<double> config{.swing_shift = 4, .swing_threshold = 20};
   StartUpState state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terminal voltages of a rotor with prescribed motion, in the converter's counts: written from model.md 1 and 2, independent of the tested
-// code.
+// Terminal voltages of a rotor with prescribed motion, in the converter's counts. Written from model.md 1 and
+// 2, independent of the tested code.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,8 @@ inline std::uint16_t held_to_rails(double counts) {
       std::fmin(static_cast<double>(bus_counts), std::fmax(0.0, std::floor(counts + 0.5))));
 }
 
-/// The pair of a sector at the rails, the third leg floating; `emf` is e on the flat in counts, signed by the rotation.
+/// The pair of a sector at the rails, the third leg floating. `emf`: back-EMF on the flat top in counts, with
+/// the sign of the rotation.
 inline control::TerminalSample driven_sample(std::uint8_t sector, double electrical_deg, double emf,
                                              std::uint32_t at) {
   constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};

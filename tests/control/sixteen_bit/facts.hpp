@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point facts decided at compile time, so that a compiler with 16-bit int can check them without a chip: the same bits as on the
-// host, where fixed_test.cpp compares them with exact arithmetic.
+// Results of fixed-point operations checked at compile time, so that a compiler with 16-bit int can check
+// them without a chip. They must be the same bits as on the host, where fixed_test.cpp compares them with
+// exact arithmetic.
 #pragma once
 #include <cstdint>
 
@@ -10,7 +11,8 @@
 
 namespace sixstep::control::facts {
 
-/// Every operation on a grid of numbers with both ends and both sides of 0, mixed into 32 bits.
+/// Every operation on a grid of numbers, including the ends of the range and both sides of 0, mixed into 32
+/// bits.
 template <class F>
 constexpr std::uint32_t digest() {
   using T = ScalarTraits<F>;

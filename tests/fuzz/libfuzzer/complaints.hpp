@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of each answer in the readers' fuzzers.
+// Checks of the results in the readers' fuzzers.
 #pragma once
 #include <cstdlib>
 
@@ -8,14 +8,14 @@
 
 namespace fuzzing {
 
-/// A refusal has words.
+/// A refusal has a place and a rule.
 inline void must_say_something(const sixstep::base::Problems& problems) {
   if (problems.empty()) std::abort();
   for (const sixstep::base::Problem& problem : problems)
     if (problem.where.empty() || problem.limit.empty()) std::abort();
 }
 
-/// An accepted scenario compiles or is refused with words; so do the drives of its series.
+/// An accepted scenario compiles or is refused with a message; so do the drives of its series.
 inline void must_compile(const sixstep::study::Scenario& scenario) {
   const auto compiled = sixstep::study::compile(scenario);
   if (!compiled && compiled.problems().empty()) std::abort();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole folder into the scenario reader: x.toml and the files that it may name, base.toml, own.toml (a motor) and rows.csv. One input
-// holds all of them, separated by lines "#### NAME"; x.toml is the text before the first.
+// The scenario reader with a whole folder: x.toml and the files that it may name, base.toml, own.toml (a
+// motor) and rows.csv. One input contains all files, separated by lines "#### NAME"; x.toml is the text
+// before the first separator.
 #include <stdlib.h>
 
 #include <cstdint>
@@ -15,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder is made once and never removed, because the fuzzer may end anywhere. It is in memory where the system has such a place.
+/// The folder is created once and never removed, because the fuzzer may end at any instant. It is in memory
+/// if the system has such a folder.
 const fs::path& folder() {
   static const fs::path made = [] {
     std::error_code none;

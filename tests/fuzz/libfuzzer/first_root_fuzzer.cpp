@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients into the root finder: the returned first root is a zero to rounding within the length, and the polynomial is not negative
-// before it.
+// The root finder with arbitrary coefficients. The returned root is a zero within the length, to rounding,
+// and the polynomial is not negative before it.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -27,14 +27,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::memcpy(c.data(), data + 2, std::min(size - 2, sizeof(double) * static_cast<std::size_t>(degree + 1)));
   double sum = 0;
   for (int j = 0; j <= degree; ++j) {
-    if (!(std::fabs(c[j]) < 1e100)) return 0;  // guards are finite, and so are their products
+    if (!(std::fabs(c[j]) < 1e100)) return 0;  // coefficients of guards, and their products, are finite
     if (std::fabs(c[j]) < 1e-100) c[j] = 0;
     sum += std::fabs(c[j]);
   }
   constexpr double eps = 0x1p-52;
   const double noise = 64 * eps * sum;
-  // Noise may count as zero once per coefficient; rounding of the Bernstein form and of an evaluation adds at most 4 (degree + 1) eps of
-  // the sum.
+  // Noise may count as zero once per coefficient. The rounding of the Bernstein form and of an evaluation
+  // adds at most 4 (degree + 1) eps of the sum.
   const double error = (degree + 1) * (noise + 4 * eps * sum);
   const auto root = first_root(c, degree, length, noise);
   const bool found = root != sixstep::series::no_root<double>;

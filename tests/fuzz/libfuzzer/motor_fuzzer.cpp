@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes into the motor file's reader: the result is a sheet, or problems with words. An accepted sheet is checked for consistency, shown,
-// made a model and, where possible, a first scenario.
+// The motor file's reader with arbitrary bytes: the result is a sheet, or problems with messages. An accepted
+// sheet is checked for consistency and printed, and a model and, if possible, a first scenario are made from
+// it.
 #include <unistd.h>
 
 #include <cstdint>

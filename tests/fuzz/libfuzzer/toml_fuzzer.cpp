@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes into the scenario reader: the result is a scenario or problems with words, never a crash. An accepted scenario must compile or be
-// refused with words.
+// The scenario reader with arbitrary bytes: the result is a scenario, or problems with messages, never a
+// crash. An accepted scenario must compile or be refused with a message.
 #include <cstdint>
 
 #include "tests/fuzz/libfuzzer/complaints.hpp"

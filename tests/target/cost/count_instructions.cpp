@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plugin of QEMU 7.2 that counts the instructions executed from one address until another is reached:
+// A plugin for QEMU 7.2 that counts the executed instructions from one address to another:
 //
 //   -plugin FILE,told=OUT,NAME=FROM-UNTIL,..,next=A
 //
-// The addresses are hexadecimal; each row of counts has a name. At next= the plugin prints the rows and
-// clears them: once per block of a walk.
+// FROM, UNTIL and A are hexadecimal addresses; NAME is the name of a row of counts. At address A the plugin
+// prints the rows and clears them: once per block of a walk.
 //
-// Debian has no header of the plugin interface (version 1). The called functions are declared here as QEMU's
-// documentation of the interface states them.
+// Debian has no header of the plugin interface (version 1). The called functions are declared here according
+// to QEMU's documentation of the interface.
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -37,7 +37,8 @@ struct Marked {
   bool runs = false;
   target::Counts counts{};
 };
-// These objects are never destroyed: QEMU's last callback comes after the destructors of static objects.
+// These objects are never destroyed: QEMU calls the plugin for the last time after the destructors of static
+// objects.
 auto& marked = *new std::deque<Marked>;
 auto& told = *new std::string;
 std::uint64_t executed = 0, next = ~std::uint64_t{0};
@@ -63,8 +64,8 @@ void tell_and_go_on(unsigned, void*) {
   std::fclose(file);
 }
 
-/// The callbacks come before the instruction counts itself: the count is from the first instruction inclusive
-/// to the label exclusive.
+/// A callback precedes the counting of its instruction: the count includes the first instruction and excludes
+/// the instruction at UNTIL.
 void translated(Id, qemu_plugin_tb* block) {
   for (std::size_t n = 0; n < qemu_plugin_tb_n_insns(block); ++n) {
     qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, n);

@@ -11,7 +11,8 @@ namespace target {
 class Counts {
  public:
   void add(std::uint64_t count) { all_.push_back(count); }
-  /// Prints name, calls, the rounded mean, the count that 99.9 % of the calls do not exceed, and the worst.
+  /// Prints the name, the number of calls, the rounded mean, the count that 99.9 % of the calls do not
+  /// exceed, and the largest count.
   void tell(std::FILE* to, const char* name) {
     if (all_.empty()) return;
     std::sort(all_.begin(), all_.end());

@@ -3,8 +3,8 @@
 // Hall edge by Hall edge (record.hpp). It prints `run DIGEST` of the run and `answers CALLS DIGEST` of the
 // firmware's answers.
 //
-// The firmwares here have the parts of rig/firmware.hpp's and record their inputs. The run's digest equals
-// that of study::run, which shows that they do nothing else.
+// The firmwares here have the parts of those in rig/firmware.hpp and record their inputs. The run's digest
+// must equal that of study::run: the recording then changes nothing.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -23,7 +23,8 @@ namespace {
 
 using namespace sixstep;
 
-/// The results of one run. The rig makes its firmware itself, so that a caller cannot pass it in.
+/// The results of one run. The rig constructs its firmware itself, so that a caller cannot pass this object
+/// in.
 struct Tape {
   std::vector<std::uint8_t> bytes;
   std::uint32_t calls = 0;
@@ -150,7 +151,7 @@ class FieldRecorder {
  public:
   using Number = Scalar;
   using Command = LegCommands<Scalar>;
-  using Config = SensorlessFieldConfig<Scalar>;  // the rig's config; here a sensor gives the angle
+  using Config = SensorlessFieldConfig<Scalar>;  // the rig's configuration; here a sensor supplies the angle
   static constexpr bool fault_ends_run = true;
 
   FieldRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One period of a recorded run, as bytes of a fixed layout, lowest first: the firmware's inputs at a control
-// tick or in a Hall interrupt. The host writes them; every core reads them.
+// One period of a recorded run, as bytes of a fixed layout, lowest byte first: the firmware's inputs at a
+// control tick or in a Hall interrupt. The host writes them, and every processor reads them. The numbers are
+// sizes in bytes.
 //
 //   all       kind 1 (0 tick, 1 Hall), pins 1
 //   lean      i_a, i_b, i_c, speed, position, bus, setpoint: a scalar each
@@ -39,7 +40,8 @@ struct Bits<Fixed<std::int32_t, FractionBits>> {
   static constexpr Scalar from(Unsigned bits) { return Scalar::from_raw(static_cast<std::int32_t>(bits)); }
 };
 
-/// Moves a field between a record and its bytes, in both directions by one list of fields.
+/// Copies a field from bytes to a record (Writer: from the record to bytes). One list of fields serves both
+/// directions.
 struct Reader {
   const std::uint8_t* at;
   template <class Unsigned>
@@ -73,7 +75,7 @@ template <class Scalar>
 struct LeanRecord {
   static constexpr std::uint8_t bytes = 2 + 7 * sizeof(typename Bits<Scalar>::Unsigned);
   std::uint8_t kind = 0;
-  Measurement<Scalar> measured{};  ///< a Hall edge sets the code alone
+  Measurement<Scalar> measured{};  ///< a Hall edge sets only the code
   Setpoint<Scalar> setpoint{};
 
   template <class Way>
@@ -90,7 +92,7 @@ struct LeanRecord {
   }
 };
 
-/// The lean drive's inputs and an angle; no entry is called at a Hall edge.
+/// The lean drive's inputs and an angle. No entry is called at a Hall edge.
 template <class Scalar>
 struct FieldRecord : LeanRecord<Scalar> {
   static constexpr std::uint8_t bytes = LeanRecord<Scalar>::bytes + 4;
@@ -107,7 +109,7 @@ template <class Scalar>
 struct ProductRecord {
   static constexpr std::uint8_t bytes = 16 + sizeof(typename Bits<Scalar>::Unsigned);
   std::uint8_t kind = 0;
-  BoardInput input{};  ///< a Hall edge sets pins and counter alone
+  BoardInput input{};  ///< a Hall edge sets only pins and counter
   Request request{};
   Setpoint<Scalar> setpoint{};
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The controller's source and its entries are one unit: its description is a constant, so that the compiler calls or inlines its functions
- * as if firmware named them, and omits design where nothing calls it. */
+/* The controller's source and its entries are one compilation unit: its description is a constant. The compiler can
+ * therefore call or inline the functions as if the firmware named them, and omit design if nothing calls it. */
 #include OWN_SOURCE
 
 #include "tests/target/own/entries.h"

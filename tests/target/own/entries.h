@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The two entries of a user's controller as in firmware: step and hall are compile-time constants; config, state, inputs and outputs are in
- * static memory. In C and in C++ this file comes after the controller's own source. */
+/* The two entries of a user's controller, as in firmware: step and hall are compile-time constants; configuration,
+ * state, inputs and outputs are in static memory. In C and in C++, this file is included after the controller's
+ * source. */
 #ifndef SIXSTEP_TESTS_TARGET_OWN_ENTRIES_H
 #define SIXSTEP_TESTS_TARGET_OWN_ENTRIES_H
 
@@ -10,8 +11,8 @@
 extern "C" {
 #endif
 
-extern uint64_t own_config[], own_state[]; /* aligned as the program's are */
-extern sixstep_measured own_measured;      /* the Hall interrupt updates its code alone */
+extern uint64_t own_config[], own_state[]; /* aligned as in the program */
+extern sixstep_measured own_measured;      /* the Hall interrupt updates only its code */
 extern sixstep_real own_setpoint;
 extern sixstep_answer own_answer;
 
@@ -19,7 +20,7 @@ void entry_tick(void);
 void entry_hall(void);
 
 #if defined __AVR__
-/* The same entries as interrupts for avr_board.cpp: INT0 and INT1. */
+/* The same entries as interrupts INT0 and INT1, for avr_board.cpp. */
 void __vector_1(void) __attribute__((signal, used));
 void __vector_2(void) __attribute__((signal, used));
 #endif

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives a user's controller the inputs of the tape (tape.hpp), and prints
+// Passes the inputs of the tape (tape.hpp) to a user's controller, and prints
 //
-//   own CONFIG STATE NAME sizes of both on this core in bytes, and the controller's name
-//   answers CALLS         number of calls, all with the host's answers
-//   differs CALL          or the first call with another answer, from 1
-//   room BYTES            or the size of a config or state that is too large
-//   design WORDS          or the refusal of the inputs, on this core alone
+// own CONFIG STATE NAME both sizes on this processor in bytes, and the controller's name
+//   answers CALLS         number of calls, if all answers equal the host's
+//   differs CALL          otherwise the first call with another answer, counted from 1
+//   room BYTES            or the size of a configuration or state that is too large
+//   design WORDS          or the controller's refusal of the inputs, only on this processor
 //
-// The counters are outside: avr_board.cpp, count_instructions.cpp.
+// The counters are other programs: avr_board.cpp, count_instructions.cpp.
 #include "tests/target/own/entries.h"
 #include "tests/target/own/tape.hpp"
 #include "tests/target/platform/platform.hpp"

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inputs of a user's controller in a run, call by call, as bytes, lowest first. The recorder writes them
-// on the host; every core reads them.
+// The inputs of a user's controller in a run, call by call, as bytes, lowest byte first. The recorder writes
+// them on the host, and every processor reads them.
 //
-//   design   0, mode, delay_periods, sampled_in_middle, chopping, the numbers of sixstep_given, how many values 1, the values
+// design 0, mode, delay_periods, sampled_in_middle, chopping, the numbers of sixstep_given, number of values
+// 1, the values
 //   start    1
 //   step     2, hall 1, the numbers of sixstep_measured, setpoint, answers 4
 //   hall     3, hall 1, answers 4
 //
-// A number is a float. `answers` is the digest of all answers since the tape began, this call's included.
+// The first number of a line is the kind of call; other single numbers are sizes in bytes. The numbers of a
+// struct are floats. `answers` is the digest of all answers from the beginning of the tape, including this
+// call's.
 #pragma once
 #include <cstdint>
 
@@ -17,7 +20,7 @@ namespace target {
 
 enum class Call : std::uint8_t { design, start, step, hall };
 
-// The structs are the C interface's in float or in double: Take is called with each number in its order.
+// The structs of the C interface are in float or in double: Take is called with each number in order.
 template <class Given, class Take>
 void numbers_of_given(Given& g, Take take) {
   take(g.period_s), take(g.bus_V), take(g.pole_pairs), take(g.R_ohm), take(g.L_H), take(g.K_t_Nm_A);
@@ -35,7 +38,7 @@ void numbers_of_measured(Measured& m, Take take) {
   take(m.bus_V), take(m.magnet_cos), take(m.magnet_sin);
 }
 
-/// Every member counts: a member that the controller does not set keeps its value.
+/// Every member is part of the digest: a member that the controller does not set keeps its value.
 template <class Answer>
 void mix_answer(Digest& mix, const Answer& a) {
   mix(a.enabled, a.fault, a.source, a.sink, a.chopping, a.chopped, a.duty, a.overlap);

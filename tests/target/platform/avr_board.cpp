@@ -5,9 +5,9 @@
 // avr_board FIRMWARE.elf NEXT ENDS BEGINS..                        counts the cycles from each of these addresses to ENDS,
 //                                                                  block after block: NEXT is reached between two
 //
-// An ATmega2560 of simavr: a write to GPIOR0 is a character, 255 in GPIOR1 the end, a write to GPIOR2
-// requests records.
-// It is a program of its own, because libsimavr is GPL-3 and nothing else here is linked with it.
+// An ATmega2560 in simavr. A write to GPIOR0 prints a character, 255 in GPIOR1 ends the run, and a write to
+// GPIOR2 requests records. This is a separate program, because libsimavr is GPL-3 and no other part of the
+// project links it.
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -22,8 +22,8 @@ extern "C" {
 
 namespace {
 
-// The hardware takes five cycles from the request to the first instruction of the vector (data sheet, Reset
-// and Interrupt Handling), which simavr does not count.
+// From the request to the first instruction of the vector, the hardware needs five cycles (data sheet, Reset
+// and Interrupt Handling). simavr does not count them.
 constexpr std::uint64_t interrupt_response = 5;
 
 struct Board {
@@ -33,7 +33,8 @@ struct Board {
   std::uint16_t request = 0;  ///< address of the firmware's refill_request
 };
 
-/// A call from its first instruction to its return, when the stack is shorter by the return address.
+/// A call, from its first instruction to its return, when the stack pointer is above the return address
+/// again.
 struct Watched {
   const char* name;
   std::uint32_t at = 0;
@@ -100,7 +101,7 @@ int go(Board& board, Watched (&watched)[2]) {
   return 0;
 }
 
-/// Counts from a mark to the mark that ends all of them: a block's call (walk/counted.hpp).
+/// Counts the cycles of each block's calls, from the block's mark to the common end mark (walk/counted.hpp).
 int go_by_blocks(Board& board, std::uint32_t next, std::uint32_t ends, std::vector<Watched>& blocks) {
   while (!board.done) {
     const int state = avr_run(board.avr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The common part of Cortex-M and RISC-V: characters and files by semihosting.
+// The common part of Cortex-M and RISC-V: output of characters and input of files by semihosting.
 #include "faces/firmware/bare/semihosting.hpp"
 #include "tests/target/platform/platform.hpp"
 

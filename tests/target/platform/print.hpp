@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and whole numbers, character by character.
+// Prints words and whole numbers, character by character.
 #pragma once
 #include "tests/target/platform/platform.hpp"
 

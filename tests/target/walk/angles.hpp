@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensing/ that return signals: angle and speed from Hall edges, pulses, a Gray code, a
+// The blocks of sensing/ that return signals: angle and speed from Hall edges, pulses, a Gray code and a
 // resolver.
 #pragma once
 #include "sixstep/control/sensing/gray.hpp"
@@ -23,7 +23,8 @@ struct HallAngleWalk {
 
   void draw(Random& r) {
     for (std::uint8_t n = 0; n < 6; ++n)
-      config.edges.at[n] = sector_angle(n) + std::uint32_t{r.bits()} * 1024u;  // up to 5.6 degrees ahead
+      config.edges.at[n] = sector_angle(n) + std::uint32_t{r.bits()} * 1024u;  // up to 5.6 degrees after the
+                                                                               // sector edge
     config.edges.half_hysteresis = std::uint32_t{r.bits()} * 256u;
     config.margin = std::uint32_t{r.bits()} * 512u;
     config.turn_rad_s_ticks = Number<Scalar>::ratio(r.bits());
@@ -141,7 +142,7 @@ struct SineWalk {
   }
 };
 
-/// Readings of two windings in 12 bits around 2048; successive peaks of the excitation have opposite signs.
+/// Readings of two windings in 12 bits around 2048. Successive peaks of the excitation have opposite signs.
 template <class Scalar>
 struct ResolverWalk {
   ResolverConfig<Scalar> config{};
@@ -153,7 +154,7 @@ struct ResolverWalk {
   bool positive_peak = false;
 
   void draw(Random& r) {
-    // The amplitude is about 1/2 at 1000 counts; two neighbouring peaks differ by twice that.
+    // The amplitude of 1000 counts is about 1/2; two successive peaks differ by twice the amplitude.
     config.cos_per_count = per_count<Scalar>(static_cast<std::int16_t>(16700 + r.below(128)));
     config.sin_per_count = per_count<Scalar>(static_cast<std::int16_t>(16700 + r.below(128)));
     config.cos_offset = Number<Scalar>::part(static_cast<std::int32_t>(r.bits()) * 512);

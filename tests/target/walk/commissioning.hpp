@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commissioning of a motor in integers, from the offsets of its converters to its flux linkage, with possible
-// faults; and the results in SI.
+// faults, and the results in SI units.
 #pragma once
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "tests/target/walk/legs.hpp"
@@ -48,16 +48,17 @@ struct CommissioningResultWalk {
   }
 };
 
-/// The walk commissions one motor after another, each to its end, with these faults in turn.
+/// The walk commissions one motor after another, each to its end; the faults follow in turn.
 enum class Amiss : std::uint8_t { nothing, amplifier, open_wire, no_voltage_between_levels, rotor_locked };
 
-/// The current covers half of its distance to the vector in each tick; the rotor turns with the field.
+/// In each tick the current moves by half of its distance to the steady value. The rotor turns with the
+/// field.
 struct CommissionedMotor {
   Amiss amiss = Amiss::rotor_locked;
-  std::int32_t eighths = 0;       ///< eighths of a count of the current along the field
-  std::int32_t ohm = 80;          ///< part of the bus per eighth of a count
+  std::int32_t eighths = 0;       ///< current along the field, in eighths of a count
+  std::int32_t ohm = 80;          ///< parts of the bus per eighth of a count
   std::int32_t flux = 400;        ///< speed per part of the bus
-  std::uint8_t probes_ahead = 0;  ///< 2^-8 turn
+  std::uint8_t probes_ahead = 0;  ///< probes' lead, in 2^-8 turn
 
   void draw(Random& r) {
     amiss = static_cast<Amiss>((static_cast<std::uint8_t>(amiss) + 1) % 5);
@@ -111,7 +112,7 @@ struct CommissioningWalk {
     config.settle_ticks = 4;
     config.steps = {std::uint16_t{8}, std::uint16_t{1}, std::uint8_t{1}};
     config.hall.turns = 1;
-    config.slow_speed = 0x06000000u + r.bits();  // 43 ticks a turn
+    config.slow_speed = 0x06000000u + r.bits();  // 43 ticks per turn
     config.fastest_speed = 0x06000000u + r.bits();
     config.acceleration = 0x00800000u;
     config.flux_turns = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A block's call in a walk. With TARGET_COUNTED nothing is inlined around the call, which is between two
-// marks of platform/marks.S. The end of the walk prints the names of the counted functions, at most three a
+// marks of platform/marks.S. At its end the walk prints the names of the counted functions, at most three per
 // walk.
 #pragma once
 #include "tests/target/platform/print.hpp"
@@ -13,7 +13,7 @@ void count_begins_0();
 void count_begins_1();
 void count_begins_2();
 void count_ends();
-void count_next();  ///< the next block's counts begin
+void count_next();  ///< starts the counts of the next block
 }
 
 inline const char* counted_names[3];

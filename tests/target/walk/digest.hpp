@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest of a walk: 32 bits over every bit of every output (FNV-1a, byte by byte from the lowest, so that
-// the order of bytes in memory does not count). All not-a-numbers count as one: IEEE 754 leaves their sign
-// and digits to the processor.
+// The digest of a walk: 32 bits over every bit of every output. It is FNV-1a, byte by byte from the lowest
+// byte, so that the byte order in memory does not matter. All NaNs count as one value: IEEE 754 leaves their
+// sign and digits to the processor.
 #pragma once
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 namespace target {
 
 #ifdef TARGET_SIGHTS
-void saw(const char* what, bool it_is);  ///< counts how often an input reached its purpose
+void saw(const char* what, bool it_is);  ///< counts how often an input has the named property
 #else
 constexpr void saw(const char*, bool) {}
 #endif

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random inputs are drawn as integers, so that every processor gets the same bits: signals over their whole
-// range, often at an end of it or near 0, gains, sums and ratios. Floating point gets the dyadic numbers of
-// the fixed formats. No call draws two of its arguments, because the compiler chooses their order.
+// Random inputs are drawn as integers, so that every processor uses the same bits. Signals cover their whole
+// range, often at an end of it or near 0; there are gains, sums and ratios too. In floating point the inputs
+// are the dyadic numbers of the fixed formats. No call draws two of its arguments, because the compiler
+// selects their order.
 #pragma once
 #include <cstdint>
 
@@ -12,8 +13,8 @@ namespace target {
 
 using namespace sixstep::control;
 
-/// A linear congruence (Knuth, Numerical Recipes), of which only the upper half with its longer period is
-/// used.
+/// A linear congruential generator (Knuth, Numerical Recipes). Only its upper half, which has the longer
+/// period, is used.
 struct Random {
   std::uint32_t state = 12345;
 
@@ -31,7 +32,7 @@ struct Random {
 };
 
 template <class Scalar>
-struct Number;  // the way to draw a format
+struct Number;  // draws numbers of a format
 
 template <class Storage, int FractionBits>
 struct Number<Fixed<Storage, FractionBits>> {
@@ -40,14 +41,14 @@ struct Number<Fixed<Storage, FractionBits>> {
 
   static constexpr Scalar end(bool low) { return low ? Scalar::min() : Scalar::max(); }
   static constexpr Scalar digit(bool low) { return Scalar::from_raw(low ? Storage{-1} : Storage{1}); }
-  /// n/2^31 of the range
+  /// n/2^31 of the format's range
   static constexpr Scalar part(std::int32_t n) {
     if constexpr (wide)
       return Scalar::from_raw(n);
     else
       return Scalar::from_raw(static_cast<Storage>(n / (std::int32_t{1} << 16)));
   }
-  /// m/2^right, m of 16 bits
+  /// m/2^right, with m of 16 bits
   static constexpr Gain<Scalar> gain(std::int16_t m, std::int8_t right) {
     if constexpr (wide)
       return Gain<Scalar>::from_raw(static_cast<std::int32_t>(m) * (std::int32_t{1} << 16),
@@ -58,7 +59,7 @@ struct Number<Fixed<Storage, FractionBits>> {
   static constexpr Divisor<Scalar> divisor(std::int16_t m, std::int8_t right) {
     return Divisor<Scalar>::from_reciprocal(gain(m, right));
   }
-  /// n/2^27 of the range
+  /// n/2^27 of the format's range
   static constexpr Accumulator<Scalar> sum(std::int32_t n) {
     using Wide = typename Scalar::WideInt;
     return Accumulator<Scalar>::from_raw(
@@ -92,7 +93,7 @@ struct Number<float> {
   static constexpr float ratio(std::uint16_t n) { return static_cast<float>(n) * two_to(-9); }
 };
 
-/// A signal: an end of the range, 0, one digit, a small value, or any value.
+/// A random signal: an end of the range, 0, one digit, a small value, or any value.
 template <class Scalar>
 constexpr Scalar signal(Random& random) {
   const std::uint8_t kind = random.below(16);
@@ -104,7 +105,7 @@ constexpr Scalar signal(Random& random) {
   return Number<Scalar>::part(any);
 }
 
-/// A part of the range as a quantity of an exported drive, in SI for floating point.
+/// A part of the range as a quantity of an exported drive: in floating point it is in SI units.
 template <class Scalar>
 constexpr Scalar in_si(Scalar part, [[maybe_unused]] std::uint16_t whole) {
   if constexpr (__is_same(Scalar, float))
@@ -113,14 +114,14 @@ constexpr Scalar in_si(Scalar part, [[maybe_unused]] std::uint16_t whole) {
     return part;
 }
 
-/// A positive signal or zero, at most `most` 32767ths of the range.
+/// Zero or a positive signal, less than `most`/32768 of the range.
 template <class Scalar>
 constexpr Scalar positive(Random& random, std::uint16_t most = 32767) {
   const std::uint32_t n = static_cast<std::uint32_t>(random.bits()) * most >> 16;
   return Number<Scalar>::part(static_cast<std::int32_t>(n << 16));
 }
 
-/// A gain up to 2^-least, of either sign: a mantissa is never the most negative number (fixed.hpp).
+/// A gain of at most 2^-least, of either sign. A mantissa is never the most negative number (fixed.hpp).
 template <class Scalar>
 constexpr Gain<Scalar> gain(Random& random, std::int8_t least, std::uint8_t spread = 8) {
   const auto m = static_cast<std::int16_t>(random.bits() & 0x7fff);
@@ -139,15 +140,16 @@ inline constexpr int fraction_digits = 0;
 template <class Storage, int FractionBits>
 inline constexpr int fraction_digits<Fixed<Storage, FractionBits>> = FractionBits;
 
-/// n/2^26 of the range per count; in fixed point, of the signal's raw digits.
+/// n/2^26 of the range per count. In fixed point the gain applies to the signal's raw digits.
 template <class Scalar>
 constexpr Gain<Scalar> per_count(std::int16_t n) {
   return Number<Scalar>::gain(n, static_cast<std::int8_t>(26 - fraction_digits<Scalar>));
 }
 
-/// sin of a binary angle in counts of `size`, by Bhaskara's formula: 16 x (pi - x)/(5 pi^2 - 4 x (pi - x)).
+/// size times the sine of a binary angle, in counts, by Bhaskara's formula: 16 x (pi - x)/(5 pi^2 - 4 x (pi -
+/// x)).
 constexpr std::int32_t wave(std::uint32_t at, std::int32_t size) {
-  const std::int32_t x = static_cast<std::int32_t>((at & 0x7fffffffu) >> 19);  // 4096 are half a turn
+  const std::int32_t x = static_cast<std::int32_t>((at & 0x7fffffffu) >> 19);  // 4096 is half a turn
   const std::int32_t p = x * (4096 - x);
   const std::int32_t y = (16 * (p / 64)) * 64 / ((5 * 16777216 - 4 * p) / 1024);  // 1024 is 1
   const std::int32_t counts = y * size / 1024;

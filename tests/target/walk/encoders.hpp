@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensing/ without a scalar: the Hall edges' angles, an encoder's lines, the tracking loop.
+// The blocks of sensing/ without a scalar: angles of the Hall edges, lines of an encoder, the tracking loop.
 #pragma once
 #include "sixstep/control/sensing/hall_calibration.hpp"
 #include "sixstep/control/sensing/quadrature.hpp"
@@ -25,7 +25,7 @@ struct HallCalibrationWalk {
 
   void draw(Random& r) {
     config = {static_cast<std::uint16_t>(1 + r.below(4)), static_cast<std::uint16_t>(16 + r.below(64))};
-    pace = r.one_in(8) ? 0x20000000u : 200 + std::uint32_t{r.bits()};  // sums of more than 32 bits
+    pace = r.one_in(8) ? 0x20000000u : 200 + std::uint32_t{r.bits()};  // sums that exceed 32 bits
     for (std::uint32_t& w : width) w = pace + pace / 256 * r.below(32);
     if (r.one_in(2)) direction = static_cast<std::int8_t>(-direction);
     state = {};
@@ -75,7 +75,11 @@ struct QuadratureWalk {
   void step(Random& r, Digest& mix) {
     if (r.one_in(32)) back = !back;
     const std::uint8_t kind = r.below(64);
-    move(kind < 4 ? 0 : kind < 6 ? 2 : kind < 8 ? 4 : 1);  // only the index detects a missed line period
+    move(kind < 4   ? 0
+         : kind < 6 ? 2
+         : kind < 8 ? 4
+                    : 1);  // 4 is a missed line period, which only the index
+                           // detects
     const std::uint32_t quarter = count & 3;
     const bool a = quarter < 2, b = quarter == 1 || quarter == 2, z = count < 4 || r.one_in(256);
     const std::int8_t moved =
@@ -95,7 +99,7 @@ struct QuadratureWalk {
     saw("an index that mends", state.corrections > 0);
     saw("turns back", state.turns < 0);
   }
-  /// An angle of less than a turn.
+  /// A random angle of less than one turn, in counts.
   std::int32_t drawn_way(Random& r) const {
     const auto way = static_cast<std::int32_t>(r.long_bits() % config.counts);
     return r.one_in(2) ? -way : way;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive's parts in floating point alone: the magnet's angle without a sensor, currents
-// along a shape, the choice among the legs' states. The position profile, also in floating point, is here
-// too.
+// The parts of the field-oriented drive that exist only in floating point: the magnet's angle without a
+// sensor, currents along a shape, and the selection among the legs' states. The position profile, also only
+// in floating point, is here too.
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -15,7 +15,7 @@ AlphaBeta<Scalar> drawn_vector(Random& r) {
   return {alpha, signal<Scalar>(r)};
 }
 
-/// The direction of an angle in the chip's form.
+/// The direction of a random angle, computed as a chip does.
 template <class Scalar>
 Direction<Scalar> drawn_direction(Random& r) {
   return direction_of<Scalar>(r.long_bits());

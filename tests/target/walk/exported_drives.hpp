@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exported drives of scenarios as firmware runs them: compile-time constants and the two entries.
+// Exported drives of scenarios, as in firmware: compile-time constants and the two entries.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 #include "tests/target/walk/legs.hpp"
@@ -8,7 +8,7 @@
 
 namespace target {
 
-/// The lean drive with random measurements: mostly small currents and a turning rotor.
+/// The lean drive with random measurements, mostly small currents and a turning rotor.
 template <class Scalar, const DriveConfig<Scalar>& config>
 struct LeanWalk {
   DriveState<Scalar> state{};
@@ -17,7 +17,7 @@ struct LeanWalk {
   Rotor rotor{};
   bool back = false, wild = false;
 
-  /// The ranges of floating point in SI: amperes and volts, rad/s, degrees.
+  /// The ranges in floating point: A and V, rad/s, degrees.
   static constexpr std::uint16_t amperes = 32, speeds = 512, angles = 4096;
   static constexpr std::uint16_t setpoints = config.mode == Mode::current    ? amperes
                                              : config.mode == Mode::position ? angles
@@ -28,7 +28,7 @@ struct LeanWalk {
     wild = r.one_in(4);
     setpoint.value = in_si(Number<Scalar>::part(static_cast<std::int32_t>(r.long_bits()) / 4), setpoints);
   }
-  /// A value of at most 1/32 of the range, and often far smaller.
+  /// A random value of at most 1/32 of the range, often much smaller.
   Scalar calm(Random& r, std::uint16_t whole) {
     const std::int32_t n = static_cast<std::int32_t>(r.long_bits()) / 32;
     return in_si(Number<Scalar>::part(n >> r.below(12)), whole);
@@ -65,7 +65,7 @@ struct LeanWalk {
   }
 };
 
-/// The product drive with counts, pins and a counter; requests, trips and their clearing.
+/// The product drive with counts, pins and a counter, and with requests, trips and clearing of trips.
 template <class Scalar, const ProtectedConfig<Scalar>& config>
 struct ProductWalk {
   ProtectedState<Scalar> state{};
@@ -105,7 +105,7 @@ struct ProductWalk {
     in.bus_counts = wild ? r.bits() & 4095u : 1860 + (r.bits() & 63u);
     in.now += 2000 + (r.bits() & 255u);
   }
-  /// Some glitches last as long as the filter's delay.
+  /// The code of the pins, sometimes with a glitch. Some glitches are as long as the filter's delay.
   std::uint8_t pins(Random& r) {
     if (glitch == 0 && noisy && r.one_in(48)) glitch = static_cast<std::uint8_t>(1 + r.below(4));
     if (glitch == 0) return rotor.code();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then runs
-// steps; the state continues between draws.
+// The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then executes
+// steps; the state continues from one configuration to the next.
 #pragma once
 #include "sixstep/control/commutation_step.hpp"
 #include "sixstep/control/deadbeat.hpp"
@@ -176,7 +176,7 @@ struct SmoothChoppingWalk {
   }
 };
 
-/// The rotor mostly turns in one direction, driven or braked.
+/// The rotor turns mostly in one direction, driven or braked.
 template <class Scalar>
 struct PwmPatternWalk {
   PwmPatternConfig<Scalar> config{};
@@ -204,7 +204,7 @@ struct PwmPatternWalk {
   }
 };
 
-/// The rotor mostly turns in one direction, and its leaving current decays.
+/// The rotor turns mostly in one direction, and the current of its leaving phase decays.
 template <class Scalar>
 struct CommutationStepWalk {
   CommutationStepConfig<Scalar> config{};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs every block of sixstep/control, and the exported drives of scenarios, through random inputs, and
-// prints a digest of all their outputs: the same source for every processor. There is one program per scalar:
-// TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one. TARGET_OF_ROTOR selects the
-// blocks of sensing/ and sensorless/ instead, TARGET_OF_OBSERVERS the back-EMF observers,
-// TARGET_OF_COMMISSIONING those of commissioning/ without the pulses, TARGET_OF_PULSES the pulses,
-// TARGET_OF_FIELD those of field/. They are separate programs, so that they do not change how the rest is
-// compiled.
+// Runs every block of sixstep/control, and the exported drives of scenarios, with random inputs, and prints a
+// digest of all outputs. The source is the same for every processor. There is one program per scalar:
+// TARGET_SCALAR is q15, q14, q31, q30, float, or whole for the blocks without a scalar. Other macros select
+// other blocks, in separate programs that do not change how the rest is compiled:
+// TARGET_OF_ROTOR        sensing/ and sensorless/
+// TARGET_OF_OBSERVERS    the back-EMF observers
+// TARGET_OF_COMMISSIONING  commissioning/ without the pulses
+// TARGET_OF_PULSES       the pulses of commissioning/
+// TARGET_OF_FIELD        field/
 #include "tests/target/platform/print.hpp"
 #include "tests/target/walk/names.hpp"
 
@@ -61,7 +63,7 @@ void tell(const char* block, std::uint32_t steps, std::uint32_t digest) {
   print("\n");
 }
 
-/// Draws a new configuration every 64 steps. A long walk begins with the short one.
+/// Draws a new configuration every 64 steps. A long walk starts with the steps of the short walk.
 template <class Block>
 __attribute__((noinline)) void walk(const char* name) {
   static Block block{};
@@ -77,7 +79,7 @@ __attribute__((noinline)) void walk(const char* name) {
   tell_counted(name);
 }
 
-/// The cost of the marks and the call themselves.
+/// The cost of the marks and of the call.
 struct NothingWalk {
   void draw(Random&) {}
   void step(Random&, Digest&) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The back-EMF observers of sensorless/: each alone on a phase whose leg floats, and all behind the choice
-// between them, at the terminals of a turning rotor.
+// The back-EMF observers of sensorless/. Each is tested separately on a floating phase; all are tested
+// together with the selection between them, at the terminals of a turning rotor.
 #pragma once
 #include "sixstep/control/sensorless/observer.hpp"
 #include "tests/target/walk/counted.hpp"
@@ -11,14 +11,14 @@ namespace target {
 
 inline constexpr std::int32_t q15_one = 32768;
 
-/// n/2^15, n at most 2^15 - 1, times 2^up.
+/// The gain n/2^15 times 2^up; n is limited to 2^15 - 1.
 template <class Scalar>
 constexpr Gain<Scalar> gain_15(std::int32_t n, std::int8_t up = 0) {
   const std::int32_t held = n > q15_one - 1 ? q15_one - 1 : n;
   return Number<Scalar>::gain(static_cast<std::int16_t>(held), static_cast<std::int8_t>(15 - up));
 }
 
-/// A winding in 2^-15: a = exp(-R T/L), and b = (1 - a)/R in A per V.
+/// A random winding in units of 2^-15: a = exp(-R T/L), and b = (1 - a)/R in A per V.
 struct DrawnWinding {
   std::int32_t a = 0, b = 1;
 
@@ -26,11 +26,11 @@ struct DrawnWinding {
     a = 20000 + r.bits() % 12000;
     b = 2000 + r.bits() % 14000;
   }
-  /// x/b, in 2^-10
+  /// x/b, in units of 2^-10
   constexpr std::int32_t over_b(std::int32_t x) const { return x * 1024 / b; }
 };
 
-/// Both poles are at p, p^2 < a: (1 - l) a = p^2, h b = (1 - p)^2.
+/// Gains l and h that place both poles at p, p^2 < a: (1 - l) a = p^2, h b = (1 - p)^2.
 template <class Scalar>
 LuenbergerConfig<Scalar> drawn_luenberger(Random& r, const DrawnWinding& winding) {
   const std::int32_t p = r.bits() % 22000, square = p * p / q15_one;
@@ -40,7 +40,7 @@ LuenbergerConfig<Scalar> drawn_luenberger(Random& r, const DrawnWinding& winding
           gain_15<Scalar>(winding.over_b(apart * apart / q15_one * 4), 5)};
 }
 
-/// The slope a/b gives z = a e after one period.
+/// With the slope a/b, z is a e after one period.
 template <class Scalar>
 SlidingModeConfig<Scalar> drawn_sliding_mode(Random& r, const DrawnWinding& winding) {
   SlidingModeConfig<Scalar> config{};
@@ -63,11 +63,12 @@ FluxLinkageConfig<Scalar> drawn_flux(Random& r, const DrawnWinding& winding) {
   return config;
 }
 
-/// The back-EMF of the floating phase falls, then the next leg's begins; the old current decays first.
+/// The back-EMF of the floating phase falls; then the back-EMF of the next floating phase begins, after its
+/// old current has decayed.
 template <class Scalar>
 struct FloatingPhase {
   std::int32_t size = 0x10000000, fall = 0x01000000, e = 0;  ///< 2^-31 of the range
-  std::uint8_t runs_out = 0;                                 ///< periods in which the old current still flows
+  std::uint8_t runs_out = 0;                                 ///< remaining periods with the old current
   bool begins = false, released = false;
   Scalar w_V{}, i_A{};
 
@@ -175,7 +176,7 @@ struct FluxLinkageWalk {
   }
 };
 
-/// The choice between the observers: each of the four for 64 steps.
+/// The selection among crossings and the three observers, drawn anew every 64 steps.
 template <class Scalar>
 struct ObserverWalk {
   ObserverConfig<Scalar> config{};
@@ -193,7 +194,7 @@ struct ObserverWalk {
     config.luenberger = drawn_luenberger<Scalar>(r, winding);
     config.sliding_mode = drawn_sliding_mode<Scalar>(r, winding);
     config.flux = drawn_flux<Scalar>(r, winding);
-    const std::int32_t back = 67108864 / third;  // 2^26: the counts of a V
+    const std::int32_t back = 67108864 / third;  // 2^26 divided by the gain: the counts per volt
     config.counts_per_V =
         Number<Scalar>::gain(static_cast<std::int16_t>(back), std::int8_t{fraction_digits<Scalar>});
     config.lag_ticks = r.below(200);
@@ -214,7 +215,7 @@ struct ObserverWalk {
   void turn(Random& r) {
     now += tick_ticks;
     rotor.angle += static_cast<std::uint32_t>(rotor.speed);
-    if (r.one_in(1024)) sector = no_sector;  // lost
+    if (r.one_in(1024)) sector = no_sector;  // the drive has lost the rotor
     if (rotor.sector() == sector || r.one_in(3)) return;
     sector = rotor.driven = rotor.sector();
     rotor.demagnetises = r.below(5);

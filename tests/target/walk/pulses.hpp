@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rotor at rest behind three current converters in integers, for voltage pulses: six currents that depend
-// on the angle of its magnet. And the drive whose start begins with such pulses.
+// A rotor at rest and three current converters, in integers, for voltage pulses: six currents that depend on
+// the magnet's angle. The drive whose start begins with such pulses is here too.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "tests/target/walk/sensorless.hpp"
@@ -36,7 +36,8 @@ struct PulsedRotor {
     if (r.one_in(8)) offset[0] = 2300;  // a broken amplifier
     noise = static_cast<std::uint8_t>(1 + r.below(3));
   }
-  /// The current at x, the angle from the magnet's north to the pair of a sector (pulse_position.hpp).
+  /// The current of a pulse with the pair of a sector; x is the angle from the magnet's north to the pair
+  /// (pulse_position.hpp).
   constexpr std::int32_t through(std::uint8_t sector) const {
     const BinaryAngle x = sector_angle(sector) + sector_angle(2) - electrical;  // 60 s - 30 - (theta_e - 150)
     if (current == 0) return 0;
@@ -123,7 +124,7 @@ struct PulsedDriveWalk {
     in.drive.on = !r.one_in(64);
     const BridgeCommand<Scalar>& was = state.drive.drive.command;
     in.drive.terminals = course.tick(r, {was.enabled && !state.pulsing, was.pair}, in.drive.on);
-    if (!state.pulsing) pulsed.electrical = course.rotor.angle;  // at rest meanwhile
+    if (!state.pulsing) pulsed.electrical = course.rotor.angle;  // during the pulses the rotor is at rest
     pulsed.sample(r, state.pulses, in.current_counts);
     return in;
   }

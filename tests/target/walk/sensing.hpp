@@ -93,7 +93,7 @@ struct HallSpeedWalk {
   }
   void step(Random& r, Digest& mix) {
     now += (static_cast<std::uint32_t>(pace) + r.bits() % (pace / 16 + 1u)) / 4;
-    // An edge mostly comes every four or five steps; one may be missed, one may be too early.
+    // An edge mostly occurs every four or five steps; sometimes it is missed or too early.
     if (since >= 8 || (++since >= 4 && since < 6 && !r.one_in(6)) || r.one_in(96)) {
       since = 0;
       const SectorTime time = counted<1>("sector_time+hall_speed_edge+hall_position_edge", [&] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start, position without a sensor, and the whole drive: a rotor that is aligned, ramped, caught, lost.
+// Start, position without a sensor, and the whole drive, with a rotor that is aligned, ramped, caught and
+// lost.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 #include "tests/target/walk/drawn_drive.hpp"
@@ -15,10 +16,10 @@ StartUpConfig<Scalar> drawn_start(Random& r) {
   start.align_ticks = (16 + std::uint32_t{r.below(32)}) * tick_ticks;
   start.swing_shift = static_cast<std::uint8_t>(2 + r.below(4));
   start.swing_threshold = 10 + r.below(40);
-  start.first_speed = 40000000 + (r.long_bits() >> 7);  // 100 to 60 ticks a sector
+  start.first_speed = 40000000 + (r.long_bits() >> 7);  // 100 to 60 ticks per sector
   start.acceleration = 1000000 + (r.long_bits() >> 11);
   start.jerk = r.one_in(2) ? 0 : std::uint32_t{r.bits()} * 256;
-  start.last_speed = 0x20000000;  // 8 ticks a sector
+  start.last_speed = 0x20000000;  // 8 ticks per sector
   start.longest_ticks = 400 * tick_ticks;
   start.trusted = static_cast<std::uint8_t>(2 + r.below(3));
   start.trusted_ticks = 40 * tick_ticks;
@@ -82,8 +83,8 @@ struct StartUpWalk {
   }
 };
 
-/// The course of a run: the wanted direction, the pull of a pair, and changes of the rotor's speed from
-/// outside.
+/// The course of a run: the requested direction, the pull of a pair, and changes of the rotor's speed by an
+/// external drive.
 struct Course {
   TerminalRotor rotor{};
   std::uint32_t now = 0;
@@ -94,8 +95,8 @@ struct Course {
   void draw(Random& r) {
     ++sections;
     if (sections % 8 == 0) wanted = r.one_in(2) ? std::int8_t{1} : std::int8_t{-1};
-    if (sections % 8 == 7) wanted = 0;              // coasts; after it gave up, it may retry
-    if (r.one_in(16)) rotor.speed = drawn_pace(r);  // an external drive spins it
+    if (sections % 8 == 7) wanted = 0;              // coasts; if the drive has given up, it may start again
+    if (r.one_in(16)) rotor.speed = drawn_pace(r);  // an external drive turns the rotor
     if (r.one_in(32)) rotor.speed = 0;
     pull = 600000 + static_cast<std::int32_t>(r.bits()) * 16;
   }
@@ -164,7 +165,7 @@ template <class Scalar>
 SensorlessDriveConfig<Scalar> drawn_sensorless_drive(Random& r) {
   SensorlessDriveConfig<Scalar> next{drawn_drive<Scalar>(r), drawn_sensorless<Scalar>(r)};
   if (next.drive.mode == Mode::off) next.drive.mode = Mode::duty;
-  next.drive.extras.on = false;  // "drive+retune" walks them
+  next.drive.extras.on = false;  // the walk "drive+retune" tests the extras
   next.source.has_hall = r.one_in(2);
   next.source.wanted = r.one_in(2) ? RotorSource::hall : RotorSource::back_emf;
   next.source.falls_back = !r.one_in(4);
@@ -176,7 +177,7 @@ SensorlessDriveConfig<Scalar> drawn_sensorless_drive(Random& r) {
   return next;
 }
 
-/// The whole drive: loops, start, and Hall probes in turn with the back-EMF.
+/// The whole drive: loops, start, and commutation in turn by Hall probes and by back-EMF.
 template <class Scalar>
 struct SensorlessDriveWalk {
   SensorlessDriveConfig<Scalar> config{};
@@ -196,7 +197,7 @@ struct SensorlessDriveWalk {
   void configure(Random& r) {
     SensorlessDriveConfig<Scalar> next = drawn_sensorless_drive<Scalar>(r);
     if (course.sections % 32 == 17) {
-      next.source = config.source;  // probes stay available in flight
+      next.source = config.source;  // probes remain available during the run
       return retune(config, state, next);
     }
     config = next;

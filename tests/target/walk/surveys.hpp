@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measurements of commissioning without a scalar: steps between two levels, fast turns, Hall lines, and
-// their vectors. Each walk draws a motor, measures it to the end, and draws the next one.
+// their vectors. Each walk draws a motor, measures it to the end, and then draws the next motor.
 #pragma once
 #include "sixstep/control/commissioning/flux_turn.hpp"
 #include "sixstep/control/commissioning/hall_survey.hpp"
@@ -11,7 +11,7 @@
 
 namespace target {
 
-inline constexpr std::uint16_t zero_counts = 2048;  ///< zero of a current converter of 12 bits
+inline constexpr std::uint16_t zero_counts = 2048;  ///< reading of a 12-bit current converter at zero current
 
 constexpr std::int32_t signed_bits(Random& r, std::uint8_t right) {
   return static_cast<std::int32_t>(r.long_bits()) / (std::int32_t{1} << right);
@@ -56,12 +56,12 @@ struct SeenVectorWalk {
   }
 };
 
-/// A winding: the current covers a part of its distance to the level's in each tick.
+/// A winding: in each tick the current moves by a part of its distance to the level's current.
 struct LevelStepsWalk {
   LevelStepsConfig config{};
   LevelStepsState state{};
   std::int32_t low = 0, high = 0, current = 0;
-  std::int32_t per_part = 1;  ///< 2^-8 of a 24th of a count per part of the bus
+  std::int32_t per_part = 1;  ///< in 2^-8 of 1/24 count per part of the bus
   std::uint8_t slow = 2, noise = 1;
   bool begun = false;
 
@@ -134,7 +134,7 @@ struct FluxTurnWalk {
   }
 };
 
-/// Three lines with any connection, and a field that turns forward and back, with one edge in each step.
+/// Three lines with any connection, and a field that turns forward and back past one edge in each step.
 struct HallSurveyWalk {
   HallSurveyConfig config{};
   HallSurveyState state{};

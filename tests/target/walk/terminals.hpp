@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's terminals in integers, the same on every processor: trapezoids of back-EMF (model.md 1 and 2) of
-// a rotor that the driven pair pulls and friction brakes.
+// A motor's terminals in integers, which are the same on every processor. The back-EMF is trapezoidal
+// (model.md 1 and 2); the driven pair pulls the rotor, and friction brakes it.
 #pragma once
 #include "sixstep/control/sensing/binary_angle.hpp"
 #include "sixstep/control/sensorless/zero_crossing.hpp"
@@ -8,16 +8,16 @@
 
 namespace target {
 
-inline constexpr std::uint32_t tick_ticks = 1000;  ///< timer ticks of a control tick
+inline constexpr std::uint32_t tick_ticks = 1000;  ///< timer counts per control tick
 inline constexpr std::uint16_t bus_counts = 3200;
 
-/// The pair that the bridge drives, where it is on.
+/// The pair that the bridge drives, if it is on.
 struct DrivenPair {
   bool on = false;
   Pair pair{};
 };
 
-/// The sector in which a pair makes positive torque.
+/// The sector in which a pair has its positive torque.
 constexpr std::uint8_t sector_of_pair(Pair pair) {
   for (std::uint8_t n = 0; n < 5; ++n)
     if (positive_pair(n).source == pair.source && positive_pair(n).sink == pair.sink) return n;
@@ -26,14 +26,15 @@ constexpr std::uint8_t sector_of_pair(Pair pair) {
 
 struct TerminalRotor {
   BinaryAngle angle = 0;   ///< electrical
-  std::int32_t speed = 0;  ///< 2^-32 electrical turn a control tick
+  std::int32_t speed = 0;  ///< 2^-32 electrical turn per control tick
   std::uint8_t demagnetises = 0;
   std::uint8_t driven = no_sector;
 
-  /// Counts of e on the flat: a third of the bus at 30 ticks a turn.
+  /// Back-EMF on the flat top, in counts: a third of the bus at 30 ticks per turn.
   constexpr std::int32_t emf() const { return speed / 131072; }
 
-  /// The trapezoid of 120 degrees of a phase, in emf(): up in the two sectors in which it is the source.
+  /// The 120-degree trapezoid of a phase, with the height emf(). It is positive in the two sectors in which
+  /// the phase is the source.
   constexpr std::int32_t emf_of(std::uint8_t phase) const {
     const BinaryAngle behind = angle - sector_angle(static_cast<std::uint8_t>(2 * phase));
     const std::uint32_t sixths = (behind >> 16) * 6;
@@ -69,7 +70,8 @@ struct TerminalRotor {
     return static_cast<std::uint16_t>(u < 0 ? 0 : u > bus_counts ? bus_counts : u);
   }
 
-  /// `on`: the switches of the pair are on; else the current freewheels through the two lower ones.
+  /// Samples the terminals. `on`: the switches of the pair are on; otherwise the current freewheels through
+  /// the two lower switches.
   constexpr TerminalSample sample(std::uint32_t at, bool on, std::int32_t noise) {
     TerminalSample s{};
     s.bus = bus_counts;
@@ -85,14 +87,15 @@ struct TerminalRotor {
     const std::int32_t star = (s.u[source] - emf_of(source) - emf_of(sink)) / 2;
     s.u[leg] = counts(star + emf_of(leg) + noise);
     if (demagnetises > 0) {
-      --demagnetises;  // the old current of a driven motor flows through the rail that looks like a crossing
+      --demagnetises;  // the old current of a driven motor connects the leg to the rail that looks like a
+                       // crossing
       s.u[leg] = driven % 2 == 0 ? std::uint16_t{0} : bus_counts;
     }
     return s;
   }
 };
 
-/// A sample with any values of the converter.
+/// A sample with random values of the converter.
 constexpr TerminalSample wild_sample(Random& r, std::uint32_t at) {
   TerminalSample s{};
   for (std::uint16_t& u : s.u) u = static_cast<std::uint16_t>(r.bits() & 4095);
@@ -101,14 +104,14 @@ constexpr TerminalSample wild_sample(Random& r, std::uint32_t at) {
   return s;
 }
 
-/// The speed of an externally driven rotor: any speed, at times in the other direction.
+/// The random speed of a rotor that an external drive turns, in either direction.
 constexpr std::int32_t drawn_pace(Random& r) {
   const std::int32_t pace =
-      4000000 + static_cast<std::int32_t>(r.long_bits() >> 6);  // 60 to 1000 ticks a turn
+      4000000 + static_cast<std::int32_t>(r.long_bits() >> 6);  // 60 to 1000 ticks per turn
   return r.one_in(2) ? -pace : pace;
 }
 
-/// -n..n counts
+/// Random noise of -n..n counts.
 constexpr std::int32_t drawn_noise(Random& r, std::int32_t n) {
   return static_cast<std::int32_t>(r.bits() % static_cast<std::uint16_t>(2 * n + 1)) - n;
 }

@@ -1,34 +1,36 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Six-step speed controller without a rotor sensor. It aligns the rotor, commutates it open-loop along a ramp of speed,
- * and then follows the zero crossings of the floating phase's back-EMF. Numbers are whole: a Cortex-M0 has no others. */
+/* Six-step speed controller without a rotor sensor. It aligns the rotor and commutates it open-loop along a speed
+ * ramp. Then it commutates by the zero crossings of the free phase's back-EMF. All arithmetic is on integers,
+ * because a Cortex-M0 has no floating-point unit. */
 #include "hal.h"
 
 #define PERIODS_PER_MS 20u
 #define ALIGN_PERIODS (150u * PERIODS_PER_MS)
-#define WAIT_PERIODS (20u * PERIODS_PER_MS)      /* pause after a desync */
+#define WAIT_PERIODS (20u * PERIODS_PER_MS)      /* pause after a loss of synchronism */
 #define ALIGN_DUTY 200u
-#define ALIGN_SLEW 10u                           /* periods per count: slowly, so that the rotor does not swing */
+#define ALIGN_SLEW 10u                           /* PWM periods per count of duty: a slow rise prevents swing of the
+                                                    rotor */
 #define FIRST_INTERVAL 16000u                    /* counts of the first sector of the ramp: 8 ms */
 #define LAST_INTERVAL 3000u                      /* counts of the ramp's last sector: 1.5 ms */
-#define RAMP_CUBE 7000u                          /* constant acceleration: the interval falls by its cube */
-#define EMF_DUTY 700000u                         /* this over the interval is the duty that balances the back-EMF */
+#define RAMP_CUBE 7000u                          /* constant acceleration: interval -= interval^3/(2^16 RAMP_CUBE) */
+#define EMF_DUTY 700000u                         /* EMF_DUTY/interval is the duty that balances the back-EMF */
 #define MIN_DUTY 200u
 #define SLEW 4u                                  /* greatest rise of the duty per period */
-#define CATCH_CROSSINGS 12u                      /* crossings that are polled before interrupts count */
-#define CATCH_SAMPLES 2u                         /* equal samples that make a polled crossing */
-#define MISSES 4u                                /* sectors in a row without a crossing that are a desync */
-#define THROTTLE_ON 120u                         /* throttle that starts the motor, of 4095 */
+#define CATCH_CROSSINGS 12u                      /* crossings found by polling before interrupts are used */
+#define CATCH_SAMPLES 2u                         /* equal samples that confirm a polled crossing */
+#define MISSES 4u                                /* sectors in a row without a crossing: loss of synchronism */
+#define THROTTLE_ON 120u                         /* least throttle that starts the motor, of 4095 */
 #define LIMIT (30u * HAL_COUNTS_PER_A)           /* current above which the duty falls */
 #define TRIP (80u * HAL_COUNTS_PER_A)            /* current above which the bridge turns off until the throttle is
                                                     released */
 #define LOWEST_BUS (9u * HAL_COUNTS_PER_V)
 
-/* For each step: the chopped leg, the low leg, the floating leg. The floating phase's back-EMF rises in odd steps
- * and falls in even ones. */
+/* For each step: the chopped leg, the low leg, the free leg. The free phase's back-EMF rises in odd steps and falls
+ * in even ones. */
 static const uint8_t order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
 
 static esc_status is;
-static uint8_t step, waits, same, misses;  /* waits: this sector's crossing has not come */
+static uint8_t step, waits, same, misses;  /* waits: whether this sector's crossing is still missing */
 static uint16_t periods, duty, last;       /* last: counter at the last crossing */
 static uint16_t crossings;
 
@@ -82,7 +84,7 @@ static void align(void) {
 static void ramp(void) {
   enter(ESC_RAMP);
   is.interval = FIRST_INTERVAL;
-  step = 1; /* the next step pulls the aligned rotor by 90 degrees */
+  step = 1; /* commutate() enters step 2: its current leads the aligned rotor by 90 degrees */
   commutate();
   hal_timer(is.interval);
 }
@@ -117,7 +119,7 @@ void esc_on_comparator(void) {
   if (is.state == ESC_RUN && waits && !catching()) crossing(hal_captured());
 }
 
-/* No crossing came in time: the firmware commutates once more at the last interval, in case the crossing was masked. */
+/* A sector without a crossing. Commutates at the last interval, because the blanking may have masked the crossing. */
 static void miss(void) {
   is.missed++;
   if (++misses >= MISSES) {
@@ -157,7 +159,8 @@ static uint16_t current(void) {
   return most;
 }
 
-/* While the rotor is caught, the comparator is polled: the ramp leaves it somewhere within the sector. */
+/* The first CATCH_CROSSINGS crossings are polled. After the ramp the rotor may be anywhere in the sector, also past
+   the crossing, so the comparator's level is read instead of its edge. */
 static void poll(void) {
   if (!waits || !catching()) return;
   if ((uint16_t)(hal_counter() - last) < is.interval / 2) return;

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Hardware abstraction layer of a small speed controller (ESC): a PWM timer with three complementary outputs and dead
- * time, a free-running counter with one compare interrupt, a comparator per phase, converters and Hall capture.
+/* Hardware abstraction layer of a small speed controller (ESC): a PWM timer with three complementary outputs and
+ * dead time, a free-running counter with one compare interrupt, a comparator per phase, converters and Hall capture.
  *
- * The firmware calls the functions hal_... and defines the functions esc_...; the layer calls these as interrupts,
- * never one within another. hal_sixstep.c is this layer on the simulated motor; a board has its own, on registers. */
+ * The firmware calls the functions hal_... and defines the functions esc_.... The layer calls the functions esc_...
+ * as interrupts, which are never nested. hal_sixstep.c implements the layer on the simulated motor. The layer of a
+ * real board writes registers instead. */
 #ifndef HAL_H
 #define HAL_H
 
 #include <stdint.h>
 
-/* ---- PWM timer: counts up in 20 ns, so that a period is 50 us ---- */
+/* ---- PWM timer: one count lasts 20 ns, a period 50 us ---- */
 
 #define HAL_PWM_TOP 2500u      /* counts of a period */
 #define HAL_DEAD_COUNTS 25u    /* dead time before each turn-on: 500 ns */
 
-enum { HAL_FLOAT, HAL_LOW, HAL_PWM }; /* both switches off; lower switch on; upper switch on below the compare value,
-                                         else the lower one */
-/* States of legs a, b, c, at once. */
+enum { HAL_FLOAT, HAL_LOW, HAL_PWM }; /* HAL_FLOAT: both switches off; HAL_LOW: lower switch on;
+                                         HAL_PWM: upper switch on below the compare value, else the lower one */
+/* Sets the states of legs a, b, c at once. */
 void hal_legs(const uint8_t leg[3]);
-/* Compare value of all legs, 0 to HAL_PWM_TOP; preloaded: it acts from the next period on. */
+/* Sets the compare value of all legs, 0 to HAL_PWM_TOP. It is preloaded: it acts from the next period on. */
 void hal_duty(uint16_t compare);
 
 /* ---- Counter: 16 bits at 2 MHz ---- */
@@ -26,17 +27,18 @@ void hal_duty(uint16_t compare);
 #define HAL_COUNTS_PER_US 2u
 
 uint16_t hal_counter(void);
-/* Calls esc_on_timer() once, in `counts` from now (at least 1). A later call replaces an earlier one. */
+/* Calls esc_on_timer() once, after `counts` counts (at least 1). A later call replaces an earlier one. */
 void hal_timer(uint16_t counts);
 void hal_timer_off(void);
 
 /* ---- Comparators: terminal against the mean of the three terminals ---- */
 
-/* Watches `phase` (0 to 2): calls esc_on_comparator() at each change to `high` (1) or low (0). For `blank` counts from
- * now, changes are ignored. The output is also held for 2 us after each change of a gate, by hardware. */
+/* Watches the comparator of `phase` (0 to 2): calls esc_on_comparator() at each change of its output to `high` (1 or
+ * 0). Changes within `blank` counts from now are ignored. The hardware also holds the output for 2 us after each
+ * change of a gate. */
 void hal_comparator(uint8_t phase, uint8_t high, uint16_t blank);
 void hal_comparator_off(void);
-/* Output of the watched comparator. */
+/* Level of the watched comparator's output. */
 uint8_t hal_comparator_level(void);
 
 /* ---- Converters, 12 bits: sampled in the middle of the on-time, before esc_on_pwm() ---- */
@@ -55,7 +57,7 @@ void hal_hall_on(void);
 /* H1 H2 H3 as bits 2, 1, 0. */
 uint8_t hal_hall(void);
 
-/* Counter at the edge for which the present interrupt of comparator or Hall line was called. */
+/* Counter value that was captured at the edge of the present comparator or Hall interrupt. */
 uint16_t hal_captured(void);
 
 /* ---- The firmware ---- */
@@ -67,7 +69,7 @@ void esc_on_comparator(void);
 void esc_on_hall(void);
 
 enum { ESC_OFF, ESC_ALIGN, ESC_RAMP, ESC_RUN, ESC_WAIT, ESC_FAULT };
-/* For telemetry. */
+/* Values for telemetry. */
 typedef struct {
   uint8_t state;
   uint16_t interval;      /* counts of a sector, filtered */

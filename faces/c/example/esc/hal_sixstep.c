@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* hal.h on libsixstep. Time is a number of picoseconds. The loop of hal_run() goes from event to event: an edge of the
- * PWM timer, the end of a dead time, a compare match, a sample, a change of a comparator or of a Hall line. At each it
- * calls the firmware and sets the gates that result. An interrupt takes no time. */
+/* Implements hal.h on libsixstep. Time is an integer in picoseconds. hal_run() advances from event to event: an edge
+ * of the PWM timer, the end of a dead time, a compare match, a sample, a change of a comparator or of a Hall line.
+ * At each event it calls the firmware and sets the resulting gates. An interrupt takes no time. */
 #include "hal_sixstep.h"
 
 #include "hal.h"
@@ -10,7 +10,7 @@
 #define COUNT_PS 500000
 #define PERIOD_PS ((int64_t)HAL_PWM_TOP * PWM_COUNT_PS)
 #define DEAD_PS ((int64_t)HAL_DEAD_COUNTS * PWM_COUNT_PS)
-#define HOLD_PS 2000000     /* a comparator's output is held after each change of a gate */
+#define HOLD_PS 2000000     /* time for which a comparator's output is held after each change of a gate */
 #define HYSTERESIS_V 0.02   /* of a comparator, to either side of zero */
 #define NEVER INT64_MAX
 
@@ -19,17 +19,17 @@ static struct {
   sixstep_status status;
   int u[3], e[3], hall_lines;   /* signals: voltages of the terminals, back-EMFs, Hall code */
   FILE* log;
-  int64_t now, period;          /* present instant, beginning of the PWM period */
+  int64_t now, period;          /* present instant; beginning of the present PWM period */
   uint8_t leg[3];
-  uint8_t wanted[3];            /* of a leg: 0 none, 1 upper switch, 2 lower switch */
-  int64_t since[3];             /* instant at which this was first wanted */
+  uint8_t wanted[3];            /* commanded switch of each leg: 0 none, 1 upper, 2 lower */
+  int64_t since[3];             /* instant of the last change of `wanted` */
   uint32_t gates;
   int64_t changed;              /* last change of a gate */
   uint16_t compare, preload;
   int64_t sample, timer;        /* instants of the next sample and compare match */
   int64_t blank;                /* end of the firmware's blanking */
-  int phase, level, sought;     /* watched comparator, -1: none; its output; the output that is sought */
-  int hall;                     /* code that was last seen, -1: not watched */
+  int phase, level, sought;     /* watched comparator (-1: none); its output; output that causes an interrupt */
+  int hall;                     /* last Hall code (-1: the Hall lines are not watched) */
   uint16_t adc[HAL_CHANNELS], captured;
 } hal;
 
@@ -145,7 +145,7 @@ static void look_at_comparator(void) {
 
 /* ---- The loop ---- */
 
-/* Advances to the event at `to`, or to a change of the comparator or of a Hall line before it. */
+/* Advances to the instant `to`, or to an earlier change of the comparator, end of its hold, or Hall edge. */
 static void advance(int64_t to) {
   if (hal.phase >= 0 && !holds())
     hal.status = sixstep_advance_to_crossing(hal.session, hal.phase, threshold(), seconds(to));
@@ -158,7 +158,7 @@ static void advance(int64_t to) {
   else if (hal.phase < 0 && hal.hall >= 0) look_at_hall();
 }
 
-/* Everything that is due at the present instant. */
+/* Starts the PWM period and calls the interrupts that are due at the present instant; then sets the gates. */
 static void act(void) {
   if (hal.now == hal.period + PERIOD_PS) {
     hal.period = hal.now;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The firmware of esc.c on a simulated drone motor: start, full throttle, a clamped propeller, restart, stop.
- *   esc [STEP_S [LOG [SUPPLY_V]]]   STEP_S: how often the motor is read; SUPPLY_V: of a supply that fails at 0.44 s */
+/* Runs the firmware of esc.c on a simulated drone motor: start, full throttle, a clamped propeller, restart, stop.
+ *   esc [STEP_S [LOG [SUPPLY_V]]]
+ * STEP_S: longest step of a call of hal_run(), s. SUPPLY_V: bus voltage from 0.44 s on, V. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -25,8 +26,8 @@ static const char scenario[] =
 
 static const struct {
   double at_s;
-  int throttle;       /* %, from then on */
-  const char* change; /* of the load, or null */
+  int throttle;       /* throttle from this instant on, % */
+  const char* change; /* change of the load, or null */
 } course[] = {{0.01, 40, NULL},
               {0.36, 100, NULL},
               {0.50, 100, "load.locked = true"},
@@ -55,7 +56,7 @@ static int fail(void) {
   return 1;
 }
 
-/* Runs to an instant, and reads the motor on the way. */
+/* Advances to an instant in steps of at most step_s. */
 static void run(double from_s, double to_s, double step_s) {
   int n;
   for (n = 1; from_s + n * step_s < to_s; n++)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Describes the board around the chip, as the scenario simulated it:
-// - a transducer for each phase current on ADC0..ADC2; each period samples the leg that feeds the driven
-//   pair;
+// - a transducer for each phase current on ADC0..ADC2; each period samples the current of the leg that feeds
+//   the
+//   driven pair;
 // - a potentiometer on ADC3 as the setpoint, which is 0 in the potentiometer's middle;
 // - Hall pins on PK0..PK2.
 #pragma once
@@ -36,24 +37,25 @@ static_assert(exported::dead_time_ps > 0,
               "a leg would change between its two switches with both on: set bridge.dead_time_s");
 
 constexpr std::uint32_t clock_Hz = 16'000'000;
-// Counts of the timer in half a period, 62.5 ns each. Half a period, because the timer counts up and down.
+// Counts of the timer in half a period, 62.5 ns each. The timer counts up and down in one period.
 constexpr std::uint64_t pwm_counts = exported::pwm_period_ps / 62'500 / 2;
 static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
-// Dead time in cycles, rounded up. change_over() waits for at least four.
+// Dead time in cycles, rounded up. change_over() needs at least four cycles.
 constexpr std::uint64_t dead_cycles =
     exported::dead_time_ps <= 250'000 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
 static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
 
-// Readings in counts that no intact board has:
+// Bounds of readings, in counts. An intact board stays within them.
 constexpr std::uint16_t middle = 512;
 /// A phase current above this value is a fault: 0.9 of its transducer's range. Set it below the limits of
 /// switches and motor.
 constexpr std::uint16_t over_current_counts = 461;
-/// A reading this near to an end of the converter's range means a broken wire. Each input needs a resistor of
-/// at most 10 kohm to ground, which pulls a broken wire to ground against the charge of the previous channel.
+/// A reading that is closer to an end of the converter's range than this bound indicates a broken wire. Each
+/// input needs a resistor of at most 10 kohm to ground. It pulls the input of a broken wire to ground against
+/// the charge of the previous channel.
 constexpr std::uint16_t end_counts = 8;
-/// Bound of the three currents' sum. It is larger than any ripple, because the currents' samples are half a
-/// period apart.
+/// Bound of the sum of the three currents. The currents' samples are half a period apart, so the bound is
+/// larger than any ripple.
 constexpr std::uint16_t sum_counts = 192;
 constexpr std::uint8_t strange_sums = 3;
 /// Band around the potentiometer's middle in which the setpoint counts as 0.
@@ -74,7 +76,7 @@ constexpr AdcConfig<Scalar> potentiometer{
     .offset_counts = middle};
 constexpr std::uint8_t potentiometer_channel = 3;
 
-/// Tables indexed by the Hall pins as port K reads them. A look-up takes a few cycles, the computation
+/// Tables indexed by the Hall pins as read from port K. A table look-up takes a few cycles, a computation
 /// dozens.
 struct ByPins {
   std::uint8_t code[8], source[8], second[8], third[8];
@@ -92,9 +94,9 @@ constexpr ByPins by_pins = [] {
 }();
 
 /// Majority of three readings of the Hall pins, six cycles apart. A switching edge of the bridge disturbs the
-/// pins for about 0.3 us (4.8 cycles), and so only one reading. If a Hall edge occurs between the readings,
-/// it causes the Hall interrupt again. Written in assembly (19 cycles), because a compiler does not guarantee
-/// the distance.
+/// pins for about 0.3 us (4.8 cycles), so only one reading is disturbed. A Hall edge between the readings
+/// causes the Hall interrupt again. The function is in assembly (19 cycles), because a compiler does not
+/// guarantee the interval.
 inline std::uint8_t hall_pins() {
   std::uint8_t pins, second, third;
   asm volatile(
@@ -114,12 +116,12 @@ inline std::uint8_t hall_pins() {
   return pins & 7;
 }
 static_assert(clock_Hz == 16'000'000);
-/// The pins at the last Hall interrupt. The gates have the pair for these pins. A later edge causes the next
-/// Hall interrupt.
+/// The pins at the last Hall interrupt. The gates drive the pair for these pins until the next Hall
+/// interrupt.
 inline volatile std::uint8_t pins_seen = 0;
 
-/// Like adc_value(), but without saturation, which 10 bits cannot need, and in 16 bits, because 32-bit
-/// differences would cost a hundred cycles.
+/// Like adc_value(), but without saturation, which 10 bits do not need, and with 16-bit differences: 32-bit
+/// differences would take a hundred cycles more.
 inline Scalar value_of(const AdcConfig<Scalar>& config, std::int16_t offset, std::uint16_t counts) {
   const auto eighths = static_cast<std::int16_t>(static_cast<std::int16_t>(counts * 8) - offset);
   return ScalarTraits<Scalar>::product(Scalar::from_raw(eighths), config.per_eighth);

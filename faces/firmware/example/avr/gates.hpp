@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes the six gates. First it turns gates off, and after the dead time it turns others on. No gate turns
-// on earlier than the dead time after any other gate turned off, even if two changes follow each other. All
-// of this runs with interrupts off.
+// Changes the six gates. First turns gates off; after the dead time, turns others on. No gate turns on
+// earlier than the dead time after any other gate has turned off, even if two changes follow each other. All
+// functions here run with interrupts off.
 #pragma once
 #include "faces/firmware/example/avr/board.hpp"
 #include "faces/firmware/example/avr/bridge.hpp"
 
 namespace firmware {
 
-/// The sign of the pair's voltage. Its number plus the reading of the Hall pins is the index in pins_by_way.
+/// The sign of the pair's voltage. The index in pins_by_way is this number plus the reading of the Hall pins.
 enum class Way : std::uint8_t { off = 0, positive = 8, negative = 16 };
 
-/// The result of on_hall() for every sign and every reading of the Hall pins, computed at compile time.
+/// The result of on_hall() for each sign and each reading of the Hall pins, computed at compile time.
 struct PinsByWay {
   Pins at[24];
 };
@@ -27,11 +27,11 @@ constexpr PinsByWay pins_by_way = [] {
   return all;
 }();
 
-inline Way shown = Way::off;   // the sign for which the pins are set
-inline Way wanted = Way::off;  // the sign from the next TOP on, when the timer also loads the on-time
+inline Way shown = Way::off;   // sign for which the gates are set now
+inline Way wanted = Way::off;  // sign from the next TOP on; at TOP the timer also loads the on-time
 
-/// Turns a lower gate off and an upper gate on. It waits exactly dead_cycles from the write that turns the
-/// lower gate off to the write that enables the upper gate. In the other direction it takes two cycles more.
+/// Turns a lower gate off and an upper gate on. From turning the lower gate off to enabling the upper gate,
+/// it takes exactly dead_cycles. Turning an upper gate off and a lower gate on takes two cycles more.
 inline void change_over(Pins stay, Pins to) {
   constexpr std::uint8_t loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3;
   static_assert(loops > 0 && (dead_cycles - 1) / 3 < 256, "one byte counts it");
@@ -54,8 +54,8 @@ inline void change_over(Pins stay, Pins to) {
       : "memory");
 }
 
-/// Sets the gates for the pair of `shown` and these Hall pins. A gate that stays on is not written, because
-/// it may be in its pulse.
+/// Sets the gates for the sign `shown` and these Hall pins. A gate that stays on is not written, because its
+/// pulse may be in progress.
 inline void show(std::uint8_t hall) {
   const Pins to = pins_by_way.at[static_cast<std::uint8_t>(shown) | hall];
   volatile std::uint8_t &uppers = byte(atmega2560::DDRB), &lowers = byte(atmega2560::PORTA);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs an exported current or duty loop on an ATmega2560 at 16 MHz. tools/firmware_image.sh makes an image of
-// this program, and `sixstep run SCENARIO --on avr` runs it in the loop.
+// this program, and `sixstep run SCENARIO --on avr` simulates the image with the motor.
 // - The control interrupt occurs once a period, after the conversion.
-// - The Hall interrupt, which commutates the bridge, may interrupt it.
-// - TOP's interrupt, from which a new sign is in effect, may interrupt it too.
+// - The Hall interrupt commutates the bridge. It may interrupt the control interrupt.
+// - The interrupt at TOP puts a new sign into effect. It may interrupt the control interrupt too.
 // - The main loop logs to the serial line and feeds the watchdog.
-// - A fault turns the gates off, and its reason is printed as long as the drive is stopped.
+// - A fault turns the gates off. The main loop then prints the reason of the fault once a second.
 #include "faces/firmware/example/avr/set_up.hpp"
 #include "faces/firmware/example/log.hpp"
 
@@ -15,10 +15,10 @@ DriveState<Scalar> state;
 std::int16_t offset_eighths[3] = {};  // measured by calibrate()
 std::uint16_t offset_sum = 0;         // in counts
 Setpoint<Scalar> setpoint;
-Telemetry<Scalar> telemetry;  // telemetry that the drive writes and this program ignores
+Telemetry<Scalar> telemetry;  // written by the drive, read for the log
 std::uint8_t sums_too_far = 0;
 
-/// The conversions of the other two legs' currents, in every second period: which of them is in progress.
+/// Which of the two other legs' currents is being converted; they are converted in every second period.
 enum class Legs : std::uint8_t { none, second, third } legs = Legs::none;
 std::uint8_t third_leg = 0;
 std::uint16_t second_counts = 0;
@@ -33,7 +33,7 @@ LogSlot<Row> log;
 std::uint16_t row_clock = 0;      // at the beginning of the control interrupt
 volatile std::uint8_t heart = 0;  // counts control interrupts
 
-/// Sets all three compare registers, so that a leg has its pulse immediately after a commutation.
+/// Sets all three compare registers, so that the incoming leg has its pulse immediately after a commutation.
 void set_on_time(std::uint16_t counts) {
   word(atmega2560::OCR1AL) = counts;
   word(atmega2560::OCR1BL) = counts;
@@ -44,13 +44,13 @@ void note_row(std::uint8_t pins, Scalar current, Scalar reference, Scalar duty) 
   if (log.waiting() == nullptr) log.take({row_clock, heart, by_pins.code[pins], current, reference, duty});
 }
 
-/// Stops the drive because of a current that no intact drive has.
+/// Stops the drive because a current is outside of its bounds.
 void stop_by_current(std::uint16_t counts) {
   stop(is_at_end(counts) ? Reason::current_sensor : Reason::over_current);
 }
 
-/// Measures the transducers' offsets. The bridge has been off since the reset, so that the current is 0 A.
-/// The sum of eight samples is their mean in eighths of a count.
+/// Measures the transducers' offsets. The bridge has been off since the reset, so the current is 0 A. The sum
+/// of eight samples is the mean in eighths of a count.
 void calibrate() {
   static std::uint8_t samples = 0;
   for (std::uint8_t leg = 0; leg < 3; ++leg) {
@@ -67,8 +67,8 @@ void calibrate() {
   phase = Phase::waits;
 }
 
-/// Waits until the setpoint is 0, so that the motor does not start at power-up, whatever the position of the
-/// potentiometer is.
+/// Waits until the setpoint is 0, so that the motor does not start at power-up at any position of the
+/// potentiometer.
 void wait_for_zero() {
   convert(potentiometer_channel);
   const std::uint16_t counts = conversion();
@@ -76,7 +76,7 @@ void wait_for_zero() {
   if (is_within(counts, zero_counts)) phase = Phase::drives;
 }
 
-/// A period in which the drive does not run. A gate that is on by some error stays on for one period at most.
+/// A period in which the drive does not run. If a gate is on by an error, it is turned off within one period.
 __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   if (phase == Phase::stands) turn_off();
   const std::uint8_t pins = hall_pins();
@@ -88,9 +88,9 @@ __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   convert_at_bottom(pins_seen);
 }
 
-/// The Hall code for which the loop computes. Without extras a drive uses the code only for the pair, and the
-/// pins already have the right pair. Its loop therefore computes in one fixed sector, whose legs are
-/// compile-time constants. This saves 100 cycles of conversion between motor and phase currents.
+/// The Hall code for which the loop computes. Without extras, a drive uses the code only to choose the pair,
+/// and the gates already drive the right pair. The loop therefore computes in one fixed sector, whose legs
+/// are compile-time constants. This saves 100 cycles for the conversion between motor and phase currents.
 constexpr std::uint8_t code_of_loop = 0b101;
 
 void control(std::uint8_t pins, std::uint16_t counts) {
@@ -103,7 +103,7 @@ void control(std::uint8_t pins, std::uint16_t counts) {
   step(drive, state, m, setpoint, telemetry);
 }
 
-/// Sets the answer for the next TOP, when the timer loads the on-time. The TOP interrupt is enabled if the
+/// Sets the answer for the next TOP, when the timer loads the on-time. Enables the interrupt at TOP if the
 /// sign changes, or if the third leg's conversion must start there.
 void answer(bool legs_are_next) {
   set_on_time(counts_of(state.command.duty));
@@ -111,7 +111,8 @@ void answer(bool legs_are_next) {
   byte(atmega2560::TIMSK1) = legs_are_next || wanted != shown ? atmega2560::ICIE1 : std::uint8_t{0};
 }
 
-/// Checks all three currents of this period; their sum only if the pair did not change between the samples.
+/// Checks all three currents of this period. Their sum is checked only if the pair did not change between the
+/// samples.
 void check_legs(bool commutated, std::uint16_t first, std::uint16_t third) {
   if (!is_within(second_counts, over_current_counts)) return stop_by_current(second_counts);
   if (!is_within(third, over_current_counts)) return stop_by_current(third);
@@ -131,7 +132,7 @@ void put(char c) {
   byte(atmega2560::UDR0) = static_cast<std::uint8_t>(c);
 }
 
-/// A signal in thousandths of its unit; 1.0 means `scale` thousandths.
+/// A signal in thousandths of its unit; the value 1.0 of the format is `scale` thousandths.
 template <std::int32_t scale>
 std::int32_t thousandths(Scalar x) {
   return static_cast<std::int32_t>(x.raw) * scale >> Scalar::fraction_bits;
@@ -142,12 +143,12 @@ constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA
 static_assert(full_mA < 65536, "times a signal of 16 bits");
 
 /// Number of periods without a control interrupt between two rows: the elapsed time in periods, rounded,
-/// minus the number of interrupts.
+/// minus the number of control interrupts.
 std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
   constexpr std::uint16_t period_half_us = pwm_counts / 4;
   std::uint16_t periods = 0;
-  if constexpr (pwm_counts % 4 == 0) {  // avoids a 32-bit division, which takes as long as the rest of the
-                                        // row
+  if constexpr (pwm_counts % 4 == 0) {  // avoids a 32-bit division, which takes as long as all other work for
+                                        // a row
     for (; half_us > period_half_us; half_us = static_cast<std::uint16_t>(half_us - period_half_us))
       ++periods;
     if (half_us > period_half_us / 2) ++periods;
@@ -160,7 +161,7 @@ std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
 
 void send(const Row& row) {
   static Instant now;
-  static std::uint16_t clock = conversion_half_us;  // the time of a row is that of its sample
+  static std::uint16_t clock = conversion_half_us;  // the time of a row is the instant of its sample
   static std::uint8_t seen = 0;
   static bool begun = false;
   const auto passed = static_cast<std::uint16_t>(row.clock - clock);
@@ -182,8 +183,8 @@ void send(const Row& row) {
   begun = true;
 }
 
-/// Feeds the watchdog in two cases: while control interrupts occur, and while the drive is stopped, so that
-/// the program continues to print the reason.
+/// Feeds the watchdog while control interrupts occur. Also feeds it while the drive is stopped, so that the
+/// program continues to print the reason.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   if (heart == seen && phase != Phase::stands) return;
@@ -235,8 +236,8 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
   const bool has_legs = legs == Legs::third;  // false if the TOP interrupt did not occur in time
   legs = Legs::none;
   const std::uint8_t last_pins = pins_seen;
-  convert_at_bottom(last_pins);  // as early as possible, because a BOTTOM before it would start no
-                                 // conversion: a period without control
+  convert_at_bottom(last_pins);  // as early as possible: a BOTTOM before this call would start no conversion,
+                                 // and a period would have no control interrupt
   if (phase != Phase::drives) return;
   note_row(pins, telemetry.motor_current_A, setpoint.value, telemetry.duty);
   answer(!looks_at_legs);
@@ -254,7 +255,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER1_CAPT() {
     show(pins_seen);
   }
   if (legs == Legs::second) {
-    if (converts()) return;  // not done now, but at the next TOP
+    if (converts()) return;  // not finished: the next TOP starts the conversion
     second_counts = converted();
     convert(third_leg);
     legs = Legs::third;
@@ -272,12 +273,12 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
   show(pins);
 }
 
-/// Interrupt if no control interrupt has occurred for too long.
+/// Interrupt if no control interrupt has occurred for patience_ps.
 extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER0_OVF() {
   firmware::stop(firmware::Reason::converter);
 }
 
-/// extern "C", because clang mangles the name of a freestanding main.
+/// extern "C", because clang mangles the name main in a freestanding program.
 extern "C" int main() {
   using namespace firmware;
   const Reason before = reason_after_reset(set_up_watchdog());

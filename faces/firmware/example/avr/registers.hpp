@@ -8,8 +8,8 @@ namespace firmware {
 inline volatile std::uint8_t& byte(atmega2560::Address address) {
   return *reinterpret_cast<volatile std::uint8_t*>(address);
 }
-/// A 16-bit register; `address` is that of the low byte. The compiler writes the high byte first and reads it
-/// last, as these registers need it.
+/// A 16-bit register; `address` is the address of the low byte. The compiler writes the high byte first and
+/// reads it last, as these registers require.
 inline volatile std::uint16_t& word(atmega2560::Address address) {
   return *reinterpret_cast<volatile std::uint16_t*>(address);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the registers before the first interrupt. All gates are inputs, with external pull-downs, until a
+// Sets the registers before the first interrupt. All gate pins are inputs with external pull-downs until a
 // command enables a gate.
 #pragma once
 #include "faces/firmware/example/avr/converter.hpp"
@@ -9,8 +9,8 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Sets the watchdog to 16 ms. Its two writes must be within four cycles. Returns the cause of the reset
-/// (MCUSR).
+/// Sets the watchdog to 16 ms. The two writes of WDTCSR must be within four cycles. Returns the cause of the
+/// reset (MCUSR).
 inline std::uint8_t set_up_watchdog() {
   using namespace atmega2560;
   const std::uint8_t cause = byte(MCUSR);
@@ -29,7 +29,7 @@ inline void set_up_serial_line() {
   byte(UCSR0B) = TXEN0;
 }
 
-/// The timer counts up and down (mode 10), with pulses high around the bottom at PB5..PB7.
+/// The timer counts up and down (mode 10). PB5..PB7 have high pulses around BOTTOM.
 inline void set_up_timer() {
   using namespace atmega2560;
   word(ICR1L) = static_cast<std::uint16_t>(pwm_counts);
@@ -37,8 +37,8 @@ inline void set_up_timer() {
   byte(TCCR1B) = WGM13 | CS10;
 }
 
-/// Timer 0 overflows if no control interrupt resets it for half a millisecond or, with long periods, for two
-/// and a half periods.
+/// Timer 0 overflows if no control interrupt resets it for half a millisecond. If the PWM period is above 0.2
+/// ms, it overflows after two and a half periods.
 constexpr bool is_long_period = exported::pwm_period_ps > 200'000'000;
 constexpr std::uint64_t patience_ps = is_long_period ? exported::pwm_period_ps / 2 * 5 : 500'000'000;
 constexpr std::uint64_t patience_counts = patience_ps / (is_long_period ? 64'000'000 : 4'000'000);
@@ -55,9 +55,9 @@ inline void set_up_supervisor() {
   byte(TIMSK0) = TOIE0;
 }
 
-/// Timer 3 counts half microseconds, independently of interrupts, and wraps after 33 ms. It is started in
-/// .init3 of avr-libc, because the initialisation of variables before main() takes a quarter of a
-/// millisecond, which must count.
+/// Timer 3 counts half microseconds, independently of interrupts, and wraps after 33 ms. It starts in .init3
+/// of avr-libc, so that it also counts the quarter of a millisecond in which variables are initialised before
+/// main().
 inline std::uint16_t log_clock() { return word(atmega2560::TCNT3L); }
 static_assert(atmega2560::TCCR3B == 0x91 && atmega2560::by_8 == 2);
 asm(".pushsection .init3,\"ax\",@progbits\n\t"

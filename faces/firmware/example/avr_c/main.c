@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A six-step current controller as it is often written for an AVR: in C with avr-libc, integers of mA and timer
- * counts, and tables by Hall code. It uses nothing of sixstep: map.toml says how it is connected to the board.
+/* A six-step current controller as it is often written for an AVR: in C with avr-libc, with integers of mA and timer
+ * counts, and with tables indexed by the Hall code. It uses no file of sixstep; map.toml describes how it is
+ * connected to the board.
  *
- * NEVER FOR A BRIDGE. It only shows how a user's own firmware is connected to the simulated board. No over-current
- * and no broken wire stops it, it has no watchdog, and it starts by itself, even after a wrong Hall code. Firmware
- * for a bridge is in ../avr.
+ * NEVER USE IT WITH A REAL BRIDGE. It only shows how a user's own firmware is connected to the simulated board. No
+ * over-current and no broken wire stops it. It has no watchdog, and it starts by itself, even after a wrong Hall
+ * code. Firmware for a real bridge is in ../avr.
  *
  * ATmega2560 at 16 MHz. Timer 1 counts up and down in 100 us. Upper gates of legs a, b, c are at OC1C, OC1B, OC1A
  * (PB7, PB6, PB5), lower gates at PC3, PC4, PC5, Hall lines H1 H2 H3 at PK4, PK5, PK6. Each phase has a transducer
@@ -15,16 +16,17 @@
 #include <avr/sleep.h>
 
 #define TOP 800 /* counts of half a period */
-#define DEAD 16 /* cycles from turning a gate off to turning another one on: 1 us */
+#define DEAD 16 /* cycles from turning a gate off to turning another gate on: 1 us */
 #define MA(counts) (((int32_t)((int16_t)(counts)-512) * 625) >> 6) /* 9.77 mA a count */
 #define SETPOINT_MA(counts) (((int32_t)((int16_t)(counts)-512) * 125) >> 5) /* 3.9 mA a count */
-/* u = kp e + sum of ki e, in timer counts for mA, Q12: 2.3 V/A and 0.38 V/A at 24 V (sixstep design --method cancellation). */
+/* u = kp e + sum of ki e. u: duty in timer counts; e: error of the current in mA; kp, ki in Q12: 2.3 V/A and 0.38
+   V/A at 24 V (sixstep design --method cancellation). */
 #define KP 315
 #define KI 52
 #define FULL ((int32_t)TOP << 12)
 
-/* Tables by PK6..PK4 as a number, with H1 as the lowest bit: the leg that feeds a positive current, and the leg
-   that takes it; 3: none. */
+/* Tables indexed by PK6..PK4 as a number, with H1 as the lowest bit: the leg from which a positive current flows
+   into the motor, and the leg into which it returns; 3: none. */
 static const uint8_t feeds[8] = {3, 0, 1, 0, 2, 2, 1, 3};
 static const uint8_t takes[8] = {3, 1, 2, 2, 0, 1, 0, 3};
 static const uint8_t upper[3] = {1 << PB7, 1 << PB6, 1 << PB5};
@@ -35,8 +37,9 @@ static int16_t drive;    /* signed duty in timer counts */
 
 static uint8_t hall(void) { return (PINK >> 4) & 7; }
 
-/* All three outputs of the timer always have pulses, and the direction register enables one of them. A gate that
- * turns off is off for the dead time before another one turns on. Call this function within interrupts only. */
+/* The three outputs of the timer always have pulses, and the direction register enables one output. Between turning
+ * a gate off and turning another gate on, all gates are off for the dead time. Call this function within interrupts
+ * only. */
 static void set_gates(uint8_t code)
 {
     uint8_t from = drive < 0 ? takes[code] : feeds[code];
@@ -98,8 +101,8 @@ int main(void)
     ADCSRB = (1 << ADTS2) | (1 << ADTS1); /* trigger: timer 1's overflow, at its bottom */
     ADMUX = (1 << REFS0) | 4;
     ADCSRA = (1 << ADEN) | (1 << ADATE) | (1 << ADIE) | (1 << ADPS2);
-    TIFR1 = 1 << TOV1; /* only the flag's rising edge triggers, so that a flag that is already set would never
-                          trigger */
+    TIFR1 = 1 << TOV1; /* only the flag's rising edge triggers a conversion: a flag that is already set would prevent
+                          it */
     set_sleep_mode(SLEEP_MODE_IDLE);
     sei();
     for (;;) sleep_mode();

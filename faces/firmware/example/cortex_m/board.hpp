@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes the board around the chip, as the scenario simulated it. Pins as an STM32F303RE Nucleo has them:
+// Describes the board around the chip, as the scenario simulated it. The pins are those of an STM32F303RE
+// Nucleo:
 //
 //   PA8 PA9 PA10       upper gates a b c     TIM1_CH1..3
 //   PB13 PB14 PB15     lower gates a b c     TIM1_CH1N..3N
@@ -28,14 +29,14 @@ constexpr std::uint32_t clock_Hz = 72'000'000;
 /// True: the Nucleo's debugger supplies a clock of 8 MHz. Set it to false for a crystal.
 constexpr bool has_external_clock = true;
 
-/// Whether bootstrap capacitors feed the upper gates (IR21xx, L638x and most shields). They charge while the
-/// leg's output is low. With them, all lower gates pulse for a while before the first pulse, every on-time
-/// ends with a least off-time, and no pattern keeps an upper gate on.
+/// Whether bootstrap capacitors feed the upper gates (IR21xx, L638x and most shields). A capacitor charges
+/// while the output of its leg is low. Therefore all lower gates pulse for a while before the first pulse of
+/// an upper gate, every on-time is followed by a least off-time, and no chopping mode keeps an upper gate on.
 constexpr bool upper_gates_by_bootstrap = true;
 constexpr std::uint32_t charge_ns = 2'000, charge_periods = 100, least_gap_ns = 1'500;
-/// The level of the break input that turns all gates off. The chip pulls the pin to this level, so that a
-/// broken wire has the same effect. An open-drain output that drives the wire therefore needs its own pull-up
-/// at the other end of the wire.
+/// The level of the break input that turns all gates off. The chip pulls the pin to this level, so a broken
+/// wire turns the gates off too. An open-drain output that drives the wire needs a pull-up at the other end
+/// of the wire.
 constexpr bool break_active_high = false;
 
 // All other constants follow from the drive.
@@ -48,9 +49,10 @@ constexpr std::uint32_t counts_of_ns(std::uint64_t ns) {
 }
 constexpr auto pwm_counts =
     static_cast<std::uint32_t>(exported::pwm_period_ps * (clock_Hz / 1'000'000) / 1'000'000);
-/// Least control period in timer counts: the worst-case instructions of a control tick and a Hall interrupt,
-/// one count each, plus the flash's wait states. With a shorter period each Hall edge would cost a period. A
-/// late answer takes effect a period later and is reported (tests/target/image_load.py).
+/// Least control period in timer counts. It is the worst-case number of instructions of a control tick and a
+/// Hall interrupt, one count each, plus the flash's wait states. With a shorter period, each Hall edge would
+/// delay an answer by a period. A late answer takes effect a period later and is reported
+/// (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
               "TIM1 has 16 bits, and the interrupts take 1600 counts: pwm.period_s = 22.3e-6 or more");
@@ -62,8 +64,8 @@ static_assert(
 static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
 static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
 /// The converter samples the three currents and the bus one microsecond before the update, so that the
-/// samples precede the switching at the period's start. The interrupt for the period's change of outputs
-/// comes some counts before the update (event_count).
+/// samples precede the switching at the period's start. The interrupt that changes outputs at the period's
+/// end occurs some counts before the update (event_count).
 constexpr std::uint32_t sample_count = pwm_counts - clock_Hz / 1'000'000, event_count = pwm_counts - 12;
 constexpr std::uint32_t most_on_counts = pwm_counts - counts_of_ns(least_gap_ns);
 constexpr std::uint32_t charge_counts = counts_of_ns(charge_ns);
@@ -92,8 +94,8 @@ static_assert(
     exported::timer_Hz == clock_Hz,
     "TIM2 counts the core's clock: set sensors.capture_Hz to it, or every speed is wrong by their ratio");
 
-/// Majority of three readings a quarter of a microsecond apart, because a switching edge of the bridge
-/// disturbs only one of them.
+/// Majority of three readings, a quarter of a microsecond apart. A switching edge of the bridge disturbs only
+/// one of the readings.
 inline std::uint8_t hall_pins_once() {
   const std::uint32_t a = gpio_a().IDR, b = gpio_b().IDR;
   return static_cast<std::uint8_t>((a >> 15 & 1) << 2 | (b >> 3 & 1) << 1 | (b >> 10 & 1));

@@ -11,13 +11,14 @@
 //    1     1     OCxREF                not OCxREF            dead time at each edge of OCxREF
 //
 // A leg with only one switch in use needs one enable bit, and the timer then inserts no dead time. Therefore
-// a leg that changes from one switch to the other is off for the dead time. This takes two commutation events
-// (COM) at least the dead time apart. At the first event the leg turns off, and all other legs get their new
-// outputs. At the second event the leg gets its new outputs. Only a leg with both enables before and after
-// changes at once, because the timer inserts its own dead time.
+// a leg that changes from one switch to the other is off for the dead time. The change takes two commutation
+// events (COM), at least the dead time apart. At the first event, this leg turns off, and all other legs get
+// their new outputs. At the second event, this leg gets its new outputs. A leg with both enable bits before
+// and after the change needs only one event, because the timer inserts the dead time.
 //
-// Off is driven: CCxE or CCxNE alone, with OCxREF forced low. A leg turns off by its mode alone and changes
-// its enables while OCxREF is low, so that their order within one event has no effect.
+// In the state off, the outputs are driven: only CCxE or only CCxNE is set, with OCxREF forced low. A leg
+// turns off by its mode. Its enable bits change while OCxREF is low, so their order within one event has no
+// effect.
 //
 // bridge_timer.hpp decides when the events occur.
 #pragma once
@@ -26,8 +27,8 @@
 
 namespace firmware {
 
-/// Output of a leg in one byte, so that interrupts compare it quickly: OCxM, CCxE as bit 0, CCxNE as bit 2,
-/// and the switches that it may turn on.
+/// Output of a leg in one byte, which interrupts compare quickly: OCxM, CCxE as bit 0, CCxNE as bit 2, and
+/// the switches that the output may turn on.
 class LegOutput {
  public:
   static constexpr unsigned upper_alone = 1, lower_alone = 4, both = 5;
@@ -61,14 +62,14 @@ constexpr LegOutput leg_output(unsigned on, unsigned off) {
   return {};
 }
 
-/// The output with both switches off, which may follow any output `from`.
+/// The output with both switches off that may follow the output `from`.
 constexpr LegOutput leg_off(LegOutput from) {
   const bool lower = from.enables() == LegOutput::lower_alone;
   return {bit::force_low, lower ? LegOutput::lower_alone : LegOutput::upper_alone};
 }
 
-/// Whether a leg must be off between two outputs: it changes from one switch to the other, and the timer
-/// inserts no dead time in at least one of them.
+/// Whether a leg must be off between two outputs: the leg changes from one switch to the other, and for one
+/// of the outputs the timer inserts no dead time.
 constexpr bool needs_pause(LegOutput from, LegOutput to) {
   const unsigned before = from.switches(), behind = to.switches();
   if (((before >> 1 & behind) | (behind >> 1 & before)) == 0 || from == to) return false;
@@ -103,15 +104,15 @@ constexpr BridgeOutputs legs_off(const BridgeOutputs& from) {
   return {{leg_off(from.leg[0]), leg_off(from.leg[1]), leg_off(from.leg[2])}};
 }
 
-/// Whether a switch may turn on with `to` that could not with `from`.
+/// Whether `to` may turn on a switch that `from` keeps off.
 constexpr bool turns_on(const BridgeOutputs& from, const BridgeOutputs& to) {
   unsigned more = 0;
   for (int n = 0; n < 3; ++n) more |= to.leg[n].switches() & ~from.leg[n].switches();
   return more != 0;
 }
 
-/// Values of the output registers. CCMR2 also has the mode of the fourth channel, whose reference rises at
-/// its compare value and starts the converter.
+/// Values of the output registers. CCMR2 also contains the mode of the fourth channel. The reference of the
+/// fourth channel rises at its compare value and starts the converter.
 struct GateOutputs {
   std::uint32_t CCMR1, CCMR2, CCER;
 };
@@ -122,7 +123,8 @@ constexpr GateOutputs registers(const BridgeOutputs& o) {
           o.leg[0].enables() | o.leg[1].enables() << 4 | o.leg[2].enables() << 8};
 }
 
-/// The bits DTG for a dead time in counts, rounded up (20.4.18). They have steps of 1, 2, 8 and 16 counts.
+/// The bits DTG for a dead time in counts, rounded up (20.4.18). The step is 1, 2, 8 or 16 counts, depending
+/// on the dead time.
 constexpr std::uint32_t dead_time_bits(std::uint32_t counts) {
   const auto steps = [counts](std::uint32_t of, std::uint32_t from) { return (counts + of - 1) / of - from; };
   if (counts < 128) return counts;

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides when TIM1's legs change, as in a simulation that answers a period later (control/bridge_command.hpp,
-// the rig's act()):
+// Decides when TIM1's legs change, as in a simulation in which an answer takes effect a period later
+// (control/bridge_command.hpp, the rig's act()):
 //
-//   control tick      duty and pair take effect together at the next period. The duty waits in the preloaded compare registers. If a
-//                     leg's output changes too, the interrupt of the fourth compare unit, shortly before the period's end, waits for the
-//                     update and gives the commutation event there. A leg that changes sides is off from that event on, and has its new
-//                     switch after the dead time.
-//                     A later answer waits as a whole for the next period's end, and is counted as missed.
-//   Hall interrupt    the pair changes at once, in the present and in the waiting command; the pulse continues in the incoming leg.
-//                     The duty stays.
-//   off, and a fault  at once
+//   control tick      Duty and pair take effect together at the next period. The duty waits in the preloaded
+//                     compare registers. If a leg's output changes too, the interrupt of the fourth compare
+//                     unit, shortly before the period's end, waits for the update and causes the commutation
+//                     event there. A leg that changes from one switch to the other is off from that event on;
+//                     its new switch turns on after the dead time. A late answer waits for the end of the
+//                     next
+//                     period and is counted as missed.
+//   Hall interrupt The pair changes at once, in the present and in the waiting command. The pulse continues
+//                     in the incoming leg. The duty does not change.
+//   off, and a fault  The gates turn off at once.
 //
 // The manual does not define when the reference of a leg follows PWM after a forced level: at once, or at the
-// next match of its compare unit. So the pulse of a leg that starts at a Hall edge may begin with the next
-// period instead of within this one. In neither case are both switches on.
+// next match of its compare unit. So the pulse of a leg that starts at a Hall edge may begin within the
+// present period or with the next one. In neither case are both switches on.
 //
-// Two commutation events that change one leg are never closer than the dead time: each event that turns a
-// switch on waits for it first. Interrupts are off while outputs change, so that the interrupt at the
-// period's end finds them complete.
+// Two commutation events that change one leg are at least the dead time apart: each event that turns a switch
+// on waits for it. Interrupts are off while outputs change, so that the interrupt at the period's end never
+// finds a half-made change.
 #pragma once
 #include "faces/firmware/example/cortex_m/board.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
@@ -38,18 +40,17 @@ class InterruptsOff {
   std::uint32_t were_off_;
 };
 
-/// A command, and whether it is for the negative direction. A Hall edge changes the pairs of the two
-/// directions differently.
+/// A command with its direction. A Hall edge changes the pair in a way that depends on the direction.
 struct Commanded {
   BridgeCommand<Scalar> bridge;
   bool reversed;
 };
 
 Commanded in_effect, waiting;  // commands for this period and for the next one
-BridgeOutputs legs;            // after the last commutation event
+BridgeOutputs legs;            // state after the last commutation event
 std::uint32_t changed_at = 0;  // count of TIM2 at that event
-bool charging = false;         // while short pulses of all lower gates charge the bootstrap capacitors, no
-                               // command is on
+bool charging = false;         // true: no command is on, and short pulses of all lower gates charge the
+                               // bootstrap capacitors
 
 constexpr std::uint32_t compare_of(Scalar duty) {
   const auto counts = static_cast<std::uint32_t>(duty * static_cast<float>(pwm_counts));
@@ -72,7 +73,7 @@ inline void wait_for_dead_time() {
   while (tim2().CNT - changed_at < dead_counts) continue;
 }
 
-/// A change of the legs, by one event, or by two if a leg pauses between them.
+/// A change of the legs by one commutation event, or by two if a leg pauses between them.
 struct Change {
   BridgeOutputs to;
   bool waits_before, pauses;
@@ -106,15 +107,15 @@ inline void change_at_once(const BridgeOutputs& to) {
   make(now);
 }
 
-Change coming;            // change at the period's end,
-bool change_due = false;  // if this is true
+Change coming;            // change at the period's end
+bool change_due = false;  // whether `coming` must be made
 
 inline void compare_next(std::uint32_t counts) {
   for (int n = 0; n < 3; ++n) tim1().CCR[n] = counts;
 }
 
-/// Enables the interrupt at the period's end. If its flag is set, it was set in this period, because each
-/// control tick clears it first.
+/// Enables the interrupt at the period's end. Each control tick clears the interrupt's flag first, so a set
+/// flag was set in this period.
 inline void arm_period_end(bool on) { tim1().DIER = (tim1().DIER & bit::BIE) | (on ? bit::CC4IE : 0); }
 
 /// Whether two enabled commands have the same gates at any duty.
@@ -122,8 +123,8 @@ inline bool same_gates(const BridgeCommand<Scalar>& a, const BridgeCommand<Scala
   return a.enabled && b.enabled && a.pair == b.pair && a.chopping == b.chopping && a.chopped == b.chopped;
 }
 
-/// Prepares the change at the period's end, from the present state of the legs. If it is unknown what the
-/// legs did before, a switch that turns on waits for the dead time, as in a simulation.
+/// Prepares the change at the period's end, from the present state of the legs. If the previous state of the
+/// legs is unknown, a switch turns on only after the dead time, as in a simulation.
 inline void prepare_period_end() {
   change_due = false;
   if (same_gates(waiting.bridge, in_effect.bridge))
@@ -146,12 +147,12 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// The interrupt of the fourth compare unit. It waits for the update, which follows after some counts, and
-/// makes the period's change there. The commutation event must be at the update or some counts before it, in
-/// the off-time of the old pulse. If it were later, the old pair would have a pulse of some counts.
+/// The interrupt of the fourth compare unit. Waits for the update, which follows after some counts, and
+/// changes the outputs there. The commutation event must be at the update or some counts before it, in the
+/// off-time of the old pulse. After the update, the old pair would have a pulse of some counts.
 [[gnu::noinline]] void at_period_end() {
   const InterruptsOff hold;
-  // Nothing to do: the interrupt was revoked after the core had accepted it, or a late control tick has
+  // Nothing to do: the interrupt was disabled after the core had accepted it, or a late control tick has
   // already made the change.
   if ((tim1().DIER & bit::CC4IE) == 0 || (tim1().SR & bit::CC4IF) == 0) return;
   if (change_due) {
@@ -166,9 +167,9 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// Whether the period's end that an answer is for has passed, or is so near that its duty and its pair might
-/// not take effect together. Both then wait for the next end. If a change is still waiting for the end that
-/// has passed, it is made first.
+/// Whether the answer is too late for its period's end: this end has passed, or is so near that duty and pair
+/// might not take effect together. Duty and pair then wait for the next end. If a change still waits for the
+/// passed end, the function makes it first.
 inline bool period_is_over() {
   if ((tim1().SR & bit::CC4IF) == 0) return false;  // each control tick clears the flag when it begins
   at_period_end();
@@ -193,14 +194,14 @@ inline bool period_is_over() {
   return in_time;
 }
 
-/// Executes the Hall interrupt's answer; its pair has the sign of the last control tick.
+/// Executes the Hall interrupt's answer. The sign of the pair is the sign of the last control tick.
 [[gnu::noinline]] void at_once(const BridgeCommand<Scalar>& command, bool reversed) {
   if (!command.enabled) {
     if (!charging) gates_off();
     return;
   }
   const InterruptsOff hold;
-  if (!waiting.bridge.enabled) return;  // the drive was turned off since that tick
+  if (!waiting.bridge.enabled) return;  // the drive was turned off after the last control tick
   waiting = {command, reversed};
   compare_next(compare_of(command.duty));
   if (in_effect.bridge.enabled) {

@@ -4,7 +4,7 @@
 // - The control interrupt occurs once a period, after four conversions.
 // - The Hall interrupt commutates the bridge.
 // - The interrupt at the period's end puts a waiting command into effect.
-// - The main loop reads commands from the serial line, logs to it, and feeds the watchdog.
+// - The main loop reads commands from the serial line, logs to the line, and feeds the watchdog.
 #include "faces/firmware/example/commands.hpp"
 #include "faces/firmware/example/cortex_m/standing.hpp"
 
@@ -12,10 +12,10 @@ namespace firmware {
 
 [[gnu::section(".noinit")]] KeptReason kept_reason;
 ProtectedState<Scalar> state;
-ProtectedTelemetry<Scalar> telemetry;  // telemetry that the drive writes and never reads
+ProtectedTelemetry<Scalar> telemetry;  // written by the drive, read for the log and the faults
 Setpoint<Scalar> setpoint;
 
-/// Commands, which the main loop writes with interrupts off. A stop and a clear each stay set until a control
+/// Typed commands, written by the main loop with interrupts off. `stop` and `clear` stay set until a control
 /// tick has read them, whatever is typed later.
 struct Asked {
   bool run, stop, clear;
@@ -35,10 +35,10 @@ struct Row {
 LogSlot<Row> log;
 Ring<64> received;
 volatile std::uint8_t heart = 0;  // counts control interrupts
-volatile bool listening = false;  // true: control interrupts are enabled
+volatile bool listening = false;  // whether control interrupts are enabled
 
-/// Measures time with the free-running counter. A period without a control interrupt still counts as time,
-/// and as missed. A period whose answer came after the period's end also counts as missed.
+/// Measures time with the free-running counter. A period without a control interrupt counts as time and as
+/// missed. A period whose answer came after the period's end also counts as missed.
 struct LogClock {
   Instant t;
   std::uint32_t rest = 0;  // counts beyond the last microsecond
@@ -55,7 +55,7 @@ struct LogClock {
 };
 LogClock log_clock;
 
-/// The request for this tick. A request to run waits until the bootstrap capacitors are charged.
+/// The request for this tick. Until the bootstrap capacitors are charged, a request to run is delayed.
 Request request_now() {
   const bool clear = asked.clear;
   wants_to_run = asked.run && !asked.stop;
@@ -99,8 +99,8 @@ void send(const Row& row) {
   put('\n');
 }
 
-/// Feeds the watchdog in two cases: while control interrupts occur, and while the board waits for a reset
-/// with the gates disabled.
+/// Feeds the watchdog while control interrupts occur. Also feeds it while the board waits for a reset with
+/// the gates disabled.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   const bool stands = needs_reset && !gates_may_work();
@@ -114,7 +114,7 @@ void tell_fault() {
   static Reason told = Reason::none;
   static std::uint32_t told_at = 0;
   const Reason of_board = board_fault;
-  // false after a typed c, which the next tick reads
+  // false after a typed c, until the next tick reads it
   const bool stands = telemetry.activity == Activity::fault && !asked.clear;
   const Reason why = of_board != Reason::none ? of_board
                      : stands                 ? reason_of(telemetry.first_fault)
@@ -136,7 +136,7 @@ constexpr const char* unit = config.drive.mode == Mode::speed      ? "rad/s"
                              : config.drive.mode == Mode::position ? "deg"
                                                                    : "of the bus";
 
-/// Limits the typed setpoint, and prints the setpoint that is in effect.
+/// Limits the typed setpoint, and prints the limited setpoint.
 void take_setpoint(std::int32_t typed) {
   constexpr Scalar limit = config.setpoint_limit;
   constexpr auto most = static_cast<std::int32_t>(limit < 2e6f ? limit * 1000.0f : 2e9f);
@@ -151,7 +151,7 @@ void run() {
   asked.run = true;
 }
 
-/// Stops the drive first, and prints afterwards.
+/// Stops the drive first and prints afterwards, because printing takes time.
 void stop() {
   {
     const InterruptsOff hold;
@@ -193,7 +193,7 @@ void obey(const Command& command) {
   }
 }
 
-/// Makes the rest of the line count as invalid.
+/// Marks the rest of the line as invalid.
 void miss(Commands& commands) {
   commands.lost();
   put_text(put, "# a character was lost: nothing but s counts before the next Enter\n");
@@ -251,7 +251,7 @@ void set_up() {
 extern "C" void ADC1_2_IRQHandler() {
   using namespace firmware;
   adc1().ISR = bit::JEOS;
-  tim1().SR = ~bit::CC4IF;  // clears the flag that was set when these conversions started
+  tim1().SR = ~bit::CC4IF;  // clears the flag that was set when TIM1 triggered these conversions
   BoardInput in;
   for (int n = 0; n < 3; ++n) in.current_counts[n] = static_cast<std::uint16_t>(adc1().JDR[n]);
   in.bus_counts = static_cast<std::uint16_t>(adc1().JDR[3]);
@@ -290,14 +290,14 @@ extern "C" void USART2_IRQHandler() {
     const char c = static_cast<char>(usart2().RDR);
     const bool disturbed = (status & (bit::FE | bit::NF)) != 0;
     if (disturbed) received.lose();
-    // A stop (s) is accepted even if disturbed, because an unnecessary stop is better than a lost one.
+    // A disturbed s also stops the drive: an unnecessary stop is better than a lost one.
     if (!disturbed || c == 's') received.put(c);
   }
-  if ((status & bit::ORE) != 0) received.lose();  // the lost character came after the one that was read
+  if ((status & bit::ORE) != 0) received.lose();  // the lost character came after the character that was read
   usart2().ICR = status & (bit::FE | bit::NF | bit::ORE);
 }
 
-/// Starts with the bridge off until r is typed, after every kind of reset.
+/// After every kind of reset, the bridge is off until r is typed.
 int main() {
   using namespace firmware;
   const Reason before = reason_before_reset();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the registers of an STM32F303 that the program uses, and their bits. Source: ST RM0316, with the
-// section at each register. For the core itself (SCB, NVIC) the source is Arm's ARMv7-M reference, B3.2 and
-// B3.4.
+// Lists the registers of an STM32F303 that the program uses, and their bits. Source: ST RM0316; each register
+// names its section. Source for the core (SCB, NVIC): Arm, ARMv7-M reference, B3.2 and B3.4.
 #pragma once
 #include <cstdint>
 
@@ -23,8 +22,8 @@ struct Rcc {
 };
 static_assert(sizeof(Rcc) == 0x34);
 
-/// Registers of TIM1 and TIM2, which have one layout (20.4 and 21.4). Registers that one of them lacks are
-/// not used there.
+/// Registers of TIM1 and TIM2, which have the same layout (20.4 and 21.4). The program does not use registers
+/// that a timer lacks.
 struct Timer {
   Register CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR;
 };
@@ -68,7 +67,7 @@ inline Watchdog& iwdg() { return block<Watchdog>(0x40003000); }
 inline Register& debug_apb1_freeze() { return word_at(0xE0042008); }
 inline Register& debug_apb2_freeze() { return word_at(0xE004200C); }
 inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // section 12.1
-/// Registers for the peripherals' interrupts. To enable and to disable, 32 interrupts share a word. Each has
+/// Registers for the peripherals' interrupts. One word enables or disables 32 interrupts. Each interrupt has
 /// a priority byte, of which only the upper four bits are implemented.
 inline Register& nvic_enable(unsigned irq) { return word_at(0xE000E100 + 4 * (irq / 32)); }
 inline Register& nvic_disable(unsigned irq) { return word_at(0xE000E180 + 4 * (irq / 32)); }

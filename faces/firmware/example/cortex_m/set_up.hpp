@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the registers before the first interrupt. tests/target/images.py runs this code and compares each
-// register with RM0316.
+// Sets the registers before the first interrupt. tests/target/images.py runs these functions and compares
+// each register with RM0316.
 #pragma once
 #include "faces/firmware/example/cortex_m/board.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
@@ -10,8 +10,8 @@ namespace firmware {
 constexpr std::uint32_t baud = 1'000'000;
 
 /// Whether the condition became true within `looks` checks. The number is limited, so that a broken part does
-/// not prevent the others from reporting it. At 8 MHz the checks take 20 ms, less than the watchdog's time; a
-/// crystal starts within 10 ms.
+/// not prevent the report about the other parts. At 8 MHz the checks take 20 ms, less than the watchdog's
+/// time. A crystal starts within 10 ms.
 template <class Condition>
 bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
   for (; looks > 0; --looks)
@@ -20,11 +20,12 @@ bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
 }
 
 constexpr std::uint32_t own_clock_Hz =
-    8'000'000;  // frequency of the chip's own clock, which is used after a reset and if the external one is
+    8'000'000;  // frequency of the chip's own clock, which runs after a reset and if the external clock is
                 // missing
 
-/// Sets the clock to 8 MHz times nine. Returns false if there is no external clock; the chip then runs on its
-/// own 8 MHz. If the clock stops later, TIM1's break turns the gates off, and NMI_Handler is called (9.2.7).
+/// Sets the clock to 9 times 8 MHz. Returns false if there is no external clock; the chip then runs on its
+/// own 8 MHz. If the external clock stops later, TIM1's break turns the gates off, and NMI_Handler is called
+/// (9.2.7).
 inline bool set_up_clock() {
   rcc().CR = rcc().CR | bit::HSEON | (has_external_clock ? bit::HSEBYP : 0);
   if (!waited_for([] { return (rcc().CR & bit::HSERDY) != 0; })) return false;
@@ -38,18 +39,18 @@ inline bool set_up_clock() {
   return true;
 }
 
-/// Stays at the chip's own 8 MHz, to which the chip itself has switched when the external clock stopped.
+/// Selects the chip's own 8 MHz. The chip has already switched to it when the external clock stopped.
 inline void fall_back_to_own_clock() { rcc().CFGR = 0; }
 
 inline void switch_parts_on() {
   rcc().AHBENR = rcc().AHBENR | bit::IOPAEN | bit::IOPBEN | bit::IOPCEN | bit::ADC12EN;
   rcc().APB2ENR = rcc().APB2ENR | bit::TIM1EN | bit::SYSCFGEN;
   rcc().APB1ENR = rcc().APB1ENR | bit::TIM2EN | bit::USART2EN;
-  // If a debugger stops the core, it also stops the timer, whose outputs are then off, the log's clock, and
-  // the watchdog.
+  // A debugger that stops the core also stops the timer, whose outputs are then off, the clock of the log,
+  // and the watchdog.
   debug_apb2_freeze() = bit::TIM1_STOP;
   debug_apb1_freeze() = bit::IWDG_STOP | bit::TIM2_STOP;
-  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a core in lockup causes a break too
+  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a lockup of the core causes a break too
 }
 
 enum class PinMode : std::uint32_t { input, output, alternate, analog };
@@ -95,15 +96,16 @@ inline void set_up_serial_line(std::uint32_t bus_Hz) {
   usart2().CR1 = (eight ? bit::OVER8 : 0) | bit::RXNEIE | bit::UE | bit::TE | bit::RE;
 }
 
-/// Enables the gates. The break input must then be inactive.
+/// Enables the gates. The break input must be inactive before.
 inline void let_gates_work() { tim1().BDTR = tim1().BDTR | bit::MOE; }
 /// Disables the gates in hardware, independent of the output registers.
 inline void forbid_gates() { tim1().BDTR = tim1().BDTR & ~bit::MOE; }
 inline bool gates_may_work() { return (tim1().BDTR & bit::MOE) != 0; }
 
-/// Sets TIM1. It counts up, and its update begins a period. Enables and modes are preloaded, and all three
-/// channels load them together at a commutation event. The fourth channel has no pin: its reference rises a
-/// microsecond before the update and starts the converter. Without MOE the outputs are driven low too (OSSI).
+/// Sets TIM1. It counts up, and its update begins a period. Enable bits and modes are preloaded, and all
+/// three channels load them together at a commutation event. The fourth channel has no pin. Its reference
+/// rises a microsecond before the update and starts the converter. Without MOE the outputs are driven low
+/// (OSSI).
 inline void set_up_bridge_timer() {
   const GateOutputs off = registers(BridgeOutputs{});
   tim1().PSC = 0;
@@ -122,8 +124,8 @@ inline void set_up_bridge_timer() {
   tim1().CR1 = bit::ARPE | bit::CEN;
 }
 
-/// Sets TIM2, with 32 bits at 72 MHz. Each edge of the XOR of its three inputs is captured after it has been
-/// stable for 256 counts, 3.6 us. The ringing after a switching edge of the bridge is shorter.
+/// Sets TIM2, with 32 bits at 72 MHz. Each edge of the XOR of its three inputs is captured once the level has
+/// been stable for 256 counts, 3.6 us. The ringing after a switching edge of the bridge is shorter.
 inline void set_up_hall_timer() {
   tim2().PSC = 0;
   tim2().ARR = 0xFFFFFFFF;
@@ -135,8 +137,9 @@ inline void set_up_hall_timer() {
   tim2().CR1 = bit::CEN;
 }
 
-/// Sets the injected sequence a, b, c, bus with 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts
-/// before the update, 52 to 44, 32 to 24, 12 to 4. Returns false if the converter does not react.
+/// Sets the injected sequence a, b, c, bus. Each conversion samples for 7.5 clocks and converts for 12.5
+/// clocks of 72 MHz. The samples are taken from 72 to 64, 52 to 44, 32 to 24 and 12 to 4 counts before the
+/// update. Returns false if the converter does not react.
 inline bool set_up_converter() {
   adc12_ccr() = bit::CKMODE_HCLK;
   adc1().CR = 0;
@@ -145,7 +148,7 @@ inline bool set_up_converter() {
     asm volatile("");  // waits 10 us for the converter's voltage regulator (15.3.6)
   adc1().CR = bit::ADVREGEN | bit::ADCAL;
   if (!waited_for([] { return (adc1().CR & bit::ADCAL) == 0; })) return false;
-  // ADEN takes effect only four converter clocks after the calibration (15.3.9). So it is written repeatedly
+  // ADEN takes effect only four converter clocks after the calibration (15.3.9), so it is written repeatedly
   // until the converter is ready.
   if (!waited_for([] {
         adc1().CR = bit::ADVREGEN | bit::ADEN;
@@ -161,7 +164,7 @@ inline bool set_up_converter() {
   return true;
 }
 
-/// Starts the watchdog, which resets after 40 ms of its own clock of about 40 kHz.
+/// Starts the watchdog, which resets the chip after 40 ms of the watchdog's own clock of about 40 kHz.
 inline void set_up_watchdog() {
   iwdg().KR = bit::start;
   iwdg().KR = bit::unlock;
@@ -171,9 +174,10 @@ inline void set_up_watchdog() {
   iwdg().KR = bit::reload;
 }
 
-/// Sets priorities and enables interrupts. The control tick and the Hall interrupt have one priority, so that
-/// neither interrupts the other. The interrupts of the period's end and of the break interrupt both; that of
-/// the serial line waits for all. The chip implements the upper four bits of a priority.
+/// Sets priorities and enables interrupts. The control tick and the Hall interrupt have the same priority, so
+/// that neither interrupts the other. The interrupts of the period's end and of the break interrupt both of
+/// them. The interrupt of the serial line has the lowest priority. The chip implements the upper four bits of
+/// a priority.
 inline void listen_to_interrupts() {
   nvic_priority(irq_tim1_compare) = 0x00;
   nvic_priority(irq_tim1_break) = 0x00;

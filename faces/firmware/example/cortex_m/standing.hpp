@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles the board's own reasons to keep the gates off, in addition to the drive's faults: its comparator,
-// its sensors, its clock, a converter that stopped, and a reason kept over a reset. The drive does not
-// restart by itself: it waits for a typed c, and then for r.
+// Handles the board's reasons to keep the gates off, in addition to the drive's faults: the comparator, the
+// sensors, the clock, a converter that stopped, and a reason kept over a reset. The drive does not restart by
+// itself: it waits for a typed c, and then for r.
 #pragma once
 #include "faces/firmware/example/cortex_m/bridge_timer.hpp"
 #include "faces/firmware/example/cortex_m/kept.hpp"
@@ -15,7 +15,7 @@ std::uint32_t counts_a_us = clock_Hz / 1'000'000;
 volatile std::uint32_t last_tick = 0;  // count of TIM2 at the last control tick
 std::uint8_t strange_sums = 0;
 
-/// A bit in addition to those of Fault. It stops the drive, and the log's column shows it.
+/// A bit in addition to the bits of Fault. It stops the drive, and the log's column `faults` contains it.
 constexpr std::uint16_t fault_board = 1u << 15;
 
 inline void trip(Reason why) {
@@ -31,8 +31,8 @@ inline void stand_until_reset(Reason why) {
   needs_reset = true;
 }
 
-/// Whether the sum of the currents is impossible. Currents into a star point sum to zero, so that the sum of
-/// three readings is the sum of their offsets. If it differs from that by more than 4 times the tolerance of
+/// Whether the sum of the currents is impossible. Currents into a star point sum to zero, so the sum of the
+/// three readings is the sum of their offsets. If the two sums differ by more than 4 times the tolerance of
 /// one offset, a reading is wrong.
 inline bool sum_is_strange(const ProtectedState<Scalar>& state, const BoardInput& in) {
   std::int32_t eighths = 0;
@@ -44,8 +44,8 @@ inline bool sum_is_strange(const ProtectedState<Scalar>& state, const BoardInput
   return eighths > most || eighths < -most;
 }
 
-/// Called before the tick. Only three wrong sums in a row are reported, because a single one may be a
-/// disturbance.
+/// Called before the tick. Reports a fault only after three wrong sums in a row, because a single wrong sum
+/// may be a disturbance.
 inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput& in) {
   strange_sums = !sum_is_strange(state, in)
                      ? std::uint8_t{0}
@@ -53,8 +53,8 @@ inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput&
   if (strange_sums == 3) trip(Reason::current_sensor);
 }
 
-/// The reason of a stopped drive. It is never `none`, so that the line "# fault" is printed during the whole
-/// stop.
+/// The reason why the drive is stopped. It is never `none`, so that the line "# fault" is printed during the
+/// whole stop.
 constexpr Reason reason_of(std::uint16_t faults) {
   return faults & fault_hall            ? Reason::hall
          : faults & fault_calibration   ? Reason::calibration
@@ -67,11 +67,11 @@ constexpr Reason reason_of(std::uint16_t faults) {
                                         : Reason::board;
 }
 
-/// Checks that a conversion ends in each period. Without a conversion for a millisecond, the current is not
-/// monitored, and the drive stops.
+/// Checks that conversions end. After a millisecond without a conversion (or four periods, if longer),
+/// nothing monitors the current, and the drive stops.
 inline void watch_converter(bool listening) {
   constexpr std::uint32_t longest = clock_Hz / 1000 > 4 * pwm_counts ? clock_Hz / 1000 : 4 * pwm_counts;
-  // The check is made twice, because a tick between its two reads looks like a missing tick.
+  // The check is made twice: a tick between the two reads of late() looks like a missing tick.
   const auto late = [] {
     const std::uint32_t seen = last_tick;
     return tim2().CNT - seen > longest;
@@ -79,8 +79,8 @@ inline void watch_converter(bool listening) {
   if (listening && !needs_reset && late() && late()) stand_until_reset(Reason::converter);
 }
 
-/// Called if c was typed: clears faults whose cause is over. The caller has disabled interrupts, because the
-/// period's end also writes DIER.
+/// Called after a typed c: clears faults whose cause has ended. The caller has disabled interrupts, because
+/// the interrupt at the period's end also writes DIER.
 inline void clear_board_fault() {
   kept_reason.forget();
   if (needs_reset) {
@@ -97,16 +97,16 @@ inline void clear_board_fault() {
 
 }  // namespace firmware
 
-/// Interrupt of the break input, or of a core in lockup. MOE is already cleared. The flag is set again as
-/// long as the level lasts.
+/// Interrupt of the break input, or of a lockup of the core. MOE is already cleared. The flag is set again
+/// while the level persists.
 extern "C" void TIM1_BRK_IRQHandler() {
   using namespace firmware;
   tim1().DIER = tim1().DIER & ~bit::BIE;
   trip(Reason::comparator);
 }
 
-/// Interrupt if the external clock stopped. The chip then runs on its own 8 MHz, and TIM1's break has turned
-/// the gates off. The function keeps the serial line's rate.
+/// Interrupt after the external clock stopped. The chip then runs on its own 8 MHz, and TIM1's break has
+/// turned the gates off. The function keeps the baud rate of the serial line.
 extern "C" void NMI_Handler() {
   using namespace firmware;
   rcc().CIR = rcc().CIR | bit::CSSC;

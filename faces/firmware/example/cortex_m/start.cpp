@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs from the reset to the program, and handles faults of the core.
+// The code from the reset to the program, and the handler of the core's faults.
 #include "faces/firmware/example/cortex_m/kept.hpp"
 #include "faces/firmware/example/cortex_m/registers.hpp"
 

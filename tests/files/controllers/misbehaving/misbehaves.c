@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A controller of one's own that does at a certain place what none may do: MISBEHAVES names the deed, and `well` does none. The step is
- * the 20th, MISBEHAVES_AT another one. */
+/* A user's controller that makes an error at a certain place. MISBEHAVES names the error; `well` makes none. The
+ * error occurs in step 20, or in step MISBEHAVES_AT. */
 #define _GNU_SOURCE
 #include <fenv.h>
 #include <pthread.h>
@@ -93,7 +93,7 @@ static void step(const void* config, void* state, const sixstep_measured* measur
   const Config* const own = config;
   State* const mine = state;
   const double wanted = own->gain * (setpoint - measured->current_A[0]);
-  mine->x += 1e-3 * wanted; /* rounds at every step */
+  mine->x += 1e-3 * wanted; /* rounds at each step */
   answer->enabled = 1;
   answer->source = SIXSTEP_LEG_A;
   answer->sink = SIXSTEP_LEG_B;
