@@ -7,14 +7,12 @@
 namespace batch {
 
 // The functions that the search uses, without the prefix nlopt_.
+// clang-format off
 #define SIXSTEP_NLOPT_CALLS(X) \
-  X(create)                    \
-  X(destroy)                   \
-  X(set_lower_bounds)          \
-  X(set_upper_bounds)          \
-  X(set_initial_step)          \
-  X(set_min_objective)         \
-  X(add_inequality_constraint) X(set_xtol_rel) X(set_xtol_abs) X(set_maxeval) X(optimize) X(force_stop)
+  X(create) X(destroy) X(set_lower_bounds) X(set_upper_bounds) X(set_initial_step) \
+  X(set_min_objective) X(add_inequality_constraint) X(set_xtol_rel) X(set_xtol_abs) X(set_maxeval) \
+  X(optimize) X(force_stop)
+// clang-format on
 
 struct NloptCalls {
 #define SIXSTEP_NLOPT_MEMBER(name) decltype(&nlopt_##name) name = nullptr;

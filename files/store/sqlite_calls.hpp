@@ -7,16 +7,12 @@
 namespace files {
 
 // The functions that stores use, without the prefix sqlite3_.
-#define SIXSTEP_SQLITE_CALLS(X)                                                                         \
-  X(open_v2)                                                                                            \
-  X(close_v2)                                                                                           \
-  X(exec)                                                                                               \
-  X(prepare_v2)                                                                                         \
-  X(step)                                                                                               \
-  X(reset)                                                                                              \
-  X(finalize)                                                                                           \
-  X(bind_int64) X(bind_double) X(bind_text) X(bind_null) X(column_count) X(column_type) X(column_int64) \
-      X(column_double) X(column_text) X(column_bytes) X(errcode) X(errmsg)
+// clang-format off
+#define SIXSTEP_SQLITE_CALLS(X) \
+  X(open_v2) X(close_v2) X(exec) X(prepare_v2) X(step) X(reset) X(finalize) X(bind_int64) \
+  X(bind_double) X(bind_text) X(bind_null) X(column_count) X(column_type) X(column_int64) \
+  X(column_double) X(column_text) X(column_bytes) X(errcode) X(errmsg)
+// clang-format on
 
 struct SqliteCalls {
 #define SIXSTEP_SQLITE_MEMBER(name) decltype(&sqlite3_##name) name = nullptr;

@@ -57,7 +57,7 @@ struct Moved {
 Moved moved(Scenario s) {
   ask(s, over(MetricKind::mean, Signal::position_error, cruises_from_s + 0.36, cruises_to_s));  // from 10/K_p
                                                                                                 // after the
-      // cruise begins
+  // cruise begins
   Measure error = over(MetricKind::mean, Signal::speed_error, 8e-3, 0.03);
   error.sampled = true;  // the reference is constant over a period, while the speed changes
   ask(s, error);

@@ -30,7 +30,7 @@ void check_energies(const Bridge& b, base::Problems& out) {
       {{"bridge.gate_current_A", b.gate_current_A},
        {"bridge.gate_source_charge_C", b.gate_source_charge_C},
        {"bridge.gate_drain_charge_C", b.gate_drain_charge_C}}};
-  const auto given = std::ranges::count_if(gate, [](const auto& key) { return key.second > 0; });
+  const auto given = std::count_if(gate.begin(), gate.end(), [](const auto& key) { return key.second > 0; });
   // When a switch turns on or off, voltage and current change one after the other, each with its gate charge.
   // Without one of the charges the computed loss would be too small.
   if (given == 1 || given == 2)
