@@ -286,8 +286,7 @@ TEST(UnitTable, FactorsAndDimensionsMultiply) {
   std::vector<std::string> all;
   for (const auto& [kind, units] : kinds())
     for (const std::string& unit : units)
-      if (unit.find("degC") == std::string::npos) all.push_back(unit);  // degC without another unit is a
-                                                                        // point on a scale
+      if (unit.find("degC") == std::string::npos) all.push_back(unit);  // degC is a point on a scale
   for (const std::string& a : all)
     for (const std::string& b : all) {
       const std::optional<Unit> x = unit_of(a), y = unit_of(b), product = unit_of("(" + a + ") (" + b + ")"),

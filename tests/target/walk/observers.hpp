@@ -188,7 +188,7 @@ struct ObserverWalk {
 
   void draw(Random& r) {
     const DrawnWinding winding(r);
-    const auto third = static_cast<std::int16_t>(3000 + r.bits() % 256);  // a bus of 3200 counts is some 0.43 V
+    const auto third = static_cast<std::int16_t>(3000 + r.bits() % 256);  // a bus of 3200 counts is 0.43 V
     config.follow = r.one_in(12) ? Follow::crossings : static_cast<Follow>(1 + r.below(3));
     config.voltage = {per_count<Scalar>(third), std::uint16_t{40}, r.one_in(3)};
     config.luenberger = drawn_luenberger<Scalar>(r, winding);
