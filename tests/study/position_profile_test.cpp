@@ -55,9 +55,8 @@ struct Moved {
   double lag_deg, speed_error_rad_s, current_A, highest_deg, landed_deg, at_the_end_deg;
 };
 Moved moved(Scenario s) {
-  ask(s, over(MetricKind::mean, Signal::position_error, cruises_from_s + 0.36, cruises_to_s));  // from 10/K_p
-                                                                                                // after the
-  // cruise begins
+  ask(s,
+      over(MetricKind::mean, Signal::position_error, cruises_from_s + 0.36, cruises_to_s));  // after 10/K_p
   Measure error = over(MetricKind::mean, Signal::speed_error, 8e-3, 0.03);
   error.sampled = true;  // the reference is constant over a period, while the speed changes
   ask(s, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's log is read as a trace.
+// A board's log is read into a trace.
 #include "text/recording/board_log.hpp"
 
 #include <gmock/gmock.h>
@@ -70,7 +70,7 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is not a number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
-  EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // the comparison decides on the number of rows
+  EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // the comparison decides whether two rows suffice
   EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("holds no row of numbers"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n3,4\n"), "nothing");
 }
@@ -102,7 +102,7 @@ TEST(BoardLog, ABrokenFormulaIsRefusedWithItsPlace) {
   EXPECT_THAT(log->trace.values[1], ElementsAre(DoubleEq(90.0), DoubleEq(90.0)));
 }
 
-/// A board's remarks are results like its numbers.
+/// A board's remarks, and the faults in its columns, appear as notes.
 TEST(BoardLog, RemarksBetweenRowsAndFaultsAreTold) {
   const char* const rows =
       "# sixstep on an ATmega2560\nt [us],i_m [mA],missed,faults\n100,1,0,0\n# fault: over-current\n200,2,3,0\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text, table and JSON of a measured frequency response have the same numbers.
+// The text, the table and the JSON of a measured frequency response contain the same numbers.
 #include "text/results/bode_text.hpp"
 
 #include <gmock/gmock.h>
@@ -66,14 +66,14 @@ TEST(BodeText, TableAndJsonHoldTheSameNumbers) {
       ASSERT_TRUE(std::getline(cells, cell, ','));
       EXPECT_EQ(std::stod(cell), point[name].get<double>()) << name;
     }
-    // The designed phase is shifted by whole turns to the one nearest the measured phase.
+    // The designed phase is shifted by whole turns until it is nearest to the measured phase.
     EXPECT_LE(std::abs(point["designed_phase_deg"].get<double>() - point["phase_deg"].get<double>()), 180.0);
   }
   EXPECT_NEAR(json["measured"]["crossover_Hz"].get<double>() / json["designed"]["crossover_Hz"].get<double>(),
               1.0, 0.03);
 }
 
-// A measured phase that is noise drifts over many turns; the designed one stays within one turn.
+// A noisy measured phase drifts over many turns. The designed phase must stay within one turn.
 TEST(BodeText, DesignedPhaseDoesNotFollowAPhaseThatIsNoise) {
   analysis::BodeStudy s = study_of(false);
   const auto before = nlohmann::json::parse(text::bode_json("locked", s));
@@ -86,7 +86,7 @@ TEST(BodeText, DesignedPhaseDoesNotFollowAPhaseThatIsNoise) {
     const double phase = after["points"][n]["designed_phase_deg"].get<double>();
     EXPECT_GT(phase, -360.0);
     EXPECT_LE(phase, 0.0);
-    // The loop is the same: only whole turns differ.
+    // The loop is unchanged: the phases differ only by whole turns.
     const double turns = (phase - before["points"][n]["designed_phase_deg"].get<double>()) / 360.0;
     EXPECT_NEAR(turns, std::round(turns), 1e-9);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mark within a number is the decimal mark only where the file is unambiguous: 2,940 mV are not 2.94 mV.
+// A mark within a number is read as a decimal mark only if the file is unambiguous: 2,940 mV must not become
+// 2.94 mV.
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
@@ -11,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// 2940 as "2,940": an integer, as meters show millivolts.
+/// A whole number with a mark between the thousands: 2940 as "2,940", as meters show millivolts.
 std::string grouped(double x, char mark) {
   const std::string digits = fmt::format("{:.0f}", std::fabs(x));
   const std::string sign = x < 0.0 && digits != "0" ? "-" : "";
@@ -46,11 +47,11 @@ TEST(DecimalMarks, AMarkFromAThousandOnIsRefused) {
                 AllOf(StartsWith(fmt::format("r.csv:2: holds 3{}784 beside ", mark)),
                       HasSubstr("may mean 3784 or 3.784")));
   EXPECT_THAT(told("t;rpm\n0;2,865\n1;2,870\n"), HasSubstr("holds 2,865, which may mean 2865 or 2.865"));
-  // Spreadsheets show thousands separators in whole columns.
+  // Spreadsheets may show thousands separators in each column.
   EXPECT_THAT(told("ms;rpm\n1000;2,865\n2000;2,870\n"), HasSubstr("may mean 2865 or 2.865"));
 }
 
-/// A number in quotes is one cell, so that its comma does not shift the columns after it.
+/// A number in quotes is one cell: its comma must not shift the columns after it.
 TEST(DecimalMarks, ACommaWithinQuotesPartsNoCells) {
   for (const char* head : {"t (ms),u_ab (mV),u_bc (mV)\n", ""})
     EXPECT_THAT(seen(in_millivolts(head, "{:.1f},\"{}\",\"{}\"\n", ','), between_lines).problem,
@@ -76,8 +77,8 @@ TEST(DecimalMarks, DecimalCommasAreReadWhereOneCellCanBeNothingElse) {
   EXPECT_THAT(second("t;u\n0;1234,567\n1;1,025\n"), ElementsAre(1234.567, 1.025));
 }
 
-/// With semicolons between cells the decimal mark is a comma, and a point may separate thousands if no
-/// smaller number is in the column.
+/// With semicolons between cells the decimal mark is a comma. A point may separate thousands if the column
+/// has no smaller number.
 TEST(DecimalMarks, PointsBetweenSemicolonsMayPartThousands) {
   EXPECT_THAT(told("ms;rpm\n0;1.000\n1;1.500\n"), HasSubstr("holds 1.000, which may mean 1000 or 1.000"));
   EXPECT_EQ(told("ms;rpm\n0.5;1.000\n1;1.500\n"), "");
@@ -94,7 +95,7 @@ TEST(DecimalMarks, DecimalPointsAreRead) {
   EXPECT_THAT(second("t,u\n0,1.025\n1,100\n2,0.5\n"), ElementsAre(1.025, 100.0, 0.5));
 }
 
-/// A rate that may be ten hertz or ten thousand is ignored; a column of time does not need it.
+/// A rate that may be 10 Hz or 10 000 Hz is ignored. A file with a column of time does not need a rate.
 TEST(DecimalMarks, ARateWithAMarkIsNotTaken) {
   for (const char* rate : {"Samplerate: 10,000 Hz\n", "Sample Rate;10,000\n"}) {
     expect_right(rate + replaced(plain("Time [s],u_ab,u_bc\n"), ",", ";"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact conversion of decimals to doubles without a library, and the one in use, equal the C++ library's.
+// Two conversions of decimals to doubles, the exact one without a library and the one in use, are compared
+// with the C++ library's conversion.
 #include "text/keys/decimal_number.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ using Kind = DecimalNumber::Kind;
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-/// The C++ library's value.
+/// The conversion of the C++ library.
 DecimalNumber by_library(const std::string& text) {
   double x = 0.0;
   const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -39,7 +40,7 @@ void expect_as_library(const std::string& text) {
   ASSERT_EQ(bits(x.value), bits(wanted.value)) << text;
 }
 
-/// The exact double from digits and exponent of to_chars, without any reader.
+/// The exact double from digits and exponent of to_chars, computed without a conversion of text.
 double by_whole_numbers(const std::string& scientific) {
   std::string digits;
   const std::size_t e = scientific.find('e');
@@ -98,7 +99,7 @@ TEST(DecimalNumber, LongOnesAreRoundedOnce) {
     expect_as_library(text);
 }
 
-/// Integer arithmetic alone gives the double from its shortest and its longest decimals.
+/// With only integer arithmetic, the double is restored from its shortest and from its longest decimal.
 TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   constexpr unsigned seed = 13;
   std::mt19937_64 random(seed);
@@ -113,8 +114,8 @@ TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   }
 }
 
-/// The middle between two doubles is a decimal of finite length: it rounds to the even one, and a slightly
-/// different number to the nearer one.
+/// The middle between two doubles is a decimal of finite length and must be rounded to the even double. A
+/// slightly different number must be rounded to the nearer double.
 TEST(NearestDouble, TheMiddleGoesToTheEvenOne) {
   constexpr unsigned seed = 14;
   std::mt19937_64 random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties of every key that follow from the common description.
+// Properties of every key that follow from the description shared by all interfaces.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,11 +16,11 @@
 namespace text {
 namespace SIXSTEP_TEST_FILE {
 
-/// Writes a struct as TOML; with `change` it first gives every member another value that its range allows.
+/// Writes a struct as TOML. With `change`, each member first receives another value from its allowed range.
 class Dump final : public base::Visitor {
  public:
   explicit Dump(bool change) : change_(change) {}
-  /// Lists come last: the lines after a heading would belong to it.
+  /// The whole text. Lists are last: the lines after their heading would belong to the list.
   std::string whole() const { return text_ + lists_; }
 
  private:
@@ -128,14 +128,15 @@ void expect_round_trip() {
   read_root(*document, read, complaints);
   for (const base::Problem& problem : complaints.in_order()) ADD_FAILURE() << to_string(problem);
   EXPECT_EQ(dump(read, false), text);
-  // Every line of the changed text differs from the default's; an equal line would not be tested.
+  // Every line of the changed text must differ from the default's line; otherwise the key would not be
+  // tested.
   const std::string plain = dump(unread, false);
   std::size_t begin = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos;
        begin = end + 1, end = text.find('\n', begin)) {
     const std::string line = text.substr(begin, end - begin + 1);
     if (line.starts_with("[[")) break;                // lists are empty by default
-    if (line.starts_with("bridge.device")) continue;  // one choice only
+    if (line.starts_with("bridge.device")) continue;  // the key has only one choice
     EXPECT_EQ(plain.find("\n" + line), std::string::npos) << line;
   }
 }
@@ -168,7 +169,7 @@ std::string letters(std::string_view text) {
 }
 
 TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
-  // The exceptions are counts, ratios, gains, and values in the unit of a mode or figure that another key
+  // Exceptions: counts, ratios, gains, and values in the unit of a mode or of a figure that another key
   // names.
   const std::set<std::string> without = {"pole_pairs",
                                          "delay_periods",
@@ -243,7 +244,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                         key.type == KeyType::numbers || key.type == KeyType::quantity;
     if (!number) continue;
     const std::string name = key.path.substr(key.path.rfind('.') + 1);
-    if (name == "ki_per_s") continue;  // a gain per second; its meaning gives the unit, as for kp and ki
+    if (name == "ki_per_s") continue;  // a gain per second; its description states the unit, as for kp and ki
     EXPECT_EQ(key.about.unit.empty(), without.contains(name)) << key.path;
     EXPECT_EQ(letters(name.substr(without_unit(name).size())), letters(key.about.unit)) << key.path;
   }

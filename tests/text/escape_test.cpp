@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every hostile name is made harmless by every function, as the reader of its target shows: bash, the parsers
-// of TOML and JSON, and the value read back from a URL.
+// Every escaping function makes every hostile name harmless. The reader of the target format proves this:
+// bash, the parsers of TOML and JSON, and the value read back from a URL.
 #include "text/escape/escape.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using sixstep::testing::hostile_names;
 
-/// Whether a text has bytes that control a terminal: controls, among them those with two bytes of UTF-8.
+/// Whether a text contains bytes that control a terminal, including the control characters of two UTF-8
+/// bytes.
 bool acts(const std::string& text) {
   for (std::size_t n = 0; n < text.size(); ++n) {
     const auto c = static_cast<unsigned char>(text[n]);
@@ -38,7 +39,7 @@ bool acts(const std::string& text) {
   return false;
 }
 
-bool is_utf8(const std::string& text) {  // the library of JSON checks it, and throws
+bool is_utf8(const std::string& text) {  // the JSON library checks the text and throws
   try {
     return !nlohmann::json(text).dump().empty();
   } catch (const nlohmann::json::type_error&) {
@@ -46,7 +47,7 @@ bool is_utf8(const std::string& text) {  // the library of JSON checks it, and t
   }
 }
 
-/// The text with replacement characters for bytes that are no UTF-8.
+/// The text, with a replacement character for each byte that is not UTF-8.
 std::string as_utf8(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -56,7 +57,7 @@ std::string as_utf8(const std::string& text) {
   return out;
 }
 
-/// The words that bash reads from a row.
+/// The words that bash reads from a line.
 std::vector<std::string> read_by_bash(const std::string& words) {
   const std::string script = ::testing::TempDir() + "sixstep-words.sh";
   std::ofstream(script) << "printf '%s\\0' " << words << "\n";
@@ -111,7 +112,7 @@ TEST(Escape, AShellTakesAWordForWhatItWas) {
   EXPECT_EQ(shell_word(""), "''");
 }
 
-/// A text without any of the words.
+/// The text without the given words.
 std::string without(std::string text, std::initializer_list<std::string_view> words) {
   for (const std::string_view word : words)
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at))
@@ -119,7 +120,7 @@ std::string without(std::string text, std::initializer_list<std::string_view> wo
   return text;
 }
 
-/// Whether a URL has only unreserved letters and codes such as %41.
+/// Whether a URL has only unreserved characters and codes such as %41.
 bool is_plain_url(std::string_view url) {
   for (std::size_t n = 0; n < url.size(); ++n) {
     if (url[n] != '%') {
@@ -185,7 +186,7 @@ TEST(Escape, TomlAndJsonReadBackWhatWasWritten) {
   }
 }
 
-/// A cell is one cell of one line, and none begins like a spreadsheet's formula.
+/// A cell must remain one cell of one line, and must not begin like a spreadsheet's formula.
 TEST(Escape, ACellIsANameAndRunsNothing) {
   for (const std::string& name : hostile_names()) {
     for (const std::string& text : {name, "=" + name, " +" + name, "-" + name, "@" + name, "\uff1d" + name}) {
@@ -195,7 +196,7 @@ TEST(Escape, ACellIsANameAndRunsNothing) {
           std::string("=+-@").find(shown.substr(std::min(shown.find_first_not_of(' '), shown.size()), 1)[0]),
           std::string::npos)
           << shown;
-      // A reader by RFC 4180 gets the name from the cell.
+      // A reader by RFC 4180 must restore the name from the cell.
       std::string read = cell;
       if (cell.starts_with('"')) {
         ASSERT_TRUE(cell.size() > 1 && cell.ends_with('"')) << cell;

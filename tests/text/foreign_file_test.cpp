@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter files of other programs are recognised, and the message names the lines to type.
+// Parameter files of other programs are recognised. The message names the lines that the user must type.
 #include "text/toml/foreign_file.hpp"
 
 #include <gmock/gmock.h>
@@ -69,7 +69,7 @@ TEST(ForeignFile, AsAScenarioToo) {
   EXPECT_THAT(to_string(scenario.problems()[0]), HasSubstr("s.xml:1:1: is a VESC motor configuration"));
 }
 
-/// The lines of the message give a motor.
+/// The lines that the message names define a motor.
 TEST(ForeignFile, TheLinesAreTaken) {
   const char* const typed =
       "name = \"m\"\nback_emf = \"sine\"\npole_pairs = 7\nresistance_ohm = { value = 0.0187, frame = \"phase\" }\n"

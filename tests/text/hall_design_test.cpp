@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The design's values for Hall probes hold and are not too cautious: six motors of the library from the
-// smallest to the largest inertia, speeds over one edge and over six.
+// The design's values for Hall probes are sufficient and not too cautious: six motors of the motor library
+// from the smallest to the largest inertia, with speeds measured over one edge and over six edges.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,8 +41,8 @@ double figure(const Outcome& o, const std::string& name) {
   return NAN;
 }
 
-/// The motors within the tolerances that fail a design: they oscillate, or have not settled after twice the
-/// time (the doubled inertia takes that long with ideal sensors too).
+/// Number of motors within the tolerances that a design fails for: their speed oscillates, or has not settled
+/// after twice the time. (With the doubled inertia it takes this long with ideal sensors too.)
 struct Field {
   int motors = 0, swing = 0, late = 0;
 };
@@ -123,7 +123,7 @@ TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
 }
 
 TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
-  // The design's speed loop for adaptive edges runs on the same drive with six edges at every speed.
+  // The speed loop designed for adaptive edges must fail on the same drive with six edges at every speed.
   const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601")};
   const auto adaptive = study_design({.subject = subject, .spec = spec_of({"maxon-251601", 24, 0})});
   ASSERT_TRUE(adaptive);

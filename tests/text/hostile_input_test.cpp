@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hostile files: numbers that overflow, text that nests or repeats without end. Each gets a message of a
-// readable length, in a number of steps proportional to the file.
+// Hostile files: numbers that overflow, text that nests or repeats without end. Each must cause a message of
+// readable length, in a number of steps proportional to the file's length.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -85,7 +85,7 @@ TEST(HostileInput, MagnetsThatAreGoneAtTheStartAreRefusedAndLaterOnNoDefect) {
               ElementsAre(HasSubstr("heat.ambient_degC = 125 leaves the magnets a tenth at most")));
   EXPECT_THAT(told(motor("50") + "housing_degC = 116\n"),
               ElementsAre(HasSubstr("heat.housing_degC = 116 leaves")));
-  // The housing warms up beyond the limit, and the magnets stay at their tenth.
+  // The housing warms up beyond the limit, and the magnets keep a tenth of their flux.
   const auto scenario = read_scenario_text(
       "x.toml",
       "motor = \"maxon-251601\"\nduration_s = 4\nmotor_override.magnet_loss_percent_K = 1\n"
@@ -140,7 +140,7 @@ TEST(HostileInput, ATorqueWithoutMeasureIsRefused) {
   EXPECT_THAT(told(head + "[load]\ntimes_s = [0, 1e-4]\ntorques_Nm = [0, 1e6]\n"), SizeIs(1));
 }
 
-/// Each number is allowed alone: together they accelerate the rotor beyond all bounds.
+/// Each number is allowed, but together the numbers accelerate the rotor beyond all bounds.
 TEST(HostileInput, ARunThatRunsAwayEndsWithAFaultAndWritesNumbersOnly) {
   const auto scenario = read_scenario_text(
       "x.toml",
@@ -272,8 +272,8 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }
 
 }  // namespace SIXSTEP_TEST_FILE
-/// A lossy gear drives a heavy load. Where the gear's torque reverses, its value is rounding noise, whose
-/// sign was once taken for the torque's.
+/// A gear with losses drives a heavy load. When the gear's torque reverses, its value is rounding noise. The
+/// program once used the sign of this noise as the sign of the torque.
 TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
   const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"
 duration_s = 0.010190500697991007
@@ -297,8 +297,8 @@ speed_rad_s = -372.60553875793
   EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
 }
 
-/// Two currents are at the noise and the third is at twice the noise. A small one becomes zero, the balance
-/// reduces the large one to the noise, and then the large one becomes zero too. Formerly this current stayed
+/// Two currents are at the noise, and the third is at twice the noise. One of the small currents becomes
+/// zero, the balance reduces the large one to the noise, and then it becomes zero too. Formerly it remained
 /// in a diode that no mode allows.
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every described key in turn gets numbers that no bench has: a message refuses it, or its run ends with only
-// numbers in it and without excessive steps.
+// Every described key in turn is set to numbers that no bench has. A message must refuse the number, or the
+// run must end with only numbers in its results and without excessive steps.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -21,7 +21,8 @@
 namespace text {
 namespace SIXSTEP_TEST_FILE {
 
-/// The scenario has one entry in every list of tables, and a bus, so that each key has an effect.
+/// The scenario has one entry in every list of tables, and a bus with R and C, so that each key has an
+/// effect.
 const std::string common = R"(
 motor = "maxon-251601"
 duration_s = 0.0005
@@ -88,7 +89,7 @@ align = { current_A = 1 }
 [reference]
 value = 100
 )";
-/// A chip's arithmetic overflows earlier, or wraps.
+/// In a chip's arithmetic, numbers overflow earlier or wrap.
 const std::string speed_in_float = common + R"(
 [control]
 mode = "speed"
@@ -105,11 +106,11 @@ value = 10
 )";
 const std::string off = common + "[control]\nmode = \"off\"\n";
 
-/// The number of segments tested; a longer run is cut there, and its time must have advanced.
+/// Number of segments after which a run is cut; its time must have advanced by then.
 constexpr std::int64_t most_segments = 20'000;
 
-/// The bound is two segments in the shortest time constant, of which a few may be adjacent, some per PWM
-/// period and tick, and some at the start of any run.
+/// Bound on the number of segments: two per shortest time constant, a few of which may be adjacent, some per
+/// PWM period and tick, and some at the start of any run.
 double most_segments_in(double simulated_s, const study::Scenario& s) {
   return 1000 + simulated_s * (20 * sixstep::plant::fastest_answer_1_s + 20 / s.pwm.period_s);
 }
@@ -152,7 +153,7 @@ void expect_refused_or_sound(const std::string& text, const Setting& setting) {
   expect_sound_run(*scenario);
 }
 
-/// The path of "require.max" in the first entry of its list: "require[0].max".
+/// The path of a key in the first entry of its list: "require[0].max" for "require.max".
 std::string path_in_file(const KeyEntry& entry) {
   for (const std::string_view list : {"at", "require", "compare", "spread"})
     if (entry.path.starts_with(std::string(list) + "."))
@@ -209,14 +210,14 @@ std::vector<KeyEntry> keys_of_scenarios_and_motors() {
 
 TEST(HostileNumbers, EveryKeyRefusesThemOrRunsToNumbers) {
   const std::vector<KeyEntry> keys = keys_of_scenarios_and_motors();
-  ASSERT_GT(keys.size(), 150u);  // the keys of motor_override included
+  ASSERT_GT(keys.size(), 150u);  // including the keys of motor_override
   const auto expect = [](const std::string& text, const KeyEntry& key, const std::string& number) {
     expect_refused_or_sound(text, {path_in_file(key), in_key(key, number)});
   };
   const std::array<const std::string*, 4> drives{&current_loop, &product, &speed_in_float, &position_in_q31};
   for (std::size_t k = 0; k < keys.size(); ++k)
     for (std::size_t d = 0; d < drives.size(); ++d) {
-      // Each key runs in one drive of each kind; in every drive with all cases.
+      // Each key is tested in one drive of each kind, and in every drive if all cases run.
       if (!sixstep::testing::all_cases() && d != k % 2 && d != 2 + k % 2) continue;
       if (d < 2)
         for (const char* number : hostile) expect(*drives[d], keys[k], number);
@@ -273,7 +274,7 @@ TEST(HostileNumbers, AMotorAtTheEndsOfItsKeysIsCheckedAndDesignedForInNumbers) {
   EXPECT_GT(checked, 50u);
 }
 
-/// Two ends together: values allowed alone can be absurd together.
+/// Two keys at the ends of their ranges: values that are allowed separately can be absurd together.
 TEST(HostileNumbers, PairsOfExtremesAreRefusedOrRunToNumbers) {
   std::vector<Setting> ends;
   for (const KeyEntry& key : scenario_keys()) {

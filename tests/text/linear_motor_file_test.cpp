@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor's files read and write its own words, and refuse those of the other kind.
+// A linear motor's files have their own terms; the terms of a rotary motor are refused in them, and vice
+// versa.
 #include <gmock/gmock.h>
 
 #include "sixstep/design/sheet/parameters.hpp"
@@ -31,7 +32,7 @@ TEST(LinearMotorFile, FillsTheTurningMotorsMembers) {
   EXPECT_NEAR(m->shaft.J_kg_m2, 0.03375, 1e-17);
   EXPECT_EQ(m->K_t_Nm_A, 1.675);
   EXPECT_EQ(m->shaft.B_Nm_s, 0.01825);
-  EXPECT_NEAR(m->machine.pole_pairs, 400.0, 1e-10);  // 8 in 2 pi 20 mm
+  EXPECT_NEAR(m->machine.pole_pairs, 400.0, 1e-10);  // 8 pole pairs in 2 pi 20 mm
   EXPECT_NEAR(m->no_load_speed_rad_s, 14.05, 1e-12);
   EXPECT_NEAR(m->stall_torque_Nm, 39.0, 1e-12);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file as a user types it: every spelling, every template filled in, and each error reported once
-// with its place.
+// A motor file as a user types it: every spelling of a key, every template filled in, and each error reported
+// once with its position.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -47,7 +47,7 @@ class MotorFile : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A whole sheet in which `changed` replaces the line of its key, or is added.
+/// A complete sheet in which `changed` replaces the line of its key, or is added.
 std::string sheet_with(const std::string& changed) {
   std::map<std::string, std::string> lines = {
       {"name", "\"m\""},
@@ -124,7 +124,7 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
             "inertia_kgm2 = 6e-06; the brake only adds: swap the two");
 }
 
-/// Visits a sheet and finds one quantity.
+/// Visits a sheet and stores one quantity.
 class Find final : public base::Visitor {
  public:
   explicit Find(std::string_view wanted) : wanted_(wanted) {}
@@ -142,7 +142,7 @@ TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
   for (const KeyEntry& key : sheet_keys())
     for (const base::Spelling& spelling : key.about.also) {
       SCOPED_TRACE(spelling.key);
-      if (key.type != KeyType::quantity) continue;  // a count: the template's test reads it
+      if (key.type != KeyType::quantity) continue;  // a count: the test of the templates reads it
       base::Result<Document> document =
           Document::parse("m.toml", fmt::format("name = \"m\"\n{} = 2.50\n", spelling.key));
       ASSERT_TRUE(document);
@@ -173,14 +173,14 @@ TEST_F(MotorFile, AnOverrideInAnotherSpellingOrWayReplacesTheSheets) {
     if (!scenario) ADD_FAILURE() << to_string(scenario.problems().front());
     return *design::motor_model(scenario->sheet);
   };
-  EXPECT_EQ(model("resistance_mohm = 900").machine.R_ohm, 0.45);  // the frame is the sheet's
+  EXPECT_EQ(model("resistance_mohm = 900").machine.R_ohm, 0.45);  // the frame is that of the sheet
   EXPECT_EQ(model("inductance_uH = { value = 300, frame = \"phase\" }").machine.L_H, 3e-4);
   EXPECT_EQ(model("poles = 14").machine.pole_pairs, 7);
   const double flux = model("flux_linkage_mWb = 2\nback_emf = \"sine\"").machine.K_e_V_s;
   EXPECT_NEAR(flux, 8 * 2e-3, 1e-17);
 }
 
-/// The template with its open lines (`key = ` or `# key = `) filled in by key.
+/// The template, with its open lines (`key = ` or `# key = `) filled in by key.
 std::string filled(const std::string& text, const std::map<std::string, std::string>& values) {
   std::set<std::string> seen;
   std::string result;
@@ -211,7 +211,7 @@ TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
 }
 
 TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
-  // The 251601 in the words of each trade, as a sine: K_e = K_t/1.65399 of the numbers below.
+  // The 251601 with the terms of each maker, as a sine machine: K_e = K_t/1.65399 of the numbers below.
   const double K_e = 0.01675, K_t = 1.6539866862653762 * K_e;
   const std::map<std::string, std::map<std::string, std::string>> sheets = {
       {"maxon",

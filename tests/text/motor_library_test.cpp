@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's motors: each reads, is consistent or names its contradictions, and simulates or names the
-// reason why not.
+// The motors of the motor library: each is readable, is consistent or names its contradictions, and can be
+// simulated or names the reason why not.
 #include "text/motor/motor_library.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
-/// Visits a sheet and calls a function for each given value.
+/// Visits a sheet and calls a function with each given value.
 class EachQuantity final : public base::Visitor {
  public:
   using Call = std::function<void(std::string_view key, const base::Quantity& q, const base::About& about)>;
@@ -56,7 +56,8 @@ TEST_P(MotorLibrary, EveryValueHasSourceAndTrust) {
 }
 
 TEST_P(MotorLibrary, AgreesWithItselfOrSaysWhereNot) {
-  // check_sheet refuses a known_deviation of a relation that holds, so that both directions are tested.
+  // check_sheet refuses a known_deviation from a relation that the sheet satisfies, so that both directions
+  // are tested.
   const auto check = design::check_sheet(sheet_);
   if (!check) FAIL() << to_string(check.problems().front());
   EXPECT_TRUE(check->consistent);
@@ -85,7 +86,7 @@ TEST_P(MotorLibrary, SimulatesOrSaysWhyNot) {
 
 TEST_P(MotorLibrary, WhatIsNotSimulatableLacksSomethingOrSaysItsDoubt) {
   if (sheet_.simulatable) return;
-  // A doubtful value is not a missing one: these files describe their doubt in words.
+  // A doubtful value is not a missing value: these files describe their doubts in words.
   const std::set<std::string> doubted = {"anaheim-blws235d", "anaheim-blz362s", "drone-blk2blade",
                                          "jk42bls01",        "gmcc-ksk89d53u",  "qs138-70h"};
   sheet_.simulatable = true;

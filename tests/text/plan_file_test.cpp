@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans as files and as words: the plan holds their values, and each run's scenario equals a file written for
-// it.
+// Plans from files and from words on the command line. The plan contains their values, and each run's
+// scenario equals a file written for this run.
 #include "text/plan/plan_file.hpp"
 
 #include <gmock/gmock.h>
@@ -145,7 +145,7 @@ TEST(PlanFile, IsTheSamePlanWhereEachRunIs) {
     return plan_identity(plan) != plan_identity(other);
   };
   analysis::Plan other = plan;
-  other.points = 6;  // a grid ignores it
+  other.points = 6;  // a grid ignores the number of points
   EXPECT_FALSE(differs(other));
   other = plan;
   other.axes[0].points = 4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets of other trades typed as printed: electrical hertz, ounces, kilograms as weights, rms amperes, and
-// the makers' words for the keys.
+// Sheets of several trades typed as printed: electrical hertz, ounces, kilograms as weights, rms amperes, and
+// the makers' names of the keys.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using ::testing::HasSubstr;
 
-/// A motor file in memory alone.
+/// A motor file that is only in memory.
 base::Result<design::Sheet> sheet_of(const std::string& text) {
   return read_sheet("m.toml", [&](const Naming&) -> base::Result<NamedText> {
     return NamedText{"m.toml", text};
@@ -37,7 +37,7 @@ std::string told(const std::string& text) {
 
 constexpr const char* sine = "name = \"m\"\nback_emf = \"sine\"\n";
 
-/// 6 V at 40 000 rpm with 2 pole pairs: 1333.3 electrical hertz, 4.5 mV for each.
+/// 6 V at 40 000 rpm with 2 pole pairs: 1333.3 Hz electrical, 4.5 mV/Hz.
 TEST(PrintedUnits, VoltsPerHertzAreElectrical) {
   const design::Sheet s =
       read(std::string(sine) +
@@ -48,7 +48,7 @@ TEST(PrintedUnits, VoltsPerHertzAreElectrical) {
   const auto check = design::check_sheet(s);
   ASSERT_TRUE(check);
   EXPECT_TRUE(check->consistent);
-  EXPECT_NEAR(check->relations.at(0).deviation, 0.0, 1e-4);  // 6667 for 6666.7
+  EXPECT_NEAR(check->relations.at(0).deviation, 0.0, 1e-4);  // 6667 instead of 6666.7
   EXPECT_NEAR(check->constants.K_e_V_s->value, 6.0 / (40000.0 * M_PI / 30.0) / std::sqrt(3.0), 1e-18);
 }
 
@@ -162,12 +162,12 @@ TEST(PrintedUnits, AScenarioKnowsThePolePairsOfItsMotor) {
   EXPECT_NEAR(speed_rad_s, 20 * M_PI, 1e-14);
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"10 Hz\"\n", speed_rad_s),
               HasSubstr("hertz may count turns"));
-  // 1e6 rad/s is the largest value: 8 times as many electrical ones.
+  // The largest value is 1e6 rad/s mechanical, which is 8 times as much electrical.
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"1e9 erpm\"\n", speed_rad_s),
               HasSubstr("must lie in -76394372.68410976 to 76394372.68410976, in erpm"));
 }
 
-/// Each word of a maker's sheet, and the key that it means.
+/// Names in makers' sheets, and the key that each name means.
 TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
   constexpr const char* words[][2] = {
       // Faulhaber
@@ -204,7 +204,7 @@ TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
       {"rated_voltage_V", "nominal_voltage_V"},
       {"max_continuous_torque_mNm", "nominal_torque_mNm"},
       {"max_coil_temperature_degC", "max_winding_temperature_degC"},
-      // servo sheets
+      // servo drives
       {"torque_constant_Nm_Arms",
        "torque_constant_Nm_A and give the value in that unit, with a frame that is rms"},
       {"nominal_current_Arms", "nominal_current_A and give the value in that unit, with a frame that is rms"},
@@ -234,7 +234,8 @@ TEST(PrintedUnits, AWordWithoutAKeyIsToldWhereItBelongs) {
   EXPECT_THAT(scenario_told("gear_ratio = 10\n", unused), ::testing::Not(HasSubstr("load.gear in")));
 }
 
-/// A drive identifies half of the value between two terminals; a branch of the delta has 3/2 of it.
+/// If a drive identified the value, it is half of the value between two terminals. A branch of the delta has
+/// 3/2 of the value between two terminals.
 TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
   const std::string all = told(std::string(sine) +
                                "pole_pairs = 2\nconnection = \"delta\"\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are incomplete or contradict themselves: a message refuses each by its name, or names the parts
-// not used.
+// Recordings that are incomplete or contradictory: a message refuses each with the reason, or names the parts
+// that are not used.
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
@@ -28,7 +28,7 @@ TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
               HasSubstr("heads u_ab as A, where V belongs"));
 }
 
-/// The heading's unit contradicts the one in the row below it, or above it in Tektronix' files.
+/// The unit in the heading contradicts the unit in the row below it, or above it in Tektronix files.
 TEST(RecordedDoubts, UnitsThatContradictEachOtherAreRefused) {
   for (const char* head :
        {"time [s],u_ab (mV),u_bc (mV)\ns,V,V\n", "Vertical Units,V,V\ntime [s],u_ab (mV),u_bc (mV)\n"})
@@ -48,7 +48,7 @@ TEST(RecordedDoubts, UnitsAboveTheHeadingsCount) {
   EXPECT_EQ(amps->columns[1].unit, "A");
 }
 
-/// sixstep's own columns are those that --columns names: i_m in A is not i in m/A.
+/// The columns that --columns names are sixstep's columns: i_m_A is i_m in A, not i in m/A.
 TEST(RecordedDoubts, AKnownNameComesBeforeAUnit) {
   const auto read = read_recording("r.csv", "t_s,i_m_A,i_m,speed_rad_s\n0,1,2,3\n");
   ASSERT_TRUE(read);
@@ -61,7 +61,7 @@ TEST(RecordedDoubts, AKnownNameComesBeforeAUnit) {
   EXPECT_THAT(units, ElementsAre("s", "A", "", "rad/s"));
 }
 
-/// A letter at the end of a name is not a unit that must fit.
+/// A letter at the end of a name is not read as a unit if the unit does not fit.
 TEST(RecordedDoubts, LettersThatArePhases) {
   for (const char* head : {"time,phase_A,phase_B,phase_C\n", "time,phase A,phase B,phase C\n",
                            "time,u_A,u_B,u_C\n", "time,U_a,U_b,U_c\n"}) {
@@ -85,7 +85,7 @@ TEST(RecordedDoubts, RowsOfMoreCellsThanHeadingsAreToldOf) {
               HasSubstr("r.csv:502: has 4 cells, and the table 3 columns"));
 }
 
-/// A word of an instrument for a missing sample does not remove a channel.
+/// An instrument's word for a missing sample must not silently remove a channel.
 TEST(RecordedDoubts, ABadCellIsNamed) {
   for (const char* cell : {"\xe2\x88\x9e", "-\xe2\x88\x9e", "NaN", "nan", "inf", "-inf", "OL", "---", "***",
                            "#N/A", "1.#INF", "-1.#IND", "", "  ", "overflow"})
@@ -128,7 +128,7 @@ TEST(RecordedDoubts, VoltagesThatAreNamedSayWhatTheyAreByTheirHeadings) {
   EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not name the points"));
 }
 
-/// A known column is not called unknown: the reason says what it is and which column replaced it.
+/// A known column is not called unknown: the note says what the column is and which column is used instead.
 TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   const auto notes = [](const std::string& more, const BenchColumns& columns = {}) {
     return seen(table("time [s],u_ab [V],u_bc [V]," + more + "\n",
@@ -150,7 +150,7 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   EXPECT_THAT(notes("u_a [mA]"), ElementsAre("not used: u_a (in mA)"));
 }
 
-/// Any two of the three voltages suffice, and none of these pairs reverses the motor's direction.
+/// Any two of the three voltages suffice; none of these pairs reverses the motor's direction.
 TEST(RecordedDoubts, AnyTwoVoltagesOfThreeAreUsed) {
   for (const char* head : {"time [s],u_ab,u_bc\n", "time [s],u_bc,u_ca\n", "time [s],u_ca,u_ab\n"}) {
     const Seen found = seen(plain(head));
@@ -160,7 +160,7 @@ TEST(RecordedDoubts, AnyTwoVoltagesOfThreeAreUsed) {
     EXPECT_FALSE(found.backward) << head;
     EXPECT_NEAR(found.line_peak_mV_s / right_mV_s, 1.0, 1e-5) << head;
   }
-  // The columns are in another order than the phases.
+  // Here the order of the columns differs from the order of the phases.
   const Seen turned = seen(plain("time [s],u_ab,u_ca\n"));
   EXPECT_TRUE(turned.backward);
   EXPECT_THAT(turned.channels, ElementsAre("u_ca", "u_ab"));
@@ -169,7 +169,8 @@ TEST(RecordedDoubts, AnyTwoVoltagesOfThreeAreUsed) {
 
 TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
   const std::string both = table("time [s],u_ab,u_a,u_b,u_c\n", [](int, double t, double a, double b) {
-    const double k = 1.0 / std::sqrt(3.0);  // three voltages of the phases' size, 120 degrees apart
+    const double k = 1.0 / std::sqrt(3.0);  // three voltages with the amplitude of the phases, 120 degrees
+                                            // apart
     return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f},{:.5f}\n", t, a, k * a, k * b, -k * (a + b));
   });
   BenchColumns star;
@@ -185,7 +186,7 @@ TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
   EXPECT_THAT(seen(one_each, star).channels, ElementsAre("u_a"));
 }
 
-/// Without known headings every column is a voltage, except one that is known to be none.
+/// Without known headings every column is a voltage, except a column that is known to be something else.
 TEST(RecordedDoubts, AHallLineIsTakenForNoVoltage) {
   const Seen found = seen(plain("time [s],CH1,hall1\n"), between_lines);
   EXPECT_THAT(found.channels, ElementsAre("CH1"));
@@ -211,7 +212,7 @@ TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
               ElementsAre("CH1", "CH1 (column 3)"));
 }
 
-/// The preamble's rate must agree with the column of time.
+/// The rate in the preamble must agree with the column of time.
 TEST(RecordedDoubts, ARateInThePreamble) {
   const std::string rate = "# Samplerate: 10 kHz\n";
   expect_right(rate + plain("Time,u_ab,u_bc\n"));
@@ -233,17 +234,17 @@ TEST(RecordedDoubts, ARateInThePreamble) {
         << head;
   EXPECT_THAT(seen("Samplerate: 1 kHz\n" + plain("Time [s],u_ab,u_bc\n")).problem,
               HasSubstr("contradicts itself"));
-  // Every tenth sample of a faster acquisition is no contradiction, but gives a note.
+  // Every tenth sample of a faster acquisition is not a contradiction, but causes a note.
   EXPECT_THAT(seen("Samplerate: 100 kHz\n" + plain("Time [s],u_ab,u_bc\n")).notes,
               ElementsAre(HasSubstr("rows are 0.0001 s apart")));
 }
 
 TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
-  // The column of microseconds has a heading in seconds: 117 Hz become 117 uHz.
+  // The time column is in microseconds, but its heading says seconds: 117 Hz become 117 uHz.
   EXPECT_THAT(
       seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
       AllOf(HasSubstr("time makes 0.001 rpm with 7 pole pairs"), HasSubstr("check the unit of time")));
-  // The columns of millivolts have a heading in kilovolts.
+  // The voltage columns are in millivolts, but their headings say kilovolts.
   EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.6f},{:.5f},{:.5f}\n", 1.0, 1e3)).problem,
               AllOf(HasSubstr("no brushless machine is built with more than 1e+06"),
                     HasSubstr("the voltage is read too great")));
@@ -270,7 +271,7 @@ TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
     return fmt::format("{:.6f},{:.5f}\n", at, u_ab(at));
   });
   EXPECT_THAT(seen(torn.substr(0, torn.find("\n1.010"))).problem, HasSubstr("is followed by a gap of 1 s"));
-  // The flanks of a trapezoid are straight: its flat tops are no clipping.
+  // The flanks of a trapezoid are straight: its flat tops must not be taken for clipping.
   const std::string trapezoid = table("time [s],u_a,u_b,u_c\n", [](int, double t, double, double) {
     const auto phase = [&](double lag) {
       const double x = std::fmod(w * t / (2.0 * std::numbers::pi) + 2.0 - lag, 1.0);

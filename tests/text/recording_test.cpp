@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables that instruments export are read; any other file gets one message with the place and the cure.
+// Tables that instruments export are read. Any other file causes one message with the position and the cure.
 #include "text/recording/recording.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ Recording read(const std::string& csv) {
   return recording ? *recording : Recording{};
 }
 
-/// The one message, or the empty text without a problem.
+/// The only message, or an empty text if there is no problem.
 std::string told(const base::Problems& problems) {
   EXPECT_LE(problems.size(), 1u);
   return problems.empty() ? "" : to_string(problems[0]);
@@ -52,7 +52,7 @@ std::string told_of_emf(const std::string& csv, const BenchColumns& columns = {}
 
 constexpr int codes[] = {4, 6, 2, 3, 1, 5};  // docs/reference/notation.md, forward
 
-/// Ten rows in each sector.
+/// A log with ten rows in each sector.
 std::string hall_log(int sectors, const char* heading = "time [s],hall1,hall2,hall3\n") {
   std::string out = heading;
   for (int row = 0; row < 10 * sectors; ++row) {
@@ -62,7 +62,7 @@ std::string hall_log(int sectors, const char* heading = "time [s],hall1,hall2,ha
   return out;
 }
 
-/// A hundred rows in each period of a sine of 20 ms.
+/// A recording with a hundred rows in each period of a sine of 20 ms.
 std::string scope(double periods, double peak_V = 3.0, const char* heading = "time [s],u_ab [V]\n") {
   std::string out = heading;
   for (int row = 0; row < 100 * periods; ++row)
@@ -143,7 +143,7 @@ TEST(Recording, CellsThatAreNoNumbersAreNamedByTheirLine) {
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\nnever,2\n"),
               StartsWith("r.csv:3: time \"never\" is not a number"));
   EXPECT_THAT(told_of_emf(scope(2) + "0.5,\xff\xfe\n"), HasSubstr("is not a number"));
-  // A column that is not used may have any content.
+  // A column that is not used may contain anything.
   std::string remarked = "time [s],u_ab [V],remark\n";
   for (int row = 0; row < 400; ++row)
     remarked += fmt::format("{},{},n/a\n", 2e-4 * row, std::sin(0.0628 * row));
@@ -172,7 +172,7 @@ TEST(Recording, TimesThatDoNotTell) {
               StartsWith("r.csv: heads time as V, where s belongs; name another column"));
 }
 
-/// An interval replaces a missing time; it does not override the file's.
+/// A given interval replaces a missing time, but does not override the file's time.
 TEST(Recording, AnIntervalBesideATime) {
   const auto times = [](const char* csv, double interval_s) {
     Notes notes;
@@ -184,15 +184,15 @@ TEST(Recording, AnIntervalBesideATime) {
               ElementsAre(DoubleEq(2e-3), DoubleEq(4e-3), DoubleEq(6.1e-3)));
   EXPECT_THAT(times("time,u\n0,1\n1,2\n2,3\n", 0.5), ElementsAre(0.0, 0.5, 1.0));
   EXPECT_THAT(times("time,u\n10,1\n20,2\n30,3\n", 1e-2), ElementsAre(0.01, 0.02, 0.03));  // in ms
-  // The time has too few digits: the rows are 0.4 ms apart.
+  // The time has too few digits: the rows are really 0.4 ms apart.
   EXPECT_THAT(
       times("time [ms],u\n5,1\n5,2\n5,3\n6,4\n6,5\n", 4e-4),
       ElementsAre(DoubleEq(5e-3), DoubleEq(5.4e-3), DoubleEq(5.8e-3), DoubleEq(6.2e-3), DoubleEq(6.6e-3)));
   EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n6,3\n", 1e-3), ElementsAre());
-  EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n8,3\n", 2e-3), ElementsAre());  // a row is lost
+  EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n8,3\n", 2e-3), ElementsAre());  // a row is missing
   EXPECT_THAT(times("Samplerate: 1 kHz\nu,v\n2,1\n4,2\n", 1e-3), ElementsAre(0.0, 1e-3));
   EXPECT_THAT(times("Samplerate: 1 kHz\nu,v\n2,1\n4,2\n", 1e-2), ElementsAre());
-  // The first of the columns without headings is a voltage if it cannot be the time.
+  // If the first of the columns without headings cannot be the time, it is a voltage.
   EXPECT_THAT(times("3,1\n1,2\n2,3\n", 0.5), ElementsAre(0.0, 0.5, 1.0));
   Notes notes;
   const auto record = emf_record_of(
@@ -227,7 +227,7 @@ TEST(Recording, WrongColumns) {
               StartsWith("r.csv: has 1 voltage of lines; u_ab and u_bc are needed"));
 }
 
-/// With the wrong character between the cells there is one column.
+/// With a wrong separator, the file has one column.
 TEST(Recording, WrongSeparators) {
   EXPECT_THAT(told_of_hall("time|hall1|hall2|hall3\n0|1|0|0\n1|1|1|0\n"),
               StartsWith("r.csv: holds no row of numbers"));
@@ -251,7 +251,7 @@ TEST(Recording, TooShortStandingOrDead) {
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1,2\n2.5,1\n"), StartsWith("time = 3 rows are too few"));
 }
 
-/// Quotations in a message are short, whatever the file contains, because a person reads the message.
+/// Quotations in a message are short, whatever the file contains, because a person reads it.
 TEST(Recording, WhatIsQuotedIsShort) {
   const std::string endless(1'000'000, 'x');
   for (const std::string& csv :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A test's own folder for scenarios that name other files, and the messages of reading them.
+// A separate folder of a test for scenarios that name other files, and the messages on reading them.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class ScenarioFolder : public testing::Test {
   base::Result<study::Scenario> read(const std::string& text, const files::ReadOptions& options = {}) {
     return files::read_scenario_text((folder_ / "x.toml").string(), text, options);
   }
-  /// Messages name files by their path within the folder.
+  /// The messages on a text; file names are relative to the folder.
   std::vector<std::string> complaints(const std::string& text, const files::ReadOptions& options = {}) {
     const base::Result<study::Scenario> s = read(text, options);
     std::vector<std::string> lines;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A written scenario reads back as the same one: every shipped one, and strings that TOML must escape.
+// A written scenario, read again, is the same scenario: every shipped scenario, and strings that TOML must
+// escape.
 #include "text/scenario/scenario_text.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +29,8 @@ study::Scenario read_back(const std::string& text) {
   return {};
 }
 
-/// Every described key of a scenario as text, with the motor's sheet and the entries of tables and lists.
+/// Every described key of a scenario as text, including the motor's sheet and the entries of tables and
+/// lists.
 class EveryKey final : public base::Visitor {
  public:
   std::vector<std::string> rows;
@@ -84,7 +86,7 @@ std::vector<std::string> every_key(study::Scenario s) {
   return keys.rows;
 }
 
-/// Removes the names of other files, because the written text contains the values read from them.
+/// Removes the names of other files: the written text contains the values read from them.
 void detach(study::Scenario& s) {
   const auto leave = [](study::Reference& r) {
     r.file.clear();
@@ -108,7 +110,7 @@ TEST(ScenarioText, EveryShippedScenarioComesBackToTheBit) {
     alone.extends.clear();
     detach(alone);
     EXPECT_EQ(every_key(read_back(text)), every_key(alone));
-    for (const bool full : {false, true})  // the explained text is the same scenario
+    for (const bool full : {false, true})  // the explained text defines the same scenario
       EXPECT_EQ(scenario_text(read_back(starter_text(*scenario, {.file = "x.toml", .full = full}))), text);
     ++count;
   }
@@ -127,9 +129,10 @@ TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
       "motor_override = { back_emf = \"sine\", harmonic_orders = [3, 5], harmonic_sizes = [0.1, -0.05] }",
       "motor_override = { connection = \"delta\", mutual_inductance_mH = 0.01 }",
       "motor_override.phase_resistance_deviation = [0.1, -0.05, -0.05]",
-      "motor_override = { d_axis_inductance_mH = 0.2, q_axis_inductance_mH = 0.3 }",  // drops inductance_mH
+      "motor_override = { d_axis_inductance_mH = 0.2, q_axis_inductance_mH = 0.3 }",  // replaces
+                                                                                      // inductance_mH
       "motor_override = { cogging_orders = [48], cogging_mNm = [2], cogging_phase_deg = [30] }",
-      "motor_override.back_emf_mV_s = 16.75",  // drops the torque constant
+      "motor_override.back_emf_mV_s = 16.75",  // replaces the torque constant
       "motor_override.torque_constant_mNm_A = { value = 33.5, frame = \"terminal\", source = \"data sheet, line 12\" }",
       "motor_override = { name = \"another \\\"name\\\"\", winding = \"24N16P\", viscous_friction_Nm_s = 1e-5 }",
   };
@@ -145,7 +148,7 @@ TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
   EXPECT_THAT(scenario_text(with("")), ::testing::Not(::testing::HasSubstr("motor_override")));
 }
 
-/// The default event of a Hall line is line 1 at low: the heading alone is the event.
+/// The default event of a Hall line is line 1 at low: its heading without keys is such an event.
 TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   const std::pair<const char*, const char*> events[] = {{"ideal", "[at.reference]"},
                                                         {"hall", "[at.sensors.hall_break]"},
@@ -165,7 +168,7 @@ TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   }
 }
 
-/// TOML reads 132 as a number, and so does --set sensors.hall_lines=132.
+/// TOML reads 132 as a number, and so does the option --set sensors.hall_lines=132.
 TEST(ScenarioText, AWordOfDigitsNeedsNoQuotes) {
   const study::Scenario s = with("sensors = { hall_lines = 132, hall_inverted = 3 }");
   EXPECT_EQ(s.sensors.hall_lines, sixstep::rig::WireOrder::acb);
@@ -178,7 +181,7 @@ TEST(ScenarioText, WritesWhatDiffersFromTheDefaultsAlone) {
   s.motor = "maxon-251601";
   s.duration_s = 0.1;
   s.control.current.limit_A = 0.1 + 0.2;
-  study::Requirement r;  // its metric is the default, but must be written
+  study::Requirement r;  // its metric is the default value, but must be written
   r.max = 3.0;
   s.require.push_back(r);
   EXPECT_EQ(scenario_text(s, {"one line\nonly"}),

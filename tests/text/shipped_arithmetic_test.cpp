@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's experiments 7.3 to 7.5 with the controller in float and in fixed point, against double.
+// The thesis's experiments 7.3 to 7.5 with the controller in float and in fixed point, compared with double.
 //
-// Every figure is a mean over a settled window. The bound on its difference is not fitted but follows from:
+// Every figure is a mean over a settled window. The bound on its difference follows from three parts:
 //
 //   digits   The measured value and the reference are each rounded to half a digit, and the integral has an
-//            error of one digit (design/scaling): two digits of the loop's own signal. Hysteresis has no
+//            error of one digit (design/scaling): two digits of the loop's signal. Hysteresis has no
 //            integral, but each threshold is the difference of two rounded numbers: two digits as well.
-//   phase    Another rounding moves the ripple against the window. A ripple of height h and period T_r adds
-//            at most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
-//            amplify a rounding to another ripple altogether (tests/study/conditioning_test.cpp) this is
-//            the only bound, for float too: the last test here shows how far the problem amplifies a
-//            change. PWM runs with the samples: its ripple has one phase.
-//   samples  A PI holds its samples, and the mean between them has an error of a part of the ripple that varies
-//            with the duty, which the digits bound: less than one digit.
+//   phase    A different rounding shifts the ripple relative to the window. A ripple of height h and period
+//            T_r changes the integral over a window by at most h/2 T_r/2 in either run: h T_r/(2 window) of
+//            the mean. If the loops amplify a rounding error to another ripple
+//            (tests/study/conditioning_test.cpp), this is the only bound, for float too. The last test here
+//            shows how far the problem amplifies a change. PWM is synchronous with the samples: its ripple
+//            has a fixed phase.
+//   samples  A PI controller acts on samples. The mean between them deviates by a part of the ripple that
+//            varies with the duty: less than one digit, because the digits bound the duty.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +36,7 @@ using study::Signal;
 struct Format {
   const char* word;
   Arithmetic arithmetic;
-  double digit;  ///< for a signal of size 1
+  double digit;  ///< a digit of a signal of size 1
 };
 
 template <class Scalar>
@@ -54,11 +55,12 @@ struct Window {
 struct Case {
   const char* file;
   Signal signal;
-  double ripple_s;  ///< period of a free ripple: the chopping of a hysteresis, a sector; 0: none
+  double ripple_s;  ///< period of a ripple that is not synchronous: the chopping of a hysteresis, or a
+                    ///< sector; 0: none
   std::vector<Window> windows;
 };
 
-/// The largest height of the ripple and the means, over the windows.
+/// The largest height of the ripple over the windows, and the means.
 struct Figures {
   std::vector<double> means, heights;
 };
@@ -86,7 +88,7 @@ Figures figures(Scenario s, const Case& c, Arithmetic arithmetic) {
   return out;
 }
 
-/// The value of 1.0 for a signal in a format.
+/// The base of a signal in a format: the value that 1.0 represents.
 double unit_of(Signal signal, Arithmetic arithmetic, const Scenario& s) {
   const auto compiled = study::compile(s);
   const auto units = [&]() -> rig::Bases {
@@ -119,7 +121,7 @@ TEST_P(ArithmeticOf, DiffersByItsResolution) {
     SCOPED_TRACE(f.word);
     const Figures narrow = figures(*s, c, f.arithmetic);
     ASSERT_EQ(narrow.means.size(), wide.means.size());
-    // float keeps 24 bits at any size of a number: the bound uses the digit of the largest signal.
+    // float has 24 bits at any size of a number: its bound uses the digit of the largest signal.
     const double digit =
         f.digit * unit_of(c.signal, f.arithmetic == Arithmetic::float32 ? Arithmetic::q31 : f.arithmetic, *s);
     double largest = 0.0, allowed = 0.0;
@@ -154,10 +156,10 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-/// 7.4's speed deviates by thousands of digits of 32 bits, but not because of its arithmetic: the cascade
-/// amplifies every change until one sample falls on the other side of an edge
-/// (tests/study/conditioning_test.cpp). `double` itself deviates as much with a rotor that is 1 to 12 such
-/// digits heavier.
+/// In experiment 7.4 the speed deviates by thousands of digits of 32 bits. Arithmetic is not the cause: the
+/// cascade amplifies every change until one sample falls on the other side of an edge
+/// (tests/study/conditioning_test.cpp). The run in double deviates as much if the rotor's inertia is larger
+/// by 1 to 12 such digits.
 TEST(Arithmetic, TheSpeedCascadeStraysAsFarByADigitOfItsInertia) {
   const auto path =
       std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/scenarios/thesis/7.4-speed-exact-design.toml";

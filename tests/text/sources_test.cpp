@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts that name others, without any file: as a page in a browser has them.
+// Texts that name other texts, without any file, as in a page in a browser.
 #include "text/sources.hpp"
 
 #include <gmock/gmock.h>

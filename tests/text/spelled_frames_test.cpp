@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A spelling that fixes the frame explains that frame alone: a template and a help page offer no choice that
-// the reader refuses.
+// If a spelling fixes the frame, its explanation has only this frame: templates and help pages must not offer
+// a choice that the reader refuses.
 #include <gmock/gmock.h>
 
 #include "text/keys/key_catalog.hpp"

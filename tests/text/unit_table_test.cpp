@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of units equals the definitions: 1 lb = 0.45359237 kg, 1 in = 25.4 mm, the standard weight of 1
-// kg is 9.80665 N (BIPM, NIST SP 811), and a turn is 2 pi. A separate computation in forty decimal digits
-// gave the values here.
+// The table of units is compared with the definitions: 1 lb = 0.45359237 kg, 1 in = 25.4 mm, the standard
+// weight of 1 kg is 9.80665 N (BIPM, NIST SP 811), and a turn is 2 pi. The values here come from a separate
+// computation with forty decimal digits.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -88,7 +88,7 @@ constexpr Row defined[] = {
     {"1 rev", "deg", 360.0},
     {"1 rev/s2", "rad/s2", 6.28318530717958648},
     {"1 rpm/s", "rad/s2", 0.104719755119659775},
-    // signs
+    // spellings with special characters
     {"1 µH", "mH", 1e-3},   // the micro sign
     {"1 μH", "mH", 1e-3},   // the letter mu
     {"1 mΩ", "ohm", 1e-3},  // the letter omega
@@ -120,7 +120,7 @@ constexpr Row defined[] = {
     {"1 oz. in.", "N m", 7.06155181422604375e-3},
     {"1 lb.-in.", "N m", 0.1129848290276167},
     {"1 Vs", "mWb", 1000.0},
-    {"1 mV/Hz", "mWb", 0.159154943091895336},  // per electrical turn, with any pole pairs
+    {"1 mV/Hz", "mWb", 0.159154943091895336},  // per electrical turn, for any number of pole pairs
 };
 
 TEST(UnitTable, ConvertsByTheDefinitions) {
@@ -131,12 +131,12 @@ TEST(UnitTable, ConvertsByTheDefinitions) {
   }
 }
 
-/// Hertz and erpm count electrical turns: the pole pairs convert them to the shaft's.
+/// Hertz and erpm count electrical turns: the pole pairs convert them to turns of the shaft.
 TEST(UnitTable, ElectricalTurnsConvertByThePolePairs) {
   constexpr Row with_two_pairs[] = {
-      {"4.5 mV/Hz", "V/krpm", 0.15},  // 1000 rpm are 33.3 Hz
+      {"4.5 mV/Hz", "V/krpm", 0.15},  // 1000 rpm is 33.3 Hz
       {"0.0045 V/kHz", "V/krpm", 0.15e-3},
-      {"4.5 mV/Hz", "mV s", 1.43239448782705802},  // 4.5 over pi
+      {"4.5 mV/Hz", "mV s", 1.43239448782705802},  // 4.5 divided by pi
       {"222.222222222222222 Hz/V", "rpm/V", 6666.66666666666667},
       {"6000 erpm", "rad/s", 314.159265358979324},
       {"6000 eRPM", "rpm", 3000.0},
@@ -201,7 +201,7 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), ::testing::HasSubstr("no rms value belongs here"));
 }
 
-/// In a file that is one long unit, the reader reads each character only a few times, whatever the file's
+/// For a file that is one long unit, the reader reads each character only a few times, whatever the file's
 /// length.
 TEST(UnitTable, AnEndlessUnitIsNone) {
   for (const char* part : {"µ", "A ", "10-9 ", "A/", "(", "1 oz-in", "rms", "."}) {
@@ -211,7 +211,7 @@ TEST(UnitTable, AnEndlessUnitIsNone) {
   }
 }
 
-/// Units by kind: those of one kind convert into each other, those of two kinds never do.
+/// Units by kind. Units of one kind must convert into each other; units of two kinds must not.
 const std::map<std::string, std::vector<std::string>>& kinds() {
   static const std::map<std::string, std::vector<std::string>> all = {
       {"number", {"%"}},
@@ -281,12 +281,12 @@ TEST(UnitTable, UnitsOfAnotherKindAreRefused) {
   EXPECT_GT(tried, 4'000U);
 }
 
-/// The unit of a product is the product of the units, and of a quotient the quotient.
+/// The unit of a product of values is the product of the units; the unit of a quotient is the quotient.
 TEST(UnitTable, FactorsAndDimensionsMultiply) {
   std::vector<std::string> all;
   for (const auto& [kind, units] : kinds())
     for (const std::string& unit : units)
-      if (unit.find("degC") == std::string::npos) all.push_back(unit);  // alone it is a point on a scale
+      if (unit.find("degC") == std::string::npos) all.push_back(unit);  // degC is a point on a scale
   for (const std::string& a : all)
     for (const std::string& b : all) {
       const std::optional<Unit> x = unit_of(a), y = unit_of(b), product = unit_of("(" + a + ") (" + b + ")"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in quotes with a unit of their own give the same double as the decimal in the key's unit.
+// A number in quotes with its own unit yields the same double as the decimal in the key's unit.
 #include "text/keys/units.hpp"
 
 #include <gmock/gmock.h>
@@ -41,12 +41,12 @@ TEST(Units, PowersOfTenCostNoRounding) {
   EXPECT_EQ(value("85.5 percent", "percent"), 85.5);
   EXPECT_EQ(value("-.5 kV", "V"), -500.0);
   EXPECT_EQ(value("+5 A", "A"), 5.0);
-  // The text has more digits than a double, and is rounded once.
+  // The text has more digits than a double; it is rounded once.
   EXPECT_EQ(value("0.123456789012345678901234567890 ms", "s"), 0.000123456789012345678901234567890);
 }
 
 TEST(Units, OtherFactorsAreRoundedLast) {
-  // The factor and the product have one rounding each.
+  // The factor and the product are each rounded once.
   EXPECT_DOUBLE_EQ(value("6710 rpm", "rad/s"), 6710 * 2 * M_PI / 60);
   EXPECT_DOUBLE_EQ(value("6710 1/min", "rad/s"), 6710 * 2 * M_PI / 60);
   EXPECT_DOUBLE_EQ(value("6710 min⁻¹", "rad/s"), 6710 * 2 * M_PI / 60);
@@ -143,7 +143,7 @@ inertia_kg_m2 = "135 gcm2"
   EXPECT_EQ(s->load.inertia_kg_m2, 1.35e-5);
   EXPECT_EQ(s->supply.voltage_V, 12.0);
   EXPECT_EQ(s->pwm.period_s, 50e-6);
-  // A printed number is exact to its last digit: 980 mohm to 0.001 ohm, 1.4e-5 kg m2 to 1 g cm2.
+  // A printed number is exact within its last digit: 980 mohm within 0.001 ohm, 1.4e-5 kg m2 within 1 g cm2.
   EXPECT_DOUBLE_EQ(*s->sheet.resistance_ohm->last_digit, 1e-3);
   EXPECT_DOUBLE_EQ(*s->sheet.inertia_gcm2->last_digit, 10.0);
 }
@@ -226,7 +226,7 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
             "number alone, or in %\n");
   EXPECT_EQ(told("metric = \"max\"\nmax = \"2\"\n"),
             "x.toml:5:7: require.max = \"2\" lacks its unit; write 2, which is in A, or \"2 A\"\n");
-  // The unit is unknown here: only the word is reported.
+  // The unit is unknown here: only the wrong word is reported.
   EXPECT_EQ(told("metric = \"maxi\"\nmax = \"20 ms\"\n").find("require.max"), std::string::npos);
   const std::string word =
       told("metric = \"max\"\nsignal = \"spede\"\nlevel = \"3 rpm\"\nmax = \"20 rpm\"\n");

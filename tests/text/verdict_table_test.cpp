@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terminal's table of a run has short numbers, but never shows a missed requirement as a met one.
+// The terminal's table of a run has short numbers, but never shows a missed requirement as if it were met.
 #include "text/results/verdict_table.hpp"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(VerdictTable, OneLineEachWithItsNumbersInOnePrefix) {
             "  overshoot            0 A       0.37497 A          none wanted\n");
 }
 
-/// A compared figure has no requirement, and the head shows it.
+/// Compared figures have no requirement: the head of their column is "expected".
 TEST(VerdictTable, AColumnOfComparisonsAloneIsWhatIsExpected) {
   study::Outcome outcome;
   outcome.comparisons = {{"overshoot", "A", 0.4, 0.5, "hand"}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to connect a motor as text and as JSON: every wiring in its place, the words of a linear motor,
-// the differences.
+// The 36 ways to connect a motor, as text and as JSON: each wiring in its cell, the terms of a linear motor,
+// and the differences.
 #include "text/results/wiring_text.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The cells of the row with this beginning, in the n-th table that has one.
+/// The cells of the row that starts with `begin`, in table number `table` of the tables with such a row.
 std::vector<std::string> row(const std::string& text, const std::string& begin, int table) {
   for (const std::string& line : lines_of(text)) {
     if (!line.starts_with("  " + begin + "  ") || table-- > 0) continue;
@@ -72,7 +72,7 @@ TEST(WiringText, SaysWhichWiringsDifferFromTheory) {
               HasSubstr("phases bac, Hall lines 213: forward, early by theory, unclear in simulation\n"));
   EXPECT_THAT(text, HasSubstr("34 of 36 move in simulation as theory predicts"));
   for (analysis::WiringCase& c : s.cases)
-    c.measured.does = WiringDoes::hums;  // none to compare the others with
+    c.measured.does = WiringDoes::hums;  // no wiring is left to compare the others with
   EXPECT_THAT(text::wiring_text(s), HasSubstr("18 of 36"));
 }
 
@@ -136,7 +136,7 @@ TEST(WiringWords, TellMovesAsTheyAreMade) {
   EXPECT_EQ(text::cure_text({.pins = {2, 1, 0}}), "swap the Hall lines H1 and H3");
 }
 
-/// Each step's words agree with analysis::next_step().
+/// The words of each step agree with analysis::next_step().
 TEST(WiringWords, OfTheRecipeAreItsSteps) {
   const auto steps = text::recipe_steps();
   ASSERT_EQ(steps.size(), 3u);

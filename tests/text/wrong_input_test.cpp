@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The message on a wrong file: place, value, limit and cure, word for word.
+// The message on a wrong file: position, value, limit and cure, word for word.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -50,7 +50,7 @@ TEST_F(WrongInput, AMotorTakenForAScenarioIsToldInOneSentence) {
       complaints("name = \"mine\"\npole_pairs = 4\nresistance_ohm = 0.5\n"),
       ElementsAre("x.toml:1:1: is a motor's file, not a scenario; sixstep new first --motor x.toml writes a "
                   "scenario that runs it"));
-  EXPECT_THAT(complaints("pole_pairs = 4\n" + head),  // a scenario with a motor's key in the wrong place
+  EXPECT_THAT(complaints("pole_pairs = 4\n" + head),  // a scenario with a motor's key at the wrong level
               ElementsAre(HasSubstr("x.toml:1:1: pole_pairs is not a key here")));
 }
 
@@ -224,7 +224,7 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
                   "'m'; end the line behind the value: its unit is in the key"));
 }
 
-/// The parser once assumed that a name begins after a bracket.
+/// The parser once assumed that a name starts after a bracket.
 TEST_F(WrongInput, ABracketWithoutANameIsToldAsSyntax) {
   for (const char* line : {"[# no name", "[", "[[", "[=", "a = {# no name", "a = {,"})
     EXPECT_THAT(complaints(head + line), ElementsAre(HasSubstr("x.toml:3:"))) << line;
@@ -276,7 +276,7 @@ TEST_F(WrongInput, SyntaxIsAnsweredWithWhatWasProbablyMeant) {
 }
 
 TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
-  // The reference is a duty here: as a level in ampere it would give a number without meaning.
+  // The reference is a duty here: used as a level in ampere, it would yield a meaningless number.
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
@@ -330,7 +330,8 @@ TEST_F(WrongInput, AFolderIsNoFile) {
               HasSubstr("cannot be read: Is a directory; name a file in it"));
 }
 
-/// The fuzzer found this case: after a key the parser treated every letter from U+00A1 to U+0499 as unreachable.
+/// The fuzzer found this case: after a key, the parser treated every character from U+00A1 to U+0499 as
+/// unreachable.
 TEST_F(WrongInput, ALetterBesideAKeyIsASyntaxErrorOnly) {
   for (const std::string letter : {"\u00d6", "\u00e9", "\u03b1", "\u3001", "\ufdf0"}) {
     const std::vector<std::string> told = complaints(head + "title" + letter + " = 1\n");

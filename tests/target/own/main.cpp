@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Passes the inputs of the tape (tape.hpp) to a user's controller, and prints
 //
-// own CONFIG STATE NAME both sizes on this processor in bytes, and the controller's name
+//   own CONFIG STATE NAME both sizes on this processor in bytes, and the controller's name
 //   answers CALLS         number of calls, if all answers equal the host's
 //   differs CALL          otherwise the first call with another answer, counted from 1
 //   room BYTES            or the size of a configuration or state that is too large

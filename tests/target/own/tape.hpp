@@ -2,8 +2,8 @@
 // The inputs of a user's controller in a run, call by call, as bytes, lowest byte first. The recorder writes
 // them on the host, and every processor reads them.
 //
-// design 0, mode, delay_periods, sampled_in_middle, chopping, the numbers of sixstep_given, number of values
-// 1, the values
+//   design   0, mode, delay_periods, sampled_in_middle, chopping, the numbers of sixstep_given,
+//            number of values 1, the values
 //   start    1
 //   step     2, hall 1, the numbers of sixstep_measured, setpoint, answers 4
 //   hall     3, hall 1, answers 4

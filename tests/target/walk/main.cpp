@@ -3,11 +3,11 @@
 // digest of all outputs. The source is the same for every processor. There is one program per scalar:
 // TARGET_SCALAR is q15, q14, q31, q30, float, or whole for the blocks without a scalar. Other macros select
 // other blocks, in separate programs that do not change how the rest is compiled:
-// TARGET_OF_ROTOR        sensing/ and sensorless/
-// TARGET_OF_OBSERVERS    the back-EMF observers
-// TARGET_OF_COMMISSIONING  commissioning/ without the pulses
-// TARGET_OF_PULSES       the pulses of commissioning/
-// TARGET_OF_FIELD        field/
+//   TARGET_OF_ROTOR          sensing/ and sensorless/
+//   TARGET_OF_OBSERVERS      the back-EMF observers
+//   TARGET_OF_COMMISSIONING  commissioning/ without the pulses
+//   TARGET_OF_PULSES         the pulses of commissioning/
+//   TARGET_OF_FIELD          field/
 #include "tests/target/platform/print.hpp"
 #include "tests/target/walk/names.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The comparison of controllers is fair: their scenarios differ in the keys of their rows alone, and no row
+// The comparison of controllers is fair: their scenarios differ only in the keys of their rows, and no row
 // has a hand-tuned value.
 #include "text/contest/contest_entries.hpp"
 
@@ -26,7 +26,7 @@ ContestBench bench_of(const std::string& motor) {
   return *bench;
 }
 
-/// The keys with different values in two scenarios. Title and notes do not count: they are for the reader.
+/// The keys whose values differ in two scenarios, without title, notes and spread.
 std::vector<std::string> differences(const study::Scenario& a, const study::Scenario& b) {
   std::map<std::string, std::string> of_a, of_b;
   for (const text::WrittenValue& v : text::scenario_values(a)) of_a[v.path] = v.text;
@@ -68,13 +68,15 @@ TEST(Contest, ScenariosDifferInTheKeysOfTheirRowsAlone) {
   }
 }
 
-/// Sample, delay, limits, bus, bridge, sensors and course are the same; this list names each exception.
+/// Sample, delay, limits, bus, bridge, sensors and course are the same for all controllers, except the keys
+/// in this list.
 TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
   const std::map<std::string_view, std::string> exceptions = {
       {"hysteresis, comparators", "pwm.delay_periods"},  // nothing is sampled
       {"six-step, advanced", "sensors.hall_angle"},      // the product drive commutates by sectors
-      {"speed to duty", "control.speed"},                // has no torque that could be limited
-      {"state feedback", "control.speed"},               // these three place real poles and use no damping
+      {"speed to duty", "control.speed"},                // it has no torque that could be limited
+      {"state feedback", "control.speed"},               // these three laws place real poles and use no
+                                                         // damping
       {"disturbance rejection", "control.speed"},
       {"sliding mode", "control.speed"}};
   const ContestBench bench = bench_of("maxon-251601");
@@ -94,8 +96,8 @@ TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
   }
 }
 
-/// A number in a row would be a free choice; a rule's value is <named>. The comparators' 0 periods are an
-/// exception.
+/// A number in a row would be a free choice; a value from a rule is written as <name>. The 0 delay periods of
+/// the comparators are an exception.
 TEST(Contest, NoRowHasANumber) {
   const std::regex number("[=,{] *-?[0-9.]");
   for (const Contestant& who : analysis::contestants()) {
@@ -105,7 +107,8 @@ TEST(Contest, NoRowHasANumber) {
   }
 }
 
-/// The same rule places both current loops with the same settling time.
+/// The speed and current loops of the field-oriented drive have the same settling times and limits as the
+/// other drives.
 TEST(Contest, FieldOrientedHasTheSameLoopsAskedFor) {
   const ContestBench bench = bench_of("teknic-m2310p");
   for (const ContestEntry& entry : text::contest_entries(bench, {})) {
@@ -131,7 +134,7 @@ TEST(Contest, WhatAMotorDoesNotAllowIsToldAndTheOthersStay) {
   EXPECT_NE(to_string(entries[2].scenario.problems().front()).find("pwm.perod_s"), std::string::npos);
 }
 
-/// The comparison of the first test finds a deliberate difference.
+/// The comparison of the first test must find a difference that is put in on purpose.
 TEST(Contest, APlantedDifferenceIsFound) {
   const ContestBench bench = bench_of("maxon-251601");
   study::Scenario other = bench.scenario;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sentences below a comparison name their controllers, and a factor only where it applies.
+// The sentences below a comparison name their controllers, and state a factor only where it is meaningful.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using ::testing::Not;
 
 constexpr std::size_t settle = 4, loss = analysis::loss_figure;
 
-/// A contestant's place in the list of all, its settling time and its loss.
+/// A controller's index in the list of all controllers, its settling time and its loss.
 struct Of {
   std::size_t who;
   double settle_s, loss_W;
@@ -44,13 +44,13 @@ TEST(ContestWords, WhoSharesAFigureIsNamed) {
   EXPECT_THAT(told, Not(Contains(HasSubstr("first two"))));
 }
 
-/// The sentence names every controller within a twentieth of the least, not only the best two. For more than
-/// four it names the others, if they are fewer: either list defines the same controllers.
+/// The sentence names every controller within 5 % of the smallest value, not only the best two. If more than
+/// four share it, the sentence names the other controllers, if these are fewer.
 TEST(ContestWords, AllWhoShareAFigureAreNamed) {
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
       Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
-  // Percentages are of the least, as on the whole page: 3.155 is 5.2 % more than 3.
+  // Percentages refer to the smallest value, as on the whole page: 3.155 is 5.2 % more than 3.
   EXPECT_THAT(words({{0, 1.0, 3.155}, {1, 2.0, 3.0}, {2, 3.0, 3.01}}),
               Contains(name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
   EXPECT_THAT(
@@ -61,7 +61,7 @@ TEST(ContestWords, AllWhoShareAFigureAreNamed) {
               Contains("All controllers that hold the course share the least loss in all, within 5 %."));
 }
 
-/// A start with more than 1.5 times the limit's current has an advantage over the others: the controller gets
+/// A controller that exceeds 1.5 times the limit's current at the start has an unfair advantage. It must have
 /// no star, no sentence, and a note with the reason.
 TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
   analysis::Contest c;
@@ -70,7 +70,7 @@ TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
     c.entries.push_back({&analysis::contestants()[c.rows.size()], {}, study::Scenario{}});
     analysis::ContestRow row;
     row.values[analysis::peak_figure] = peak_A;
-    row.values[settle] = 1.0 / peak_A;  // the one beyond the limit is faster
+    row.values[settle] = 1.0 / peak_A;  // the controller beyond the limit is faster
     row.nominal_held = true;
     c.rows.push_back(row);
   }
