@@ -5,11 +5,13 @@
 namespace sixstep {
 namespace analysis {}
 namespace base {}
+namespace design {}
 namespace study {}
 }  // namespace sixstep
 
 namespace batch {
 namespace analysis = sixstep::analysis;
 namespace base = sixstep::base;
+namespace design = sixstep::design;
 namespace study = sixstep::study;
 }  // namespace batch

@@ -51,6 +51,7 @@ class NumberAt final : public base::Visitor {
 
   double* number = nullptr;  ///< null: not found
   base::Range range;
+  std::string_view unit;
   bool left_out = false;  ///< the key exists, but no value is given
 
  private:
@@ -78,6 +79,7 @@ class NumberAt final : public base::Visitor {
     if (key != path_) return;
     number = x;
     range = base::allowed(about);
+    unit = about.unit;
     left_out = !x;
   }
   std::string_view path_;
@@ -217,6 +219,13 @@ std::vector<double> strayed_values(const Scenario& scenario, Scenario drive) {
     values.push_back(at.number ? *at.number : std::numeric_limits<double>::quiet_NaN());
   }
   return values;
+}
+
+std::optional<VaryingNumber> varying_number(const Scenario& scenario, std::string_view key) {
+  Scenario s = written_out(scenario, key);
+  const NumberAt at = find_number(s, key);
+  if (!may_stray(key) || !at.number) return {};
+  return VaryingNumber{*at.number, std::string(at.unit)};
 }
 
 base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key, double x) {

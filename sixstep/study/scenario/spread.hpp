@@ -2,6 +2,8 @@
 // Draws one drive of a series: motor, supply and load vary, the controller stays as designed.
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +27,15 @@ Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t numb
 
 /// The values of scenario.spread's keys in `drive`, in the keys' units; NaN for a key without a number.
 std::vector<double> strayed_values(const Scenario& scenario, Scenario drive);
+
+/// A number that differs from drive to drive.
+struct VaryingNumber {
+  double value = 0.0;  ///< in the key's unit, derived from other keys where the scenario does not give it
+  std::string unit;
+};
+
+/// The number at a key that scenario.spread allows; empty if the key is not one of them or has no value.
+std::optional<VaryingNumber> varying_number(const Scenario& scenario, std::string_view key);
 
 /// The scenario with one number set to x, in the key's unit; the controller stays as designed. Allowed are
 /// the keys that scenario.spread allows. A Problem's `where` is the key.

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "batch/fit/fit_bounds.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sixstep/analysis/identification/distributions.hpp"
+#include "sixstep/base/angle.hpp"
+
+namespace batch {
+
+namespace {
+
+using Index = Eigen::Index;
+
+/// Rows of one column of one bench, in the order of time.
+std::vector<Index> rows_of(const FitProblem& problem, std::size_t group) {
+  std::vector<Index> rows;
+  for (std::size_t n = 0; n < problem.cells(); ++n)
+    if (problem.group_of(n) == group) rows.push_back(static_cast<Index>(n));
+  return rows;
+}
+
+double correlation_at(const Eigen::VectorXd& r, const std::vector<Index>& rows, std::size_t lag) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    square += r[rows[n]] * r[rows[n]];
+    if (n + lag < rows.size()) product += r[rows[n]] * r[rows[n + lag]];
+  }
+  return square > 0 ? product / square : 0.0;
+}
+
+/// Lags that are summed: twice the lag from which on five correlations in a row are within the noise. 0: white.
+std::size_t lags_of(const Eigen::VectorXd& r, const std::vector<Index>& rows) {
+  const double noise = 2.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(rows.size(), 4)));
+  const std::size_t most = rows.size() / 8;
+  std::size_t quiet = 0, lag = 1;
+  for (; lag <= most && quiet < 5; ++lag)
+    quiet = std::fabs(correlation_at(r, rows, lag)) < noise ? quiet + 1 : 0;
+  const std::size_t last = lag - 1 - std::min<std::size_t>(quiet, lag - 1);  // the last lag above the noise
+  return std::min(2 * last, most);
+}
+
+/// Sum over the lags of the products of the scores: the covariance of J' r.
+Eigen::MatrixXd scores_of(const Eigen::MatrixXd& j, const Eigen::VectorXd& r, const std::vector<Index>& rows,
+                          std::size_t lags) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(j.cols(), j.cols());
+  for (std::size_t lag = 0; lag <= lags; ++lag) {
+    const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1);
+    for (std::size_t n = 0; n + lag < rows.size(); ++n) {
+      const double product = weight * r[rows[n]] * r[rows[n + lag]];
+      const Eigen::MatrixXd term = product * j.row(rows[n]).transpose() * j.row(rows[n + lag]);
+      sum += lag == 0 ? term : Eigen::MatrixXd(term + term.transpose());
+    }
+  }
+  return sum;
+}
+
+/// Covariance of J' r by the steps of a converter. Where the noise is below a step, rows in one step have one error, which
+/// no residual shows: of variance step^2/12 without noise, and reduced by the noise as the first harmonic of the steps'
+/// sawtooth is.
+Eigen::MatrixXd steps_of(const FitProblem& problem, const Eigen::MatrixXd& j, const Eigen::VectorXd& r,
+                         const std::vector<Index>& rows, std::size_t group) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(j.cols(), j.cols());
+  const double step = problem.step(group), steady = step * step / 12.0;
+  if (!(step > 0)) return sum;
+  const double noise = std::max(0.0, 1.0 - steady);  // variance of the noise before the converter
+  const double variance = steady * std::exp(-4.0 * base::pi * base::pi * noise / (step * step));
+  if (variance < 1e-6) return sum;
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(j.cols());
+  double last = NAN;
+  for (const Index row : rows) {
+    const double level = std::round((problem.recorded(static_cast<std::size_t>(row)) - r[row]) / step);
+    if (level != last) {
+      sum += variance * together * together.transpose();
+      together.setZero();
+    }
+    together += j.row(row).transpose();
+    last = level;
+  }
+  sum += variance * together * together.transpose();
+  return sum;
+}
+
+/// The columns of the free unknowns.
+Eigen::MatrixXd free_columns(const Eigen::MatrixXd& j, const std::vector<bool>& free) {
+  Eigen::MatrixXd out(j.rows(), static_cast<Index>(std::count(free.begin(), free.end(), true)));
+  for (Index k = 0, at = 0; k < j.cols(); ++k)
+    if (free[static_cast<std::size_t>(k)]) out.col(at++) = j.col(k);
+  return out;
+}
+
+Eigen::MatrixXd spread_out(const Eigen::MatrixXd& part, const std::vector<bool>& free) {
+  const auto count = static_cast<Index>(free.size());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, count);
+  Index row = 0;
+  for (Index i = 0; i < count; ++i) {
+    if (!free[static_cast<std::size_t>(i)]) continue;
+    Index column = 0;
+    for (Index k = 0; k < count; ++k)
+      if (free[static_cast<std::size_t>(k)]) out(i, k) = part(row, column++);
+    ++row;
+  }
+  return out;
+}
+
+/// Inverse of J'J, which the rows of the start make positive definite; each column is scaled to length 1 first.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& j) {
+  const Eigen::VectorXd inverse_length = j.colwise().norm().cwiseInverse();
+  const Eigen::MatrixXd scaled = j * inverse_length.asDiagonal();
+  const Eigen::MatrixXd inverse =
+      (scaled.transpose() * scaled).llt().solve(Eigen::MatrixXd::Identity(j.cols(), j.cols()));
+  return inverse_length.asDiagonal() * inverse * inverse_length.asDiagonal();
+}
+
+}  // namespace
+
+double lag_correlation(const FitProblem& problem, const Eigen::VectorXd& residuals, std::size_t group) {
+  return correlation_at(residuals, rows_of(problem, group), 1);
+}
+
+FitCovariance covariance_of(const FitProblem& problem, const Eigen::MatrixXd& derivatives,
+                            const Eigen::VectorXd& residuals, const std::vector<bool>& free) {
+  const Eigen::MatrixXd j = free_columns(derivatives, free);
+  const Eigen::MatrixXd inverse = inverse_of(j);
+  // The rows of the start are independent.
+  const Eigen::MatrixXd of_start = j.bottomRows(j.rows() - static_cast<Index>(problem.cells()));
+  Eigen::MatrixXd scores = of_start.transpose() * of_start;
+  double independent = 0.0;
+  bool white = true;
+  for (std::size_t g = 0; g < problem.groups(); ++g) {
+    const std::vector<Index> rows = rows_of(problem, g);
+    const std::size_t lags = lags_of(residuals, rows);
+    const Eigen::MatrixXd by_steps = steps_of(problem, j, residuals, rows, g);
+    white = white && lags == 0 && by_steps.isZero();
+    scores += scores_of(j, residuals, rows, lags) + by_steps;
+    double sum = 1.0;
+    for (std::size_t lag = 1; lag <= lags; ++lag)
+      sum += 2.0 * std::max(0.0, correlation_at(residuals, rows, lag));
+    independent += static_cast<double>(rows.size()) / sum;
+  }
+  FitCovariance out;
+  out.of_white_noise = spread_out(inverse, free);
+  out.covariance = white ? out.of_white_noise : spread_out(inverse * scores * inverse, free);
+  out.degrees_of_freedom = std::max(1.0, independent - static_cast<double>(j.cols()));
+  return out;
+}
+
+base::Result<UnknownBounds> bounds_of(FitProblem& problem, const FitSolution& solution,
+                                      const FitCovariance& covariance, const std::vector<bool>& free,
+                                      std::size_t k) {
+  const auto at = static_cast<Index>(k);
+  const double variance = covariance.covariance(at, at), white = covariance.of_white_noise(at, at);
+  const double width = analysis::student_95(covariance.degrees_of_freedom) * std::sqrt(variance);
+  // Growth of the sum of squares at the bounds, in variances of one residual.
+  const double growth = width * width / white;
+  UnknownBounds out{solution.u[at] - width, solution.u[at] + width, false};
+  const double least = solution.square();
+  const Eigen::VectorXd along =
+      covariance.of_white_noise.col(at) / white;  // the others' best move per move of k
+  std::vector<bool> others = free;
+  others[k] = false;
+  for (double* const bound : {&out.low, &out.high}) {
+    double step = *bound - solution.u[at];
+    const base::Result<Eigen::VectorXd> there = problem.residuals(solution.u + step * along);
+    if (there && std::fabs((there->squaredNorm() - least) / growth - 1.0) < 0.25) continue;
+    out.by_profile = true;
+    for (int trial = 0; trial < 6; ++trial) {
+      const base::Result<FitSolution> best = solve(problem, solution.u + step * along, others, 20);
+      if (!best && problem.stopped()) return best.problems();
+      const double grown = best ? (best->square() - least) / growth : 4.0;
+      if (std::fabs(grown - 1.0) < 0.05) break;
+      step *= std::clamp(1.0 / std::sqrt(std::max(grown, 0.01)), 0.3, 3.0);
+    }
+    *bound = solution.u[at] + step;
+  }
+  return out;
+}
+
+}  // namespace batch

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the free parameters that the recordings do not determine, and says why.
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "batch/fit/fit_bounds.hpp"
+
+namespace batch {
+
+/// Whether the recordings determine the parameter k: its bounds are less than half as wide as those of its start.
+bool is_determined(const FitCovariance& covariance, std::size_t k);
+
+/// Why the recordings do not determine the parameter k: no cell depends on it, or others have the same effect.
+std::string why_undetermined(const FitProblem& problem, const Eigen::MatrixXd& derivatives,
+                             const FitCovariance& covariance, std::size_t k);
+
+/// A recording that determines the parameter; empty if none is known.
+std::string recording_for(const FitParameter& parameter);
+
+}  // namespace batch
