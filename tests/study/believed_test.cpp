@@ -365,6 +365,10 @@ TEST(Believed, RefusesWhatMakesNoMotor) {
                 b.resistance_ohm = base::Quantity{-1, "phase", ""};
               }),
               HasSubstr("believed.resistance_ohm"));
+  EXPECT_THAT(problem([](Believed& b) {
+                b.speed_constant_rpm_V = base::Quantity{0.5, "six-step", ""};
+              }),
+              HasSubstr("believed.speed_constant_rpm_V does not go with the motor's other values"));
 }
 
 TEST(Believed, ABeliefWithoutAFrameHasThatOfTheSheet) {

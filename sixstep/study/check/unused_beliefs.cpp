@@ -38,8 +38,9 @@ bool reads_hall(const Scenario& s) {
 
 void unused_beliefs(const Scenario& s, Unused& out) {
   const Believed& b = s.believed;
-  const auto idle = [&out](const char* key, const auto& given, const char* reason) {
-    out.add(std::string("believed.") + key, given.has_value(), false, reason);
+  const auto idle = [&out](const char* key, const std::optional<base::Quantity>& given, const char* reason) {
+    const std::string written = given && !given->key.empty() ? given->key : key;
+    out.add("believed." + written, given.has_value(), false, reason);
   };
   if (!follows_shaft(s))
     out.add("believed.sensor_offset_deg", b.sensor_offset_deg, 0.0,
@@ -48,7 +49,7 @@ void unused_beliefs(const Scenario& s, Unused& out) {
     out.add("believed.hall_lines", b.hall_lines, rig::WireOrder::abc, "the drive does not read Hall probes");
   if (computes_with_motor(s)) return;
   if (s.sensors.rotor == RotorSensing::ideal && s.pwm.pattern == control::PwmPattern::upper)
-    idle("pole_pairs", b.pole_pairs, "the drive computes nothing by them");
+    out.add("believed.pole_pairs", b.pole_pairs, {}, "the drive computes nothing by them");
   const bool speed = comes_into(s, Mode::speed) || comes_into(s, Mode::position);
   constexpr char no_speed[] = "control.mode has no speed loop";
   if (!speed) idle("inertia_gcm2", b.inertia_gcm2, no_speed);

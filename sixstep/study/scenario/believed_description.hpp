@@ -16,8 +16,7 @@ inline void describe_believed_winding(base::Visitor& v, Believed& s) {
       "pole_pairs", s.pole_pairs,
       {.meaning = "electrical turns per turn of the shaft, by which the drive converts edges to speed and "
                   "a shaft's angle to the electrical angle",
-       .range = base::between(1, design::most_pole_pairs),
-       .also = spellings::pole_pairs});
+       .range = base::between(1, design::most_pole_pairs)});
   v.quantity("resistance_ohm", s.resistance_ohm,
              {.meaning = "winding resistance, between two terminals or of one phase of the star",
               .unit = "ohm",

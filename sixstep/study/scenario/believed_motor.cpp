@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/scenario/believed_motor.hpp"
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -39,6 +40,26 @@ bool believes(const Believed& b, std::string_view key) {
   return false;
 }
 
+/// The first believed key.
+std::string_view first_believed(const Believed& b) {
+  for (const Constant& c : constants)
+    if (b.*c.from) return c.key;
+  return "pole_pairs";
+}
+
+/// The motor itself is sound, so that a problem at another line of the sheet follows from a belief, too.
+base::Problem under_a_belief(const Believed& b, base::Problem p) {
+  if (believes(b, p.where)) {
+    p.where = "believed." + p.where;
+    return p;
+  }
+  p.limit = "does not go with the motor's other values: " + p.where +
+            (p.value.empty() ? " " : " = " + p.value + " ") + p.limit;
+  p.where = "believed." + std::string(first_believed(b));
+  p.value.clear();
+  return p;
+}
+
 }  // namespace
 
 bool believes_a_motor(const Believed& b) {
@@ -74,8 +95,7 @@ base::Result<design::MotorModel> believed_motor(const Scenario& s) {
   base::Result<design::MotorModel> motor = design::motor_model(believed_sheet(s));
   if (motor || !believes_a_motor(s.believed)) return motor;
   base::Problems problems = motor.problems();
-  for (base::Problem& p : problems)
-    if (believes(s.believed, p.where)) p.where = "believed." + p.where;
+  for (base::Problem& p : problems) p = under_a_belief(s.believed, std::move(p));
   return problems;
 }
 
