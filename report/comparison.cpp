@@ -167,7 +167,7 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
         return current ? std::optional(Measured{std::abs(current->peak_A), ""}) : std::nullopt;
       });
   rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
-    const auto held = held_back(run.events, run.scenario, *run.outcome);
+    const auto held = held_back(run.events, run.scenario);
     return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
   rows += figure_row("switching frequency of the whole run", "Hz", runs,

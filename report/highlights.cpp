@@ -277,8 +277,7 @@ std::optional<Values> part_of_bus(const Trace& trace, const Scenario& scenario) 
 
 }  // namespace
 
-std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
-                              const sixstep::study::Outcome& outcome) {
+std::optional<Held> held_back(const Trace& trace, const Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
   const std::optional<Values> duty = part_of_bus(trace, scenario);
   const bool compares = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
@@ -289,7 +288,7 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   const double whole = scenario.control.drive == sixstep::study::FirmwareKind::field ? 1.0 - 1e-6 : 1.0;
   Held out{.seen_s = time->back() - from_s,
            .bus_s = seconds_at(*time, *duty, whole, from_s),
-           .limit_A = sixstep::study::current_limit_A(scenario, outcome.motor)};
+           .limit_A = sixstep::study::current_limit_A(scenario)};
   for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
   const auto* reference = find_column(trace, "i_ref_A");
   if (scenario.control.drive == sixstep::study::FirmwareKind::own &&

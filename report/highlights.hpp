@@ -60,7 +60,6 @@ struct Held {
 };
 /// The delays of a run. Empty if comparators switch the bridge, because the duty is then only the state of a
 /// switch.
-std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
-                              const sixstep::study::Outcome& outcome);
+std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);
 
 }  // namespace report

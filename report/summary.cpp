@@ -59,7 +59,7 @@ std::string least_of_bus(double largest_duty, bool legs) {
 
 std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace& trace) {
   std::string text = closest(outcome);
-  if (const auto held = held_back(trace, scenario, outcome)) {
+  if (const auto held = held_back(trace, scenario)) {
     const auto lasted = [&](double seconds) {
       const std::string seen = trace.whole.empty() ? "the run" : "its last " + computed(held->seen_s, "s");
       return fmt::format("<b>{}</b>, {} of {}", computed(seconds, "s"),

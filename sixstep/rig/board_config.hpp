@@ -8,6 +8,7 @@
 #include "sixstep/rig/lockstep_core.hpp"
 #include "sixstep/rig/pulse.hpp"
 #include "sixstep/rig/registers.hpp"
+#include "sixstep/rig/wiring.hpp"
 
 namespace sixstep::rig {
 
@@ -23,7 +24,9 @@ struct BoardConfig {
   /// Arrangement of the Hall probes. For a drive that decodes only probes 120 degrees apart, the board
   /// converts the codes.
   control::HallArrangement hall_arrangement = control::HallArrangement::degrees_120;
-  CorePort core{};  ///< optional core that runs the drive in parallel to the host
+  WireOrder believed_lines = WireOrder::abc;  ///< probes that the drive assumes at pins H1, H2, H3
+  double believed_pole_pairs = 0.0;           ///< the motor's pole pairs in the drive; 0: the true ones
+  CorePort core{};                            ///< optional core that runs the drive in parallel to the host
   ChipPort chip{};  ///< optional chip that runs its own firmware instead of the drive
 };
 

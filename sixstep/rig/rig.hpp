@@ -46,7 +46,9 @@ class Rig {
         probes_(probes, plant_.state()),
         firmware_(
             chip, board,
-            {static_cast<double>(plant_.constants().pole_pairs), probes_.sector(plant_.state().sector),
+            {board.believed_pole_pairs > 0 ? board.believed_pole_pairs
+                                           : static_cast<double>(plant_.constants().pole_pairs),
+             probes_.sector(plant_.state().sector),
              read_by_chip(wires_.at_pins(probes_.code(plant_.sector())), reads_arrangement<Firmware>(chip)),
              shaft_angle()}),
         front_end_(front_end_before(board.front_end)),
@@ -175,8 +177,10 @@ class Rig {
   /// Pins as the chip reads them: for a drive that does not know the arrangement, codes of probes 120 degrees
   /// apart.
   std::uint8_t read_by_chip(std::uint8_t pins, [[maybe_unused]] bool knows_arrangement) const {
-    if constexpr (can_be_askew)
+    if constexpr (can_be_askew) {
+      pins = code_at(board_.believed_lines, pins);
       if (!knows_arrangement) return control::as_120_degrees(board_.hall_arrangement, pins);
+    }
     return pins;
   }
   std::uint8_t chip_pins() const {

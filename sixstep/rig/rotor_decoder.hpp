@@ -45,6 +45,9 @@ class RotorDecoder {
     electrical_ = electrical;
     m.hall = control::hall_of_sector(control::sector_of_angle(electrical));
   }
+  control::BinaryAngle electrical_of(control::BinaryAngle mechanical, std::uint8_t pole_pairs) const {
+    return control::electrical_angle(mechanical, pole_pairs, offset_);
+  }
   void set_speeds(const SensorsConfig& config, const Bases& bases);
   void set_resolver(const SensorsConfig& config, const Bases& bases, const control::UnwrappedAngle& at);
   void set_watch(const ShaftSensorConfig& given);
@@ -54,6 +57,7 @@ class RotorDecoder {
 
   std::uint8_t pole_pairs_ = 1;
   bool on_load_ = false;
+  control::BinaryAngle offset_ = 0;  ///< the believed offset, to be added
   control::Gain<Scalar> deg_per_unit_{};
   control::QuadratureConfig quadrature_{};
   control::QuadratureState quarters_{};
@@ -91,13 +95,16 @@ inline control::UnwrappedAngle unwrapped(const plant::ShaftAngle<double>& at, st
 template <class Scalar>
 RotorDecoder<Scalar>::RotorDecoder(const SensorsConfig& config, const Bases& bases,
                                    const plant::ShaftAngle<double>& at)
-    : pole_pairs_(static_cast<std::uint8_t>(at.pole_pairs)), on_load_(config.shaft.on_load) {
+    : pole_pairs_(static_cast<std::uint8_t>(
+          config.shaft.believed_pole_pairs > 0 ? config.shaft.believed_pole_pairs : at.pole_pairs)),
+      on_load_(config.shaft.on_load),
+      offset_(control::BinaryAngle{0} - control::binary_degrees(config.shaft.believed_offset_deg)) {
   const ShaftSensorConfig& given = config.shaft;
   per_turn_ = given.kind == ShaftSensor::resolver ? static_cast<std::uint8_t>(given.resolver.pole_pairs)
                                                   : std::uint8_t{1};
   deg_per_unit_ =
       control::Gain<Scalar>(360.0 / 65536 / per_turn_ * given.gear / bases.position_deg / raw_unit<Scalar>());
-  seen_ = detail::unwrapped(at, per_turn_);
+  seen_ = detail::unwrapped(mounted(given.offset_deg, at), per_turn_);
   set_speeds(config, bases);
   if (given.kind == ShaftSensor::encoder) {
     quadrature_ = control::quadrature_of_lines(static_cast<std::uint32_t>(given.encoder.lines));
@@ -215,7 +222,7 @@ void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPort
   m.speed_rad_s = control::pulse_speed(pulse_config_, pulses_, now);
   const control::BinaryAngle angle = control::quadrature_angle(quadrature_, quarters_);
   place(m, {angle, quarters_.turns});
-  if (quarters_.referenced) commutate_at(m, control::electrical_angle(angle, pole_pairs_));
+  if (quarters_.referenced) commutate_at(m, electrical_of(angle, pole_pairs_));
 }
 
 template <class Scalar>
@@ -231,7 +238,7 @@ void RotorDecoder<Scalar>::of_absolute(control::Measurement<Scalar>& m, const Sh
   const control::GrayReading<Scalar> reading = control::gray_step(gray_config_, gray_, ports.code());
   m.speed_rad_s = reading.speed;
   place(m, reading.position);
-  commutate_at(m, control::electrical_angle(reading.position.angle, pole_pairs_));
+  commutate_at(m, electrical_of(reading.position.angle, pole_pairs_));
 }
 
 /// Reads a tracking chip, whose loop has followed the windings until the reading.
@@ -241,7 +248,7 @@ void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const T
   control::unwrap(seen_, converter.angle());
   m.speed_rad_s = control::AngleTraits<Scalar>::scaled(converter.speed(), resolver_speed_);
   place(m, seen_);
-  commutate_at(m, control::electrical_angle(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
+  commutate_at(m, electrical_of(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
 }
 
 /// Finds which winding is lost, from the samples of the last two peaks.
@@ -282,7 +289,7 @@ void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sa
   at.angle = control::quantised(at.angle, bits_);
   m.speed_rad_s = control::AngleTraits<Scalar>::scaled(per_peak_, resolver_speed_);
   place(m, at);
-  commutate_at(m, control::electrical_angle(at.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
+  commutate_at(m, electrical_of(at.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
 }
 
 }  // namespace sixstep::rig

@@ -81,7 +81,8 @@ class ShaftPorts {
   /// the excitation at its first sample; a tracking chip has excited the windings since t = 0.
   std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
     if (!excited_ && given_.resolver.reading == ResolverReading::sampled) return {};
-    return windings_.leave(plant::resolver_V(resolver_, at, t.ticks - excited_ticks_), {});
+    return windings_.leave(
+        plant::resolver_V(resolver_, mounted(given_.offset_deg, at), t.ticks - excited_ticks_), {});
   }
 
   /// The next `edges` edges are not counted.

@@ -3,6 +3,7 @@
 // sensor's output at an angle. The sensor replaces the Hall probes, or is on the load's side in addition to
 // them. Drive peripherals and traces use the same functions.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -23,11 +24,13 @@ struct Encoder {
   std::optional<double> pitch_mm;  ///< pitch of a linear motor's scale, instead of lines
   bool referenced = true;          ///< its index was passed before the run
   double missed_Hz = 0.0;
+  double offset_deg = 0.0;  ///< mounting: electrical angle that the sensor shows above the rotor's
 };
 struct AbsoluteEncoder {
   int bits = 14;
-  double latency_s = 0.0;  ///< time from the latching of the code to its reading
-  int speed_samples = 8;   ///< samples over which the speed is averaged
+  double latency_s = 0.0;   ///< time from the latching of the code to its reading
+  int speed_samples = 8;    ///< samples over which the speed is averaged
+  double offset_deg = 0.0;  ///< as of an encoder
 };
 struct Resolver {
   int pole_pairs = 1;
@@ -46,6 +49,7 @@ struct Resolver {
   ResolverReading reading = ResolverReading::sampled;
   double converter_Hz = 500e3;  ///< tracking: clock of the chip's loop
   double latency_s = 0.0;       ///< tracking: time from the latching of the angle to its reading
+  double offset_deg = 0.0;      ///< as of an encoder
 };
 
 /// The resolver's windings, in SI units.
@@ -71,6 +75,9 @@ struct ShaftSensorConfig {
   Encoder encoder{};
   AbsoluteEncoder absolute{};
   Resolver resolver{};
+  double offset_deg = 0.0;           ///< mounting of the sensor in use, electrical degrees of the motor
+  double believed_offset_deg = 0.0;  ///< offset that the drive subtracts
+  int believed_pole_pairs = 0;       ///< the motor's pole pairs in the drive; 0: the true ones
   int samples_per_peak = 1;  ///< sampled resolver: control ticks from one peak of the excitation to the next
   control::TrackingConfig tracking{};
   ResolverWatch watch{};
@@ -79,16 +86,27 @@ struct ShaftSensorConfig {
   std::int64_t quarters() const { return 4 * std::int64_t{encoder.lines}; }
 };
 
+/// The shaft's angle as a sensor sees it that shows `offset_deg` electrical degrees more than the rotor's
+/// angle. Without an offset all bits are the same.
+template <class Real>
+plant::ShaftAngle<Real> mounted(double offset_deg, plant::ShaftAngle<Real> at) {
+  if (offset_deg == 0.0) return at;
+  const double sectors = std::floor(offset_deg / 60);
+  at.sector += static_cast<std::int64_t>(sectors);
+  at.x += static_cast<Real>((offset_deg - 60 * sectors) * (base::pi / 180));
+  return at;
+}
+
 /// Quarter of a line that an encoder shows, counted over all turns.
 template <class Real>
 std::int64_t encoder_quarter(const ShaftSensorConfig& given, const plant::ShaftAngle<Real>& at) {
-  return plant::encoder_quarter(at, given.encoder.lines);
+  return plant::encoder_quarter(mounted(given.offset_deg, at), given.encoder.lines);
 }
 
 /// Gray code of an absolute encoder.
 template <class Real>
 std::uint32_t absolute_code(const ShaftSensorConfig& given, const plant::ShaftAngle<Real>& at) {
-  return plant::gray_code(at, given.absolute.bits);
+  return plant::gray_code(mounted(given.offset_deg, at), given.absolute.bits);
 }
 
 }  // namespace sixstep::rig

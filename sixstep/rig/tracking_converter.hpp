@@ -31,10 +31,12 @@ class TrackingConverter {
         watched_(given.watched),
         noise_(given.resolver.noise_V / given.resolver.amplitude_V),
         latency_s_(given.resolver.latency_s),
+        offset_deg_(given.offset_deg),
         seed_(seed),
         period_ticks_(sim::to_instant(1.0 / given.resolver.converter_Hz).ticks),
         bits_(static_cast<std::uint8_t>(given.resolver.bits)) {
-    const auto all = static_cast<std::uint64_t>(plant::parts_of_turn(at, std::int64_t{1} << 32));
+    const auto all =
+        static_cast<std::uint64_t>(plant::parts_of_turn(mounted(offset_deg_, at), std::int64_t{1} << 32));
     state_.angle = static_cast<control::BinaryAngle>(all * static_cast<std::uint64_t>(resolver_.pole_pairs));
     next_.ticks = period_ticks_;
     read_ = shown_ = state_;
@@ -64,7 +66,8 @@ class TrackingConverter {
  private:
   template <class Real>
   void step(const plant::ShaftAngle<Real>& at, const plant::ResolverFaults& faults) {
-    const plant::ShaftAngle<double> shaft{at.sector, static_cast<double>(at.x), at.pole_pairs};
+    const plant::ShaftAngle<double> shaft =
+        mounted(offset_deg_, plant::ShaftAngle<double>{at.sector, static_cast<double>(at.x), at.pole_pairs});
     std::array<double, 2> noise{};
     if (noise_ > 0) {
       constexpr std::uint64_t stream = std::uint64_t{0x5e502} << 24;
@@ -96,7 +99,7 @@ class TrackingConverter {
   int outside_ = 0;
   bool watched_ = false;
   sim::Instant next_{};
-  double noise_ = 0.0, latency_s_ = 0.0;
+  double noise_ = 0.0, latency_s_ = 0.0, offset_deg_ = 0.0;
   std::uint64_t seed_ = 0, clock_ = 0;
   std::int64_t period_ticks_ = 1;
   std::uint8_t bits_ = 16;

@@ -27,6 +27,13 @@ constexpr std::array<std::uint8_t, 3> ends_of(WireOrder order) {
   return ends[static_cast<std::size_t>(order)];
 }
 
+/// Code of probes 1, 2, 3 from the levels at pins H1, H2, H3, if the probes are at the pins in this order.
+constexpr std::uint8_t code_at(WireOrder order, std::uint8_t pins) {
+  unsigned code = 0;
+  for (unsigned pin = 0; pin < 3; ++pin) code |= (pins >> (2U - pin) & 1U) << (2U - ends_of(order)[pin]);
+  return static_cast<std::uint8_t>(code);
+}
+
 /// Converts between phases and legs, and between probes and pins.
 struct Wiring {
   WireOrder phases = WireOrder::abc;  ///< phases at legs a, b, c

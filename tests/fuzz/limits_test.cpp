@@ -177,7 +177,7 @@ struct Counts {
 void judge(const DrawnLimits& drawn, const Reached& r, Counts& counts) {
   const Scenario& s = drawn.s;
   const auto compiled = study::compile(s);
-  const study::Basis basis{compiled->motor, compiled->shaft, s.supply.voltage_V};
+  const study::Basis basis{compiled->motor, s.sheet, compiled->shaft, s.supply.voltage_V};
   const design::LimitSetting setting = study::limit_setting(s, basis, compiled->drive);
   ASSERT_LE(r.speed_rad_s, 1.05 * setting.speed_rad_s) << "or the bounds say nothing";
   const double most_A = design::most_current_A(setting) + digits(s, 3 * drawn.current_A);

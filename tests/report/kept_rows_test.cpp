@@ -128,7 +128,7 @@ TEST(KeptRows, NothingIsCountedWhereAnEnvelopeStands) {
   const auto counts = turn_on_counts(t);
   ASSERT_TRUE(counts);
   EXPECT_NEAR(static_cast<double>((*counts)[0]), seen_s / gap_s / 2, 1.0);
-  const auto held = held_back(t, s, {});
+  const auto held = held_back(t, s);
   ASSERT_TRUE(held);
   EXPECT_DOUBLE_EQ(held->seen_s, seen_s);
   EXPECT_NEAR(held->bus_s, seen_s, 1e-12);

@@ -184,7 +184,7 @@ TEST(Setup, names_the_controllers_that_run) {
 
 TEST(Highlights, what_held_the_run_back_is_timed) {
   const SyntheticRun run = stepped_run();
-  const auto held = held_back(run.trace, run.scenario, run.outcome);
+  const auto held = held_back(run.trace, run.scenario);
   ASSERT_TRUE(held);
   EXPECT_EQ(held->bus_s, 2.0);
   EXPECT_EQ(held->largest_duty, 1.0);

@@ -33,6 +33,16 @@ std::string constant(std::string_view type, std::string_view name, const std::st
   return fmt::format("{:<72}  // {}\n", code, about);
 }
 
+/// The offset that the board's decoder subtracts from the electrical angle, if the scenario has one.
+std::string sensor_offset(const study::Compiled& c) {
+  const double offset_deg = c.board.sensors.shaft.believed_offset_deg;
+  if (offset_deg == 0.0) return "";
+  return constant("std::uint32_t", "sensor_offset",
+                  fmt::format("0x{:08x}u", sixstep::control::binary_degrees(offset_deg)),
+                  fmt::format("{} deg, 2^32 to a turn: subtract it from the electrical angle",
+                              sixstep::base::six_digits(offset_deg)));
+}
+
 std::string timing(const study::Compiled& c, const study::Clearance* clearance) {
   const bool cleared = clearance && clearance->clear();
   const sixstep::rig::ModulatorConfig& m = c.board.modulator;
@@ -45,8 +55,10 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
     bridge += std::string(c.product ? " whose" : ", and whose") + " supply takes current back";
   return constant("bool", "cleared", flag(cleared),
                   cleared ? bridge + ", by its run" : "NOT for a bridge: static_assert on it") +
-         constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),
+         constant("std::uint8_t", "pole_pairs",
+                  std::to_string(static_cast<int>(c.believed.motor.machine.pole_pairs)),
                   "electrical turns per mechanical one") +
+         sensor_offset(c) +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
                   us(static_cast<double>(m.period_ticks)) + ", and the period of the control tick") +
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),

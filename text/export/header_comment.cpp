@@ -76,7 +76,7 @@ bool states_range(const design::OperatingRange& r) {
 }
 
 std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
-  const sixstep::plant::Machine& m = c.motor.machine;
+  const sixstep::plant::Machine& m = c.believed.motor.machine;
   std::string text = "// clang-format off\n";
   text += fmt::format("// Made by sixstep {}. Change the scenario, not this file:\n//   {}\n//\n",
                       SIXSTEP_VERSION, comment_text(w.command));
@@ -85,11 +85,11 @@ std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
   if (!w.scenario.notes.empty()) text += comment("notes", w.scenario.notes);
   text += comment(
-      "motor",
-      fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
-                  w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
-                  sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
-                  sixstep::base::six_digits(c.motor.K_t_Nm_A), sixstep::base::six_digits(c.shaft.J_kg_m2)));
+      "motor", fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
+                           w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
+                           sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
+                           sixstep::base::six_digits(c.believed.motor.K_t_Nm_A),
+                           sixstep::base::six_digits(c.believed.shaft.J_kg_m2)));
   for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g, w.scenario.pwm.period_s));
   text +=
       "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "

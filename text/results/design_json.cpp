@@ -107,6 +107,7 @@ std::string design_json(const analysis::DesignStudy& s) {
                       {"back_emf_peak_phase_V_s", m.K_e_V_s},
                       {"inertia_kg_m2", m.shaft.J_kg_m2},
                       {"viscous_friction_Nm_s", m.shaft.B_Nm_s}});
+  if (!s.beliefs.empty()) out["wrong_beliefs"] = s.beliefs;
   out["loops"] = Json::array();
   for (const LoopDesign& loop : d.loops) out["loops"].push_back(loop_json(loop, d));
   out["limits"] = own(limits(d));

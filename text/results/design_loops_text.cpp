@@ -65,6 +65,12 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
   return text;
 }
 
+std::string beliefs_text(const std::vector<std::string>& costs) {
+  std::string text;
+  for (const std::string& cost : costs) text += fmt::format("  - {}\n", visible(cost));
+  return text.empty() ? text : "\nWrong beliefs, and what each costs\n" + text;
+}
+
 std::string figures_text(const DriveDesign& d) {
   Rows rows;
   std::vector<std::string> head{"loop"};

@@ -227,7 +227,7 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   std::string verdict = design_verdict(s);
   if (colour) verdict = fmt::format("\x1b[{}m{}\x1b[0m", s.usable() ? "32" : "31;1", verdict);
   const Motion motion = sixstep::design::motion_of(s.design.motor);
-  std::string text = verdict + "\n\n" + designed_motor_line(s.design, s.scenario);
+  std::string text = verdict + "\n\n" + designed_motor_line(s.design, s.scenario) + beliefs_text(s.beliefs);
   for (const LoopDesign& loop : s.design.loops) text += loop_text(loop, motion);
   if (s.position) text += position_text(*s.position, motion);
   text += figures_text(s.design) + sensing_text(s.design) + sensorless_text(s.sensorless) +

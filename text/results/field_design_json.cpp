@@ -29,6 +29,7 @@ std::string field_design_json(const sixstep::analysis::FieldStudy& f) {
                   {"torque_per_q_Nm_A", torque_per_q_A(m)},
                   {"inertia_kg_m2", d.motor.shaft.J_kg_m2},
                   {"viscous_friction_Nm_s", d.motor.shaft.B_Nm_s}};
+  if (!f.beliefs.empty()) out["wrong_beliefs"] = f.beliefs;
   out["loops"] = Json::array();
   for (const sixstep::design::LoopDesign& loop : d.loops) out["loops"].push_back(loop_json(loop, d));
   out["axes"] = steps_json(f.axes);

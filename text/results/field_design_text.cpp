@@ -68,7 +68,7 @@ std::string field_design_text(const FieldStudy& f, bool colour) {
   std::string verdict = field_design_verdict(f);
   if (colour) verdict = fmt::format("\x1b[{}m{}\x1b[0m", f.usable() ? "32" : "31;1", verdict);
   const sixstep::base::Motion motion = sixstep::design::motion_of(f.design.motor);
-  std::string text = verdict + "\n\n" + field_motor_line(f);
+  std::string text = verdict + "\n\n" + field_motor_line(f) + beliefs_text(f.beliefs);
   for (const sixstep::design::LoopDesign& loop : f.design.loops) text += loop_text(loop, motion);
   text += table("Along the magnet and across it", f.axes) + figures_text(f.design) + sensing(f) +
           table("Limits by the bus", f.limits);

@@ -8,6 +8,11 @@ namespace {
 
 using Given = std::string (*)(double, std::string_view);
 
+/// Mounting of a sensor whose zero is not the rotor's.
+std::string mounting(double offset_deg, Given given) {
+  return offset_deg == 0.0 ? "" : ", mounted " + given(offset_deg, "deg") + " off (electrical)";
+}
+
 std::string encoder(const study::Sensors& s, bool page, Given given) {
   const study::Encoder& e = s.encoder;
   std::string text = "encoder of ";
@@ -15,12 +20,13 @@ std::string encoder(const study::Sensors& s, bool page, Given given) {
   if (!page) return text + ", edges captured at " + given(s.capture_Hz, "Hz");
   if (!e.referenced) text += ", its index not passed yet";
   if (e.missed_Hz > 0) text += fmt::format(", {} edges missed each second", e.missed_Hz);
-  return text;
+  return text + mounting(e.offset_deg, given);
 }
 
 std::string absolute(const study::AbsoluteEncoder& e, Given given) {
   return fmt::format("absolute encoder of {} bits, {} late, speed over {} samples", e.bits,
-                     given(e.latency_s, "s"), e.speed_samples);
+                     given(e.latency_s, "s"), e.speed_samples) +
+         mounting(e.offset_deg, given);
 }
 
 std::string resolver(const study::Resolver& r, bool page, Given given) {
@@ -28,10 +34,13 @@ std::string resolver(const study::Resolver& r, bool page, Given given) {
   std::string text = fmt::format("resolver of {} pole pairs", r.pole_pairs);
   if (!page) return text + ", " + within;
   if (r.reading == sixstep::rig::ResolverReading::tracking)
-    return text + fmt::format(", {} by a converter chip of {} bits at {}, {} late", within, r.bits,
-                              given(r.converter_Hz, "Hz"), given(r.latency_s, "s"));
+    return text +
+           fmt::format(", {} by a converter chip of {} bits at {}, {} late", within, r.bits,
+                       given(r.converter_Hz, "Hz"), given(r.latency_s, "s")) +
+           mounting(r.offset_deg, given);
   text += fmt::format(" at {}, {}, {} bits", given(r.excitation_Hz, "Hz"), within, r.bits);
-  return text + (r.calibrated ? ", differences between its windings compensated" : "");
+  return text + (r.calibrated ? ", differences between its windings compensated" : "") +
+         mounting(r.offset_deg, given);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ double runs_of_study(const DesignOrder& order) {
 }
 
 std::optional<DriveDesign> in_closed_form(const DesignOrder& order, const DesignSpec& spec) {
-  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
+  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.believed_sheet());
   if (!motor) return std::nullopt;
   base::Result<DriveDesign> d = design::design_drive(*motor, spec);
   if (!d || is_grave(d->warnings)) return std::nullopt;
@@ -267,7 +267,7 @@ std::optional<DesignStudy> tried(const DesignOrder& order, const DesignSpec& spe
 
 void advise(const DesignOrder& order, base::Problems& problems) {
   if (problems.size() != 1 || problems.front().where != "mode" || order.spec.mode != Mode::position) return;
-  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
+  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.believed_sheet());
   if (!motor) return;
   const base::Result<DriveDesign> d = design::design_drive(*motor, order.spec);
   if (!d) return;

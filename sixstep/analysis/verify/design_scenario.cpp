@@ -42,6 +42,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   study::Scenario s;
   s.motor = subject.motor;
   s.sheet = subject.sheet;
+  s.believed = subject.believed();
   if (subject.board && subject.board->motor == subject.motor) s.motor_sheet = subject.board->motor_sheet;
   if (subject.board) {
     s.supply = subject.board->supply;

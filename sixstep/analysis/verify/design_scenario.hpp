@@ -7,7 +7,7 @@
 
 #include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/study/measure/outcome.hpp"
-#include "sixstep/study/scenario/scenario.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 
 namespace sixstep::analysis {
 
@@ -27,6 +27,13 @@ struct DesignSubject {
   /// Dead time of the bridge in s if no board defines it. A scenario that becomes a header is run with a dead
   /// time, because a real bridge without dead time short-circuits.
   double dead_time_s = 0.0;
+
+  /// Beliefs of the board's scenario, if it is for this motor.
+  study::Believed believed() const {
+    return board && board->motor == motor ? board->believed : study::Believed{};
+  }
+  /// The sheet for which the controller is designed; the run simulates `sheet`.
+  design::Sheet believed_sheet() const { return study::believed_sheet(sheet, believed()); }
 };
 
 /// Names of figures that decide whether a design is usable.

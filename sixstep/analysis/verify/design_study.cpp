@@ -17,6 +17,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/run/belief_costs.hpp"
 #include "sixstep/study/run/keep_going.hpp"
 #include "sixstep/study/run/run.hpp"
 
@@ -73,6 +74,7 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
   study::Scenario s = *subject.board;
   s.motor = subject.motor;
   s.sheet = subject.sheet;
+  s.believed = subject.believed();
   if (base::Problems found = study::check(s); !found.empty()) return found;
   const base::Result<study::Compiled> compiled = study::compile(s);
   if (!compiled) return compiled.problems();
@@ -102,7 +104,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   if (step && !(std::isfinite(*step) && *step != 0.0))
     return base::Problem{"step", base::three_digits(*step), "must be a number other than 0",
                          "give it in A, rad/s or deg according to the mode"};
-  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
+  const base::Result<design::MotorModel> motor = design::motor_model(order.subject.believed_sheet());
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> design = design::design_drive(*motor, order.spec);
   if (!design) return design.problems();
@@ -133,6 +135,8 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
                               .keep_books = true});
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
+  if (const auto compiled = study::compile(s.scenario))
+    s.beliefs = study::belief_costs(s.scenario, *compiled);
   // A quick search has already lowered the gain until it holds for all motors within the tolerances.
   if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);

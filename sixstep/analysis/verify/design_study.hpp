@@ -29,6 +29,7 @@ struct DesignStudy {
   /// Derivation of start, range and delay of a board with a sensorless drive. In the study's run, Hall edges
   /// replace the crossings.
   std::vector<design::DerivationStep> sensorless;
+  std::vector<std::string> beliefs;       ///< cost of each wrong belief (study/run/belief_costs.hpp)
   std::vector<design::Warning> warnings;  ///< warnings of the design and of its runs
 
   bool usable() const;  ///< true: no warning is grave

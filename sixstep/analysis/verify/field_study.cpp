@@ -14,6 +14,8 @@
 #include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/loops/harmonic_current.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/run/belief_costs.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::analysis {
@@ -248,10 +250,11 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   if (base::Problems problems = study::check(s); !problems.empty()) return problems;
   const base::Result<study::Compiled> c = study::compile(s);
   if (!c) return c.problems();
-  const design::DriveLoops loops = loops_of(s, *c);
+  const design::DriveLoops loops = believed_loops_of(s, *c);
   FieldStudy f;
   f.scenario = s;
-  f.machine = design::field_machine(c->motor, s.sheet);
+  f.beliefs = study::belief_costs(s, *c);
+  f.machine = design::field_machine(c->believed.motor, study::believed_sheet(s));
   design::DriveDesign& d = f.design;
   d.spec = spec_of(s);
   d.motor = loops.motor;
@@ -259,7 +262,7 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   d.current_at_full_torque_A = c->drive.current_at_full_torque_A;
   d.torque_limit_Nm = d.current_at_full_torque_A * torque_per_q_A(f.machine);
   d.nominal_current_A = d.spec.mode == Mode::current
-                            ? c->motor.nominal_current_A
+                            ? c->believed.motor.nominal_current_A
                             : std::min(c->drive.current_limit_A, d.current_at_full_torque_A);
   add_sensing(loops, f);
   add_loops(*c, loops, f);

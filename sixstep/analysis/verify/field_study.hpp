@@ -20,6 +20,7 @@ struct FieldStudy {
   std::vector<design::DerivationStep> axes;  ///< derivation of torque, decoupling, angle and field weakening
   std::vector<design::DerivationStep> limits;  ///< derivation of the speeds and the torque within the bus's
                                                ///< voltage circle
+  std::vector<std::string> beliefs;            ///< cost of each wrong belief (study/run/belief_costs.hpp)
   std::vector<design::Warning> warnings;
 
   bool usable() const;  ///< true: no warning is grave

@@ -12,6 +12,7 @@
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/run/keep_going.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 
 namespace sixstep::analysis {
 namespace {
@@ -252,14 +253,29 @@ study::Scenario varied_scenario(const study::Scenario& nominal, const design::Mo
   return s;
 }
 
+namespace {
+
+/// The simulated motor with the sum of the load's and the rotor's inertia, around which the motors vary. It is
+/// the design's motor unless the drive believes another one.
+design::MotorModel simulated_motor(const design::DriveDesign& design, const study::Scenario& s) {
+  if (!study::believes_a_motor(s.believed)) return design.motor;
+  base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  if (!motor) return design.motor;
+  motor->shaft.J_kg_m2 += s.load.inertia_kg_m2;
+  return *motor;
+}
+
+}  // namespace
+
 Robustness robustness(const design::DriveDesign& design, const study::Scenario& scenario,
                       const std::vector<Tolerance>& tolerances, const ForEach& for_each,
                       const std::function<bool()>& keep_going) {
   const std::vector<Variation> all = variations(tolerances);
+  const design::MotorModel motor = simulated_motor(design, scenario);
   std::vector<std::vector<double>> by_variation(all.size());
   for_each(all.size(), [&](std::size_t n) {
     by_variation[n] =
-        measured(n == 0 ? scenario : varied_scenario(scenario, design.motor, tolerances, all[n]), keep_going);
+        measured(n == 0 ? scenario : varied_scenario(scenario, motor, tolerances, all[n]), keep_going);
   });
   Robustness out;
   out.runs = all.size();

@@ -6,8 +6,11 @@
 
 namespace sixstep::analysis {
 
-/// The loops of the configuration at the end of the run. For a field-oriented drive they are the loops of the
-/// axis across the magnet.
+/// The loops of the configuration at the end of the run, on the simulated motor. For a field-oriented drive
+/// they are the loops of the axis across the magnet.
 design::DriveLoops loops_of(const study::Scenario& scenario, const study::Compiled& compiled);
+
+/// The same loops on the motor that the drive believes, for which its gains are designed.
+design::DriveLoops believed_loops_of(const study::Scenario& scenario, const study::Compiled& compiled);
 
 }  // namespace sixstep::analysis

@@ -9,6 +9,7 @@
 #include "sixstep/design/loops/spec_check.hpp"
 #include "sixstep/design/loops/tracking_loop.hpp"
 #include "sixstep/study/compile/shaft_sensor.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -143,7 +144,7 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   w.chopping = s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
   w.rotor = rotor_sensing_of(s);
   w.lowest_speed_rad_s = lowest_speed(s);
-  const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  const base::Result<design::MotorModel> motor = study::believed_motor(s);
   if (!motor) return w;
   if (const std::optional<double> most = most_current_A(s, motor->K_t_Nm_A); most && w.mode != Mode::current)
     w.current_limit_A = std::min(*most, w.current_limit_A.value_or(*most));

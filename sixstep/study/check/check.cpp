@@ -9,6 +9,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/believed.hpp"
 #include "sixstep/study/check/converter_ends.hpp"
 #include "sixstep/study/check/field.hpp"
 #include "sixstep/study/check/heat.hpp"
@@ -194,6 +195,7 @@ base::Problems check(const Scenario& s, std::size_t known_events) {
     model = *motor;
     check_torque_limit(s, *motor, out);
     check_pace(s, *motor, out);
+    check_believed(s, out);
   } else {
     out = motor.problems();
   }

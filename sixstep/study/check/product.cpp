@@ -10,6 +10,7 @@
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/study/check/converter_ends.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -153,15 +154,17 @@ void check_lean(const Scenario& s, base::Problems& out) {
 
 }  // namespace
 
-std::optional<double> current_limit_A(const Scenario& s, const design::MotorModel& motor) {
+std::optional<double> current_limit_A(const Scenario& s) {
   const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
   if (!cascade || s.control.speed.output == SpeedOutput::duty) return std::nullopt;
   const std::optional<double>& limit_A = s.control.current.limit_A;
+  const base::Result<design::MotorModel> motor = believed_motor(s);
+  if (!motor) return limit_A;
   const double torque =
-      s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
-  double per_A = motor.K_t_Nm_A;
+      s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(*motor, s.supply.voltage_V));
+  double per_A = motor->K_t_Nm_A;
   if (s.control.drive == FirmwareKind::field) {
-    const design::FieldMachine machine = design::field_machine(motor, s.sheet);
+    const design::FieldMachine machine = design::field_machine(*motor, believed_sheet(s));
     // The torque of a salient rotor is not proportional to its current.
     if (machine.L_d_H != machine.L_q_H) return std::nullopt;
     per_A = design::torque_per_q_A(machine);

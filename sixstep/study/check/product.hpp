@@ -15,9 +15,9 @@ void check_product(const Scenario& scenario, const std::optional<design::MotorMo
 
 /// The largest current that a speed loop requests from the current loop, A: its full torque divided by K_t
 /// (field-oriented drive: by the torque per ampere of q-axis current), or control.current.limit_A if this is
-/// less. Empty without such a cascade, and for a salient rotor in a field-oriented drive, because its torque
+/// less. K_t is the one that the drive believes. Empty without such a cascade, and for a salient rotor in a field-oriented drive, because its torque
 /// is not proportional to the current.
-std::optional<double> current_limit_A(const Scenario& scenario, const design::MotorModel& motor);
+std::optional<double> current_limit_A(const Scenario& scenario);
 
 /// Refuses options of the current loop, of its limits and of the chopping that contradict each other.
 void check_extras(const Scenario& scenario, base::Problems& out);

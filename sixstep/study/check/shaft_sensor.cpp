@@ -24,7 +24,13 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   };
   const bool sampled = r.reading == rig::ResolverReading::sampled,
              commutates = s.sensors.shaft == SensorShaft::motor;
-  if (motor && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
+  const std::optional<int>& believed = s.believed.pole_pairs;
+  if (believed && commutates && *believed % r.pole_pairs != 0)
+    out.push_back({"believed.pole_pairs", std::to_string(*believed),
+                   "is no multiple of the resolver's " + std::to_string(r.pole_pairs) +
+                       ": the drive could not convert its angle to the motor's electrical angle",
+                   "take a multiple, or another sensors.resolver.pole_pairs"});
+  if (motor && !believed && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
               ": one angle of it would correspond to several electrical angles of the motor",
@@ -162,6 +168,11 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
     return;
   }
   const std::string word(base::word(rotor_sensing_choices, rotor));
+  if (on_load && mounting_offset_deg(s.sensors) != 0.0)
+    out.push_back({"sensors." + word + ".offset_deg", base::written(mounting_offset_deg(s.sensors)),
+                   "is an electrical angle of the motor, and this sensor is on the load's shaft, where the "
+                   "Hall probes commutate",
+                   "remove it, or set sensors.shaft = \"motor\""});
   check_linear(s, word, out);
   const bool pair_moves = s.control.drive != FirmwareKind::field && !answers_legs(s.control.own);
   if (!on_load && pair_moves && s.pwm.commutation != CommutationAt::sample)

@@ -145,6 +145,7 @@ std::string unused_keys(const Scenario& s) {
   of_control(s, out);
   of_idle_loops(s, out);
   of_sheet(s, out);
+  unused_beliefs(s, out);
   return out.text();
 }
 

@@ -58,6 +58,9 @@ class Unused {
   std::string text_;
 };
 
+/// Adds the keys of [believed] with which this drive computes nothing.
+void unused_beliefs(const Scenario& scenario, Unused& out);
+
 /// Adds the keys of [sensors] whose device is absent, or whose converter converts nothing.
 void unused_of_sensors(const Scenario& scenario, Unused& out);
 

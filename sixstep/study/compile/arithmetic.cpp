@@ -70,7 +70,7 @@ template <class Scalar>
 base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::Bases& b) {
   if (s.sensors.rotor != RotorSensing::hall) return {};
   using Wide = typename Scalar::WideInt;
-  const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
+  const double ratio = base::pi / 3 / c.believed.motor.machine.pole_pairs * s.sensors.capture_Hz;
   // With an angle between the edges the speed is measured over six sectors, whatever speed_edges is.
   const int sectors = s.sensors.hall_angle == rig::HallAngleFrom::sectors ? c.board.sensors.edges : 6;
   const double digits = ratio * sectors / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
@@ -95,9 +95,9 @@ double fastest_change_of_speed(const Scenario& s, const Compiled& c, const desig
   double load = std::fabs(s.load.torque_Nm);
   for (const double torque : s.load.torques_Nm) load = std::max(load, std::fabs(torque));
   for (const At& at : s.at) load = std::max(load, std::fabs(at.load.torque_Nm.value_or(0.0)));
-  const double friction = plant::friction_Nm(c.shaft, range.speed_rad_s);
-  const double own = design::torque_per_A(c.motor.machine) * range.current_A;
-  return (own + load + friction) / c.shaft.J_kg_m2 * s.pwm.period_s;
+  const double friction = plant::friction_Nm(c.believed.shaft, range.speed_rad_s);
+  const double own = design::torque_per_A(c.believed.motor.machine) * range.current_A;
+  return (own + load + friction) / c.believed.shaft.J_kg_m2 * s.pwm.period_s;
 }
 
 template <class Scalar>
@@ -129,14 +129,14 @@ template control::DriveConfig<float> in_arithmetic(const control::DriveConfig<do
 template control::DriveConfig<double> in_arithmetic(const control::DriveConfig<double>&);
 
 design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
-  const double U = std::max(highest_supply_V(s), c.start.bus_V), K_t = c.motor.K_t_Nm_A;
+  const double U = std::max(highest_supply_V(s), c.start.bus_V), K_t = c.believed.motor.K_t_Nm_A;
   const double asked = largest_reference(s);
   design::OperatingRange range;
   range.bus_V = std::max(U, s.control.regeneration.limit_V.value_or(0.0));
   range.setpoint = asked;
   range.speed_rad_s = std::max(U / K_t, std::fabs(c.start.speed_rad_s));
   range.position_deg = std::max(asked, std::fabs(c.start.angle_rad) * 180.0 / base::pi);
-  const double drivable = (U + K_t * range.speed_rad_s) / (2 * c.motor.machine.R_ohm);
+  const double drivable = (U + K_t * range.speed_rad_s) / (2 * c.believed.motor.machine.R_ohm);
   const Mode mode = s.control.mode;
   const bool has_reference = mode == Mode::current || mode == Mode::speed || mode == Mode::position;
   const double reference = mode == Mode::current ? asked : c.drive.current_limit_A;

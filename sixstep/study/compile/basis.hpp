@@ -8,9 +8,11 @@
 
 namespace sixstep::study {
 
-/// The controller's design basis: the scenario's motor, or the nominal motor of a series.
+/// The controller's design basis: the motor as the drive believes it (believed_motor.hpp), of the scenario or
+/// of a series. No number of the plant follows from it.
 struct Basis {
   const design::MotorModel& motor;
+  const design::Sheet& sheet;
   plant::Shaft shaft;
   double bus_V;
 };

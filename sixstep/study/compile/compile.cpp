@@ -15,6 +15,7 @@
 #include "sixstep/study/compile/setpoint_range.hpp"
 #include "sixstep/study/compile/shaft_sensor.hpp"
 #include "sixstep/study/compile/timeline.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 
 namespace sixstep::study {
@@ -131,6 +132,8 @@ rig::BoardConfig board_of(const Scenario& s, double L_over_R_s) {
   board.front_end = front_end_of(s.sensors, s.control.drive == FirmwareKind::sensorless,
                                  s.control.sensorless.follows == control::Follow::comparators);
   board.hall_arrangement = s.sensors.hall_spacing;
+  board.believed_lines = s.believed.hall_lines;
+  board.believed_pole_pairs = s.believed.pole_pairs.value_or(0);
   return board;
 }
 
@@ -234,14 +237,18 @@ double speed_window_s(const Scenario& s, const Basis& basis, const control::Driv
 base::Result<Compiled> compile(const Scenario& s) {
   base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   if (!motor) return motor.problems();
+  // Most drives are designed for their own motor, which is read once.
+  const bool other = s.designed_for || believes_a_motor(s.believed);
+  base::Result<design::MotorModel> believed = other ? believed_motor(s) : motor;
+  if (!believed) return believed.problems();
+  const std::optional<design::Sheet> other_sheet = other ? std::optional(believed_sheet(s)) : std::nullopt;
   const Nominal* nominal = s.designed_for ? &*s.designed_for : nullptr;
-  const base::Result<design::MotorModel> designed = nominal ? design::motor_model(nominal->sheet) : motor;
-  if (!designed) return designed.problems();
-  const Basis basis{*designed, shaft_of(*designed, nominal ? nominal->load : s.load),
-                    nominal ? nominal->supply.voltage_V : s.supply.voltage_V};
   Compiled out;
   out.motor = *motor;
   out.shaft = shaft_of(out.motor, s.load);
+  out.believed = {*believed, shaft_of(*believed, nominal ? nominal->load : s.load)};
+  const Basis basis{out.believed.motor, other_sheet ? *other_sheet : s.sheet, out.believed.shaft,
+                    nominal ? nominal->supply.voltage_V : s.supply.voltage_V};
   out.devices = {s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm};
   out.supply = {s.supply.voltage_V, s.supply.resistance_ohm, s.supply.capacitance_F, s.supply.sinks};
   out.start = {s.initial.speed_rad_s, s.initial.angle_rad, s.initial.bus_V.value_or(s.supply.voltage_V)};

@@ -38,9 +38,16 @@ struct GeneralPlant {
   plant::general::HeatGiven heat;
 };
 
-struct Compiled {
+/// The motor as the drive believes it, and the shaft of this motor and its load together.
+struct BelievedMotor {
   design::MotorModel motor;
-  plant::Shaft shaft;  ///< shaft of motor and load together
+  plant::Shaft shaft;
+};
+
+struct Compiled {
+  design::MotorModel motor;  ///< the simulated motor
+  plant::Shaft shaft;        ///< shaft of motor and load together
+  BelievedMotor believed;    ///< source of all numbers of the controller
   plant::Devices devices;
   plant::Supply supply;
   plant::Start start;

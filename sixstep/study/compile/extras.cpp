@@ -67,7 +67,7 @@ void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveC
   const CurrentCommutation kind = s.control.current.commutation;
   if (kind == CurrentCommutation::plain) return;
   const plant::Machine& m = basis.motor.machine;
-  const design::Sheet& sheet = s.designed_for ? s.designed_for->sheet : s.sheet;
+  const design::Sheet& sheet = basis.sheet;
   const double flat_deg =
       sheet.back_emf == design::BackEmfShape::trapezoid ? std::min(sheet.flat_deg, widest_flat_deg) : 120.0;
   const double flank_rad = (180 - flat_deg) * base::pi / 180 / m.pole_pairs;  // in mechanical rad

@@ -85,12 +85,12 @@ base::Problems add_axes(const Scenario& s, const design::FieldMachine& machine, 
 
 double torque_per_A(const Scenario& s, const Basis& basis) {
   if (s.control.drive != FirmwareKind::field) return basis.motor.K_t_Nm_A;
-  return design::torque_per_q_A(design::field_machine(basis.motor, designed_sheet(s)));
+  return design::torque_per_q_A(design::field_machine(basis.motor, basis.sheet));
 }
 
 double field_lag_periods(const Scenario& s, const Basis& basis) {
   if (s.control.field.law == FieldLaw::finite_set) return waits_periods(s.pwm) + 0.5;
-  const design::FieldMachine machine = design::field_machine(basis.motor, designed_sheet(s));
+  const design::FieldMachine machine = design::field_machine(basis.motor, basis.sheet);
   const auto axis = axis_loop(s, "current q", machine.R_ohm, machine.L_q_H);
   return axis ? design::current_lag_periods(machine.R_ohm, axis->gains.d1 + axis->gains.d0) : 0.0;
 }
@@ -98,7 +98,7 @@ double field_lag_periods(const Scenario& s, const Basis& basis) {
 base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,
                                        const control::DriveConfig<double>& drive) {
   const Field& wanted = s.control.field;
-  const design::FieldMachine machine = design::field_machine(basis.motor, designed_sheet(s));
+  const design::FieldMachine machine = design::field_machine(basis.motor, basis.sheet);
   FieldAround out;
   out.config.drive = drive;
   if (drive.current_at_full_torque_A > 0)

@@ -42,7 +42,7 @@ base::Problems add_estimator(const Scenario& s, const Basis& basis, const design
                              const control::DriveConfig<double>& drive, double loop_rad_s, FieldAround& out) {
   const Field& wanted = s.control.field;
   if (wanted.angle == FieldAngle::sensors) return {};
-  const design::Sheet& sheet = designed_sheet(s);
+  const design::Sheet& sheet = basis.sheet;
   const bool in_middle = s.pwm.sample == SampleAt::middle;
   design::FieldEstimateSpec spec{.injects = wanted.angle != FieldAngle::observer,
                                  .observes = wanted.angle != FieldAngle::injection,

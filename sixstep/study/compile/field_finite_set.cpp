@@ -7,7 +7,7 @@ namespace sixstep::study {
 
 void add_finite_set(const Scenario& s, const Basis& basis, FieldAround& out) {
   const Field& wanted = s.control.field;
-  const design::FieldMachine machine = design::field_machine(basis.motor, designed_sheet(s));
+  const design::FieldMachine machine = design::field_machine(basis.motor, basis.sheet);
   const design::FiniteSet designed = design::finite_set(machine, s.pwm.period_s, basis.bus_V);
   control::FiniteSetConfig<double>& c = out.config.finite_set;
   c = designed.config;

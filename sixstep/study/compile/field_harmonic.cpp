@@ -8,7 +8,7 @@ namespace sixstep::study {
 
 void add_harmonic_current(const Scenario& s, const Basis& basis, FieldAround& out) {
   if (!s.control.field.harmonic_current) return;
-  const design::Sheet& sheet = designed_sheet(s);
+  const design::Sheet& sheet = basis.sheet;
   const design::FieldMachine machine = design::field_machine(basis.motor, sheet);
   const auto shape = design::harmonic_shape(general_machine(sheet, basis.motor), machine.magnet_V_s);
   if (design::is_sine(shape)) return;

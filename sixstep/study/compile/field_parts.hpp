@@ -5,11 +5,6 @@
 
 namespace sixstep::study {
 
-/// The sheet on which the controller is designed: the scenario's motor, or the nominal motor of a series.
-inline const design::Sheet& designed_sheet(const Scenario& s) {
-  return s.designed_for ? s.designed_for->sheet : s.sheet;
-}
-
 /// Delay in whole periods from a sample to the output computed from it, for the winding's discrete model.
 /// Half a period counts as one period.
 inline int waits_periods(const Pwm& pwm) {

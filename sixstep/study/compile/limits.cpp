@@ -140,8 +140,8 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
 }
 
 /// The bounds assume one inductance. A salient rotor's torque and current at the limit depend on its angle.
-void check_saliency(const Scenario& s, base::Problems& out) {
-  const double ratio = s.sheet.q_axis_inductance_mH->value / s.sheet.d_axis_inductance_mH->value;
+void check_saliency(const Scenario& s, const design::Sheet& sheet, base::Problems& out) {
+  const double ratio = sheet.q_axis_inductance_mH->value / sheet.d_axis_inductance_mH->value;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, base::three_digits(*value),
@@ -181,8 +181,8 @@ base::Problems check_limits(const Scenario& s, const Basis& basis,
   const bool has_current_loop = s.control.mode == Mode::current || drive.current_limit_A > 0;
   if (has_current_loop && s.control.current.type == CurrentLoopType::pi) check_converter(s, drive, out);
   if (!drive.extras.limits_current) return out;
-  if (design::is_salient(s.sheet)) {
-    check_saliency(s, out);
+  if (design::is_salient(basis.sheet)) {
+    check_saliency(s, basis.sheet, out);
     return out;
   }
   check_shunt(s, out);

@@ -24,7 +24,7 @@ std::uint8_t mode_of(control::Mode mode) {
 }
 
 sixstep_given given_of(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
-  const design::Sheet& sheet = s.designed_for ? s.designed_for->sheet : s.sheet;
+  const design::Sheet& sheet = basis.sheet;
   const design::FieldMachine machine = design::field_machine(basis.motor, sheet);
   return {.mode = mode_of(s.control.mode),
           .delay_periods = static_cast<std::uint8_t>(s.pwm.delay_periods),

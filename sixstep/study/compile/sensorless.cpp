@@ -50,7 +50,7 @@ design::SensorlessSpec spec_of(const Scenario& s, const Basis& basis,
 }
 
 design::PulseSpec pulse_spec_of(const Scenario& s, const Basis& basis, double start_A) {
-  const design::Sheet& sheet = s.designed_for ? s.designed_for->sheet : s.sheet;
+  const design::Sheet& sheet = basis.sheet;
   const bool salient = design::is_salient(sheet);
   design::PulseSpec spec;
   spec.bus_V = basis.bus_V;

@@ -108,6 +108,21 @@ void take_hall_angle(const Scenario& s, rig::SensorsConfig& to) {
   to.hall_hysteresis_deg = from.hall_hysteresis_deg;
 }
 
+double mounting_offset_deg(const Sensors& x) {
+  switch (x.rotor) {
+    case RotorSensing::ideal:
+    case RotorSensing::hall:
+      break;
+    case RotorSensing::encoder:
+      return x.encoder.offset_deg;
+    case RotorSensing::absolute:
+      return x.absolute.offset_deg;
+    case RotorSensing::resolver:
+      return x.resolver.offset_deg;
+  }
+  return 0.0;
+}
+
 rig::ShaftSensorConfig shaft_sensor_config(const Scenario& s) {
   const Sensors& x = s.sensors;
   rig::ShaftSensorConfig to{.kind = kind_of(x.rotor), .watched = x.watched};
@@ -118,6 +133,9 @@ rig::ShaftSensorConfig shaft_sensor_config(const Scenario& s) {
   if (to.kind == rig::ShaftSensor::resolver) take_resolver(s, to);
   to.on_load = x.shaft == SensorShaft::load;
   if (to.on_load) to.gear = s.load.gear;
+  to.offset_deg = mounting_offset_deg(s.sensors);
+  to.believed_offset_deg = s.believed.sensor_offset_deg;
+  to.believed_pole_pairs = s.believed.pole_pairs.value_or(0);
   return to;
 }
 

@@ -19,6 +19,9 @@ void take_hall_angle(const Scenario& scenario, rig::SensorsConfig& to);
 /// Lines of a linear motor's scale in two pole pitches; check() requires a whole number of them.
 double lines_to_period(const Scenario& scenario);
 
+/// Mounting offset of the sensor in use, electrical degrees; 0 if no sensor on the shaft is used.
+double mounting_offset_deg(const Sensors& sensors);
+
 /// Returns the sensor's configuration. The kind is `none` with Hall probes and without a sensor.
 rig::ShaftSensorConfig shaft_sensor_config(const Scenario& scenario);
 

@@ -179,8 +179,8 @@ bool breaks_wire_or_switch(const Scenario& s) {
 
 bool crosses_wires(const Scenario& s) {
   const auto crossed = [](rig::WireOrder order) { return order != rig::WireOrder::abc; };
-  return crossed(s.bridge.phases) || crossed(s.sensors.hall_lines) || inverts_a_hall_line(s) ||
-         std::any_of(s.at.begin(), s.at.end(), [](const At& at) {
+  return crossed(s.bridge.phases) || crossed(s.sensors.hall_lines) || crossed(s.believed.hall_lines) ||
+         inverts_a_hall_line(s) || std::any_of(s.at.begin(), s.at.end(), [](const At& at) {
            return at.bridge.phases != AtOrder::same || at.sensors.hall_lines != AtOrder::same;
          });
 }

@@ -34,7 +34,7 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
     if (most == 0.0) return std::nullopt;
     return MostCurrent{most, "the reference"};
   }
-  const std::optional<double> limit = current_limit_A(s, motor);
+  const std::optional<double> limit = current_limit_A(s);
   if (!limit) return std::nullopt;
   const Limits& bounds = s.control.limits;
   const double by_current_A = bounds.current_A.value_or(*limit);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/loop_stability.hpp"
 
-#include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/transfer.hpp"
-#include "sixstep/study/compile/field_parts.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 
 namespace sixstep::study {
@@ -15,20 +13,7 @@ double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }
 
-/// Whether a PI on R and L of the driven pair, or of an axis of the field-oriented drive, is stable while no
-/// limit acts.
-bool is_stable_current(const Scenario& s, const design::MotorModel& motor, const LoopGains& g) {
-  design::DriveLoops loops{.motor = motor,
-                           .winding = design::driven_pair(motor, s.pwm.chopping),
-                           .period_s = s.pwm.period_s,
-                           .late_periods = wait_periods(s.pwm),
-                           .current = {g.d1, g.d0}};
-  if (s.control.drive == FirmwareKind::field) {
-    const design::FieldMachine machine = design::field_machine(motor, designed_sheet(s));
-    loops.winding = {machine.R_ohm, g.loop == "current q" ? machine.L_q_H : machine.L_d_H};
-  }
-  return design::is_stable(closed(open_current_loop(loops)).den);
-}
+}  // namespace
 
 bool is_current_pi(const Scenario& s, const LoopGains& g) {
   const bool finite_set =
@@ -36,11 +21,25 @@ bool is_current_pi(const Scenario& s, const LoopGains& g) {
   return g.loop.starts_with("current") && s.control.current.type == CurrentLoopType::pi && !finite_set;
 }
 
-}  // namespace
+design::DriveLoops current_loop_on(const Scenario& s, const design::MotorModel& motor,
+                                   const design::Sheet& sheet, const LoopGains& g) {
+  design::DriveLoops loops{.motor = motor,
+                           .winding = design::driven_pair(motor, s.pwm.chopping),
+                           .period_s = s.pwm.period_s,
+                           .late_periods = wait_periods(s.pwm),
+                           .current = {g.d1, g.d0}};
+  if (s.control.drive == FirmwareKind::field) {
+    const design::FieldMachine machine = design::field_machine(motor, sheet);
+    loops.winding = {machine.R_ohm, g.loop == "current q" ? machine.L_q_H : machine.L_d_H};
+  }
+  return loops;
+}
 
 std::optional<base::Problem> unstable_current_loop(const Scenario& s, const design::MotorModel& motor,
                                                    const LoopGains& g) {
-  if (!is_current_pi(s, g) || is_stable_current(s, motor, g)) return std::nullopt;
+  if (!is_current_pi(s, g)) return std::nullopt;
+  if (design::is_stable(closed(open_current_loop(current_loop_on(s, motor, s.sheet, g))).den))
+    return std::nullopt;
   return base::Problem{"the " + g.loop + " loop", "",
                        "is unstable with its gains (" + g.origin +
                            ") on this motor's R and L at a control period of " +

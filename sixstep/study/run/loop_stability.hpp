@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks whether a current loop is stable with the gains of a run.
+// The current loop with the gains of a run, on any motor: whether it is stable.
 #pragma once
 #include <optional>
 
 #include "sixstep/base/result.hpp"
-#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/design/loops/drive_loops.hpp"
+#include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
+
+/// True if these gains are those of a PI current loop.
+bool is_current_pi(const Scenario& scenario, const LoopGains& gains);
+
+/// This loop on R and L of the motor's driven pair, or of an axis of the field-oriented drive.
+design::DriveLoops current_loop_on(const Scenario& scenario, const design::MotorModel& motor,
+                                   const design::Sheet& sheet, const LoopGains& gains);
 
 /// The problem of a PI current loop that is unstable on the motor's R and L, with the scenario's sampling and
 /// delay. Empty for a stable loop, and for a loop that is not a PI current loop.

@@ -13,6 +13,7 @@
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
 #include "sixstep/study/compile/pulse.hpp"
+#include "sixstep/study/run/belief_costs.hpp"
 #include "sixstep/study/run/commutation_remarks.hpp"
 #include "sixstep/study/run/export_notes.hpp"
 #include "sixstep/study/run/export_protection.hpp"
@@ -238,6 +239,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   };
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
+  for (std::string& text : belief_costs(s, c)) add(std::move(text));
   add(sheet_contradiction(s));
   add(on_supply(s));
   // Only a product drive is made for a real bridge. Scenarios with other drives are studies.

@@ -11,6 +11,7 @@
 #include "sixstep/control/pwm_pattern.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/scenario/at.hpp"
+#include "sixstep/study/scenario/believed.hpp"
 #include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/load.hpp"
 #include "sixstep/study/scenario/measure.hpp"
@@ -113,7 +114,8 @@ struct Comparison {
 
 enum class Distribution : std::uint8_t { uniform, normal };
 
-/// Variation of one number of motor, supply, bridge, load, start or Hall edges within a series of drives.
+/// Variation of one number of motor, supply, bridge, load, start, beliefs, sensor places or Hall edges within a
+/// series of drives.
 struct Spread {
   std::string key;  // as written in the scenario: "motor_override.resistance_ohm", "supply.voltage_V"
   Distribution distribution = Distribution::uniform;
@@ -140,6 +142,7 @@ struct Scenario {
   std::string not_usable;                    // reason why the scenario's design is not usable; empty if it is
   design::Sheet sheet;                       // the motor's sheet with overrides applied (filled by text)
   std::optional<design::Sheet> motor_sheet;  // without overrides (filled by text); not given: there is none
+  Believed believed;                         // what the drive believes instead of sheet and sensors
   Supply supply;
   Bridge bridge;
   Heat heat;

@@ -3,6 +3,7 @@
 
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/at_description.hpp"
+#include "sixstep/study/scenario/believed_description.hpp"
 #include "sixstep/study/scenario/bridge_description.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/control_description.hpp"
@@ -68,14 +69,15 @@ void describe(base::Visitor& v, Record& s) {
 }
 
 void describe(base::Visitor& v, Spread& s) {
-  v.value("key", s.key,
-          {.meaning =
-               "number that differs from run to run, such as supply.voltage_V. Allowed: motor_override "
-               "(resistance_ohm, inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, "
-               "viscous_friction_Nm_s, coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg); "
-               "supply, bridge, load or initial; a Hall edge (sensors.hall_edges_deg[0], the first one) or "
-               "sensors.hall_offset_deg",
-           .required = true});
+  v.value(
+      "key", s.key,
+      {.meaning =
+           "number that differs from run to run, such as supply.voltage_V. Allowed: motor_override "
+           "(resistance_ohm, inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, "
+           "viscous_friction_Nm_s, coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg); "
+           "supply, bridge, load, initial or believed; a Hall edge (sensors.hall_edges_deg[0], the first one), "
+           "sensors.hall_offset_deg, or offset_deg of sensors.encoder, absolute or resolver",
+       .required = true});
   v.choice("distribution", s.distribution, distribution_choices, {.meaning = "distribution of the values"});
   v.value("relative", s.relative,
           {.meaning = "half width (uniform) or standard deviation (normal), as a part of the key's value",
@@ -111,6 +113,10 @@ void describe(base::Visitor& v, Scenario& s) {
                       "it; while it is present, no header is exported"});
   v.table("motor_override", s.sheet,
           {.meaning = "single values that replace those of the motor file", .partial = true});
+  v.table("believed", s.believed,
+          {.meaning = "values of motor and sensor that the drive believes, instead of the true ones; its "
+                      "design, its firmware and the exported header use them, and the simulated motor does "
+                      "not"});
   v.table("supply", s.supply, {.meaning = "source of the bus"});
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
   v.table("heat", s.heat, {.meaning = "temperatures that the run simulates; none by default"});

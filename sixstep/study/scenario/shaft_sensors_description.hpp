@@ -39,6 +39,11 @@ inline void describe(base::Visitor& v, Encoder& s) {
                       "index corrects the count",
            .unit = "Hz",
            .range = base::from(0)});
+  v.value("offset_deg", s.offset_deg,
+          {.meaning = "mounting: electrical angle that it shows above the rotor's; the drive subtracts "
+                      "believed.sensor_offset_deg",
+           .unit = "deg",
+           .range = base::between(-360, 360)});
 }
 
 inline void describe(base::Visitor& v, AbsoluteEncoder& s) {
@@ -48,6 +53,11 @@ inline void describe(base::Visitor& v, AbsoluteEncoder& s) {
   v.value("speed_samples", s.speed_samples,
           {.meaning = "number of control periods over which the speed is averaged",
            .range = base::between(1, 8)});
+  v.value("offset_deg", s.offset_deg,
+          {.meaning = "mounting: electrical angle that it shows above the rotor's; the drive subtracts "
+                      "believed.sensor_offset_deg",
+           .unit = "deg",
+           .range = base::between(-360, 360)});
 }
 
 inline void describe(base::Visitor& v, Resolver& s) {
@@ -96,6 +106,11 @@ inline void describe(base::Visitor& v, Resolver& s) {
           {.meaning = "tracking: clock of the chip's loop", .unit = "Hz", .range = base::between(1e3, 1e7)});
   v.value("latency_s", s.latency_s,
           {.meaning = "tracking: age of the latched angle at a sample", .unit = "s", .range = base::from(0)});
+  v.value("offset_deg", s.offset_deg,
+          {.meaning = "mounting: electrical angle that it shows above the rotor's; the drive subtracts "
+                      "believed.sensor_offset_deg",
+           .unit = "deg",
+           .range = base::between(-360, 360)});
 }
 
 }  // namespace sixstep::rig

@@ -35,8 +35,16 @@ constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
                                            "motor_override.flat_deg"};
 /// The key of one Hall edge continues with the edge's index: "sensors.hall_edges_deg[0]".
 constexpr std::string_view hall_edge_keys = "sensors.hall_edges_deg[";
-constexpr std::string_view tables[] = {"supply.",  "bridge.",      "load.",
-                                       "initial.", hall_edge_keys, "sensors.hall_offset_deg"};
+constexpr std::string_view tables[] = {"supply.",
+                                       "bridge.",
+                                       "load.",
+                                       "initial.",
+                                       "believed.",
+                                       hall_edge_keys,
+                                       "sensors.hall_offset_deg",
+                                       "sensors.encoder.offset_deg",
+                                       "sensors.absolute.offset_deg",
+                                       "sensors.resolver.offset_deg"};
 
 bool may_stray(std::string_view key) {
   return std::find(std::begin(motor_keys), std::end(motor_keys), key) != std::end(motor_keys) ||
@@ -152,7 +160,8 @@ struct Checker {
     if (!may_stray(spread.key) || (!at.number && !at.left_out))
       return add(
           where + ".key", "\"" + spread.key + "\"",
-          "is not a number of motor_override, supply, bridge, load or initial, and no place of a Hall edge, "
+          "is not a number of motor_override, supply, bridge, load, initial or believed, and no place of a Hall "
+          "edge or a sensor, "
           "that differs from drive to drive",
           "write it as table.key, as in \"supply.voltage_V\"; the help on spread.key lists the motor's");
     if (!at.number)
@@ -237,8 +246,8 @@ base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key
   if (!may_stray(key) || !at.number)
     return refuse(
         "is of no number that differs from drive to drive",
-        "vary it as a key of the design, or one of motor_override, supply, bridge, load or initial, or a Hall "
-        "edge as sensors.hall_edges_deg[0]");
+        "vary it as a key of the design, or one of motor_override, supply, bridge, load, initial or believed, "
+        "or a Hall edge as sensors.hall_edges_deg[0]");
   if (!at.range.holds(x)) return refuse("is outside of the key's range", "narrow the range");
   set_number(s, key, x);
   return s;

@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""[believed] and offset_deg from the command line: settings, a plan's axis, design and an exported header."""
+import json
+import math
+import unittest
+
+from program import SOURCE, ProgramTest
+
+GALLERY = SOURCE / "data/scenarios/gallery"
+K, CURRENT = 1.5 * 33.5e-3 / 1.6539867, 5.0  # N m/A, A: the sine of the 251601 in belief-offset
+
+
+class Believed(ProgramTest):
+    def figures(self, name, *settings):
+        words = [word for setting in settings for word in ("--set", setting)]
+        told = self.run_program("run", str(GALLERY / f"{name}.toml"), *words, "--quiet", "--json", "-", code=None).stdout
+        return json.loads(told)
+
+    def test_torque_follows_the_cosine_of_the_offset_less_the_believed_one(self):
+        for mounted, believed in ((27, 0), (27, 27), (0, -40), (-60, 30)):
+            told = self.figures("belief-offset", f"sensors.resolver.offset_deg={mounted}",
+                                f"believed.sensor_offset_deg={believed}")
+            torque = told["require"][0]["measured"]
+            self.assertAlmostEqual(torque / (K * CURRENT), math.cos(math.radians(mounted - believed)), delta=0.005)
+
+    def test_a_plan_varies_a_belief(self):
+        self.run_program("run", str(GALLERY / "belief-pole-pairs-hall.toml"), "--vary", "believed.pole_pairs=4,8,10",
+                         "--json", "a.json", code=None)
+        rows = json.loads((self.path / "a.json").read_text())["rows"]
+        for row, pole_pairs in zip(rows, (4, 8, 10)):
+            self.assertEqual(row[3], pole_pairs)
+            self.assertAlmostEqual(row[4], 100 * pole_pairs / 8, delta=1.5)
+
+    def test_a_design_tells_what_each_belief_costs_and_uses_it(self):
+        told = self.run_program("design", "--scenario", str(GALLERY / "belief-inductance.toml"), "--json", "a.json", code=None).stdout
+        self.assertRegex(told, r"Wrong beliefs, and what each costs\n  - the drive believes L = 0\.572 instead of 0\.286 mH")
+        design = json.loads((self.path / "a.json").read_text())
+        self.assertEqual(len(design["wrong_beliefs"]), 1)
+        self.assertAlmostEqual(design["model"]["q_axis_inductance_H"], 0.572e-3)
+        told = self.run_program("design", "--scenario", str(GALLERY / "belief-inductance.toml"), code=None).stdout
+        self.assertIn("L = 0.572 mH", told)
+
+    def test_a_header_has_the_beliefs(self):
+        def header(name, *settings):
+            words = [word for setting in settings for word in ("--set", setting)]
+            return self.run_program("export", "header", str(GALLERY / f"{name}.toml"), "--despite", "a test", *words, code=None).stdout
+        self.assertRegex(header("belief-pole-pairs-hall"), r"uint8_t pole_pairs = 12;")
+        offset = header("belief-offset", "believed.sensor_offset_deg=90")
+        self.assertIn("sensor_offset = 0x40000000u;", offset)
+        self.assertNotIn("sensor_offset =", header("belief-offset"))
+
+    def test_refusals_name_the_key(self):
+        for setting, words in (("believed.pole_pairs=0", "believed.pole_pairs = 0 must lie in 1 to 500"),
+                               ("believed.pole_pairs=6", "believed.pole_pairs = 6 is no multiple of the resolver's 4"),
+                               ("believed.inductance_mH=1e-6", "believed.inductance_mH"),
+                               ("sensors.resolver.offset_deg=400", "sensors.resolver.offset_deg = 400 must lie in -360 to 360"),
+                               ("believed.poles=4", "believed.poles is not a key here")):
+            done = self.run_program("run", str(GALLERY / "belief-offset.toml"), "--set", setting, code=2)
+            self.assertIn(words, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the drive believes: [believed] and the mounting of shaft sensors, judged by the laws of their errors.
+// The controller follows from the beliefs alone, and the plant from the motor alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/design/loops/field_current.hpp"
+#include "sixstep/rig/magnet_angle.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/check/unused_keys.hpp"
+#include "sixstep/study/compile/chip.hpp"
+#include "sixstep/study/run/belief_costs.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
+#include "sixstep/study/scenario/spread.hpp"
+#include "tests/support/field_ticks.hpp"
+#include "tests/support/figures.hpp"
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using namespace sixstep::study;
+using control::Mode;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double deg = base::pi / 180, K_e = 16.75e-3, p_m = 8;
+
+/// The 251601 with a sine, field-oriented, turned at a constant speed by a dynamometer.
+Scenario on_dynamometer(RotorSensing rotor, double current_A, double speed_rad_s) {
+  Scenario s = maxon_scenario(Mode::current, current_A);
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.sheet.torque_constant_mNm_A = std::nullopt;
+  s.sheet.back_emf_mV_s = base::Quantity{1e3 * K_e, "phase", ""};
+  s.control.drive = FirmwareKind::field;
+  s.pwm.alignment = Alignment::centre;
+  s.pwm.period_s = 50e-6;
+  s.control.field.bandwidth_Hz = 800;
+  s.sensors.rotor = rotor;
+  s.sensors.encoder.lines = 4096;
+  s.sensors.absolute = {.bits = 17, .latency_s = 0.0};
+  s.sensors.resolver.excitation_Hz = 10e3;
+  s.sensors.resolver.bits = 16;
+  s.load.dynamometer_times_s = {0.0, 1.0};
+  s.load.dynamometer_rad_s = {speed_rad_s, speed_rad_s};
+  s.duration_s = 0.05;
+  return s;
+}
+
+void mount(Scenario& s, double offset_deg) {
+  s.sensors.encoder.offset_deg = s.sensors.absolute.offset_deg = s.sensors.resolver.offset_deg = 0.0;
+  if (s.sensors.rotor == RotorSensing::encoder) s.sensors.encoder.offset_deg = offset_deg;
+  if (s.sensors.rotor == RotorSensing::absolute) s.sensors.absolute.offset_deg = offset_deg;
+  if (s.sensors.rotor == RotorSensing::resolver) s.sensors.resolver.offset_deg = offset_deg;
+}
+
+struct Means {
+  double torque_Nm = 0.0, i_d = 0.0, i_q = 0.0;
+};
+
+/// Means over the last quarter: of the torque, and of the currents along and across the true magnet.
+Means means_of(const Scenario& s) {
+  Means sum;
+  double n = 0;
+  const auto ticks = field_ticks(s, [](const auto& rig) {
+    const auto& state = rig.plant().state();
+    const double m = rig::magnet_rad(state);
+    const auto along = [&](double at) {
+      double i = 0;
+      for (int k = 0; k < 3; ++k)
+        i += 2.0 / 3 * static_cast<double>(state.i[static_cast<std::size_t>(k)]) *
+             std::cos(at - k * 2 * base::pi / 3);
+      return i;
+    };
+    return std::pair(rig.now().seconds(), Means{0, along(m), along(m + base::pi / 2)});
+  });
+  for (const auto& [t, tick] : ticks) {
+    if (t < 0.75 * s.duration_s) continue;
+    sum.i_d += tick.i_d;
+    sum.i_q += tick.i_q;
+    ++n;
+  }
+  Scenario measured = s;
+  measured.compare = {{over(MetricKind::mean, Signal::torque, 0.75 * s.duration_s), 0, "test"}};
+  return {figures_of(measured)[0], sum.i_d / n, sum.i_q / n};
+}
+
+constexpr RotorSensing kinds[] = {RotorSensing::encoder, RotorSensing::absolute, RotorSensing::resolver};
+
+/// With the angle error d the drive's current I lies at 90 deg + d from the magnet.
+TEST(Believed, AnAngleOffsetCostsTheCosineOfTheTorque) {
+  constexpr double I = 3.0, K = 1.5 * K_e;
+  for (const RotorSensing kind : kinds)
+    for (const double d : {-60.0, -10.0, 0.0, 27.0, 90.0, 150.0}) {
+      Scenario s = on_dynamometer(kind, I, 20);
+      mount(s, d);
+      const Means m = means_of(s);
+      // 4096 lines resolve 0.18 electrical degrees; the sampled resolver's 12 bits and its loop 0.1.
+      const double loose = I * 0.4 * deg + 0.004 * I;
+      EXPECT_NEAR(m.i_d, -I * std::sin(d * deg), loose) << static_cast<int>(kind) << " at " << d;
+      EXPECT_NEAR(m.i_q, I * std::cos(d * deg), loose) << static_cast<int>(kind) << " at " << d;
+      EXPECT_NEAR(m.torque_Nm, K * I * std::cos(d * deg), K * loose) << static_cast<int>(kind) << " at " << d;
+    }
+}
+
+TEST(Believed, ABelievedOffsetTakesTheMountingOff) {
+  for (const RotorSensing kind : kinds) {
+    Scenario s = on_dynamometer(kind, 3.0, 20);
+    mount(s, 27);
+    s.believed.sensor_offset_deg = 27 - 360;
+    EXPECT_NEAR(means_of(s).torque_Nm, 1.5 * K_e * 3.0, 1.5 * K_e * 0.033);
+    EXPECT_EQ(believed_angle_error_deg(s), 0.0);
+    s.believed.sensor_offset_deg = 0;
+    EXPECT_NEAR(believed_angle_error_deg(s), 27, 1e-12);
+    mount(s, 350);
+    EXPECT_NEAR(believed_angle_error_deg(s), -10, 1e-12);
+  }
+}
+
+/// A tracking chip's loop starts at the angle that the mounted windings show.
+TEST(Believed, ATrackingChipShowsTheOffsetFromTheStart) {
+  Scenario s = on_dynamometer(RotorSensing::resolver, 3.0, 20);
+  s.sensors.resolver.reading = rig::ResolverReading::tracking;
+  mount(s, -40);
+  s.duration_s = 2e-3;
+  s.compare = {{over(MetricKind::maximum, Signal::angle_error, 0.0), 0, "test"},
+               {over(MetricKind::minimum, Signal::angle_error, 0.0), 0, "test"}};
+  const std::vector<double> error = figures_of(s);
+  // The chip's loop starts without speed: behind a ramp a loop of type 2 with damping 1 is by w t exp(-w_n t), at most w/(e w_n).
+  // Its bandwidth is sqrt(3 + sqrt 10) w_n.
+  const double w_n = 2 * base::pi * 1000 / std::sqrt(3 + std::sqrt(10.0));
+  const double behind = p_m * 20 / (std::exp(1.0) * w_n) / deg;
+  EXPECT_NEAR(error[0], -40, 0.1);
+  EXPECT_GT(error[1], -40.1 - behind);
+  EXPECT_LT(error[1], -40);
+}
+
+/// Six-step by a sensor: the sector changes where the shown angle passes a multiple of 60 deg.
+TEST(Believed, AnOffsetMovesTheCommutationOfSixStep) {
+  for (const double d : {0.0, 20.0, -20.0}) {
+    Scenario s = on_dynamometer(RotorSensing::absolute, 3.0, 20);
+    s.control.drive = FirmwareKind::lean;
+    s.control.field = {};
+    s.control.current.settle_s = 1e-3;
+    s.pwm.commutation = CommutationAt::sample;
+    mount(s, d);
+    s.compare = {{over(MetricKind::mean, Signal::torque, 0.0125), 0, "test"}};
+    // A sector's mean of the torque of a constant current on a sine: cos d of its greatest.
+    const double best = std::sqrt(3.0) * K_e * 3.0 * 3 / base::pi;
+    EXPECT_NEAR(figures_of(s)[0] / best, std::cos(d * deg), 0.03) << d;
+  }
+}
+
+TEST(Believed, WithHallProbesTheSpeedReadsByTheRatioOfThePolePairs) {
+  for (const int p_f : {4, 8, 10, 12}) {
+    Scenario s = cascade(0.15);
+    s.sensors.rotor = RotorSensing::hall;
+    s.control.speed.settle_s = 40e-3;
+    s.believed.pole_pairs = p_f;
+    s.compare = {{over(MetricKind::mean, Signal::speed, 0.1), 0, "test"}};
+    EXPECT_NEAR(figures_of(s)[0], 100 * p_f / p_m, 1.0) << p_f;  // the drive reads p_m/p_f of it
+  }
+}
+
+/// The electrical angle p_f theta leaves the magnet's p_m theta by 360 degrees per turn and pole pair.
+TEST(Believed, WithAShaftSensorWrongPolePairsMakeTheMeanTorqueZero) {
+  for (const RotorSensing kind : kinds) {
+    Scenario s = on_dynamometer(kind, 3.0, 100);
+    s.believed.pole_pairs = 9;
+    s.duration_s = 0.01 + 2 * base::pi / 100;  // a turn after the current has settled
+    s.compare = {{over(MetricKind::mean, Signal::torque, 0.01), 0, "test"},
+                 {over(MetricKind::rms, Signal::torque, 0.01), 0, "test"}};
+    const std::vector<double> torque = figures_of(s);
+    constexpr double peak = 1.5 * K_e * 3.0;
+    EXPECT_NEAR(torque[0], 0.0, 0.03 * peak);
+    EXPECT_NEAR(torque[1], peak / std::sqrt(2.0), 0.03 * peak);
+  }
+}
+
+/// e[n] of the PI of a believed inductance on the true winding, held over each period.
+std::vector<double> step_errors(double L_believed_H, double L_H, double R_ohm, double w, double T,
+                                int ticks) {
+  const double a_f = std::exp(-R_ohm * T / L_believed_H), a_m = std::exp(-R_ohm * T / L_H);
+  const double d1 = (1 - std::exp(-w * T)) * R_ohm / (1 - a_f), d0 = -a_f * d1;
+  std::vector<double> errors;
+  double i = 0, u = 0, before = 0;
+  for (int n = 0; n < ticks; ++n) {
+    const double e = 1 - i;
+    errors.push_back(e);
+    u += d1 * e + d0 * before;
+    before = e;
+    i = a_m * i + (1 - a_m) / R_ohm * u;
+  }
+  return errors;
+}
+
+TEST(Believed, AWrongInductanceMovesThePolesOfTheLoopThatWasPlaced) {
+  constexpr double R = 0.515, L = 0.286e-3, T = 50e-6, w = 2 * base::pi * 400;
+  for (const double part : {0.5, 1.0, 2.0}) {
+    Scenario s = on_dynamometer(RotorSensing::ideal, 2.0, 0);
+    s.load = {};
+    s.load.locked = true;
+    s.control.field.bandwidth_Hz = 400;
+    s.believed.inductance_mH = base::Quantity{1e3 * part * L, "phase", ""};
+    s.duration_s = 2e-3;
+    const auto read = field_ticks(
+        s, [](const auto& rig) { return static_cast<double>(rig.firmware().state().measured.q); });
+    const std::vector<double> error = step_errors(part * L, L, R, w, T, static_cast<int>(read.size()));
+    for (std::size_t n = 0; n < read.size(); ++n)
+      EXPECT_NEAR(1 - read[n] / 2.0, error[n], 2e-3) << part << ", tick " << n;
+    // While R T/L is small the first change is w T part, as if the bandwidth were that part.
+    EXPECT_NEAR((1 - error[1]) / (1 - std::exp(-w * T)), part, 0.06 * part);
+  }
+}
+
+/// The torque limit divided by the believed constant is the current.
+TEST(Believed, AWrongTorqueConstantChangesTheTorquePerAmpere) {
+  Scenario s = cascade(5e-3);
+  s.control.speed.torque_limit_Nm = 0.1;
+  s.reference.value = 1000;
+  s.compare = {{over(MetricKind::maximum, Signal::current_reference, 0.0), 0, "test"}};
+  const double right = figures_of(s)[0];
+  s.believed.torque_constant_mNm_A = base::Quantity{2 * s.sheet.torque_constant_mNm_A->value, "terminal", ""};
+  EXPECT_NEAR(figures_of(s)[0], right / 2, 1e-9 * right);
+}
+
+std::vector<Scenario> drives() {
+  Scenario hall = cascade(), field = on_dynamometer(RotorSensing::encoder, 2.0, 50);
+  hall.sensors.rotor = RotorSensing::hall;
+  Scenario sensorless = cascade();
+  sensorless.control.drive = FirmwareKind::sensorless;
+  sensorless.pwm.alignment = Alignment::centre;
+  sensorless.pwm.sample = SampleAt::middle;
+  Scenario weak = field;
+  weak.control.field.weakening_A = 3.0;
+  weak.control.mode = Mode::speed;
+  weak.control.speed.torque_limit_Nm = 0.1;
+  weak.load = {};
+  Scenario fixed = hall;
+  fixed.control.arithmetic = Arithmetic::q31;
+  return {cascade(), hall, field, weak, sensorless, fixed};
+}
+
+/// Every value of the sheet as a belief.
+void believe_all(Scenario& s, const design::Sheet& sheet) {
+  Believed& b = s.believed;
+  b.pole_pairs = sheet.pole_pairs;
+  b.resistance_ohm = sheet.resistance_ohm;
+  b.inductance_mH = sheet.inductance_mH;
+  b.torque_constant_mNm_A = sheet.torque_constant_mNm_A;
+  b.back_emf_mV_s = sheet.back_emf_mV_s;
+  b.inertia_gcm2 = sheet.inertia_gcm2;
+}
+
+TEST(Believed, TheTruthGivesTheBitsOfNoBelief) {
+  for (Scenario s : drives()) {
+    s.duration_s = 4e-3;
+    const std::uint64_t without = outcome_of(s).digest;
+    believe_all(s, s.sheet);
+    const Outcome out = outcome_of(s);
+    EXPECT_EQ(out.digest, without);
+    for (const std::string& remark : out.remarks) EXPECT_THAT(remark, ::testing::Not(HasSubstr("believes")));
+  }
+}
+
+/// A motor A whose drive believes in B has the controller of B, to the bit, and the plant of A.
+TEST(Believed, TheControllerFollowsFromTheBeliefsAndThePlantFromTheMotor) {
+  for (const Scenario& s : drives()) {
+    Scenario other = s;
+    other.sheet.pole_pairs = 4;
+    other.sheet.resistance_ohm->value *= 1.7;
+    other.sheet.inductance_mH->value *= 0.6;
+    if (other.sheet.torque_constant_mNm_A) other.sheet.torque_constant_mNm_A->value *= 1.3;
+    if (other.sheet.back_emf_mV_s) other.sheet.back_emf_mV_s->value *= 1.3;
+    other.sheet.inertia_gcm2->value *= 2;
+    Scenario wrong = s;
+    believe_all(wrong, other.sheet);
+    const auto a = compile(s), b = compile(other), x = compile(wrong);
+    ASSERT_TRUE(a && b && x);
+    EXPECT_EQ(x->drive, b->drive);
+    EXPECT_EQ(x->field, b->field);
+    EXPECT_EQ(x->board.sensors.edges, b->board.sensors.edges);
+    EXPECT_EQ(x->board.sensors.fade, b->board.sensors.fade);
+    EXPECT_EQ(x->believed.motor.K_t_Nm_A, b->motor.K_t_Nm_A);
+    EXPECT_EQ(x->believed.shaft.J_kg_m2, b->shaft.J_kg_m2);
+    EXPECT_EQ(x->motor.K_t_Nm_A, a->motor.K_t_Nm_A);
+    EXPECT_EQ(x->motor.machine.R_ohm, a->motor.machine.R_ohm);
+    EXPECT_EQ(x->motor.machine.L_H, a->motor.machine.L_H);
+    EXPECT_EQ(x->motor.machine.pole_pairs, a->motor.machine.pole_pairs);
+    EXPECT_EQ(x->shaft.J_kg_m2, a->shaft.J_kg_m2);
+    if (x->general) {
+      EXPECT_EQ(x->general->machine.L_H, a->general->machine.L_H);
+      EXPECT_EQ(x->general->machine.K_e_V_s[0], a->general->machine.K_e_V_s[0]);
+    }
+  }
+}
+
+TEST(Believed, ASensorsZeroOffsetKeepsTheBits) {
+  for (const RotorSensing kind : kinds) {
+    const plant::ShaftAngle<double> at{17, 0.3, 8};
+    const auto same = rig::mounted(0.0, at), turned = rig::mounted(360.0, at), back = rig::mounted(-30.0, at);
+    EXPECT_EQ(same.sector, at.sector);
+    EXPECT_EQ(same.x, at.x);
+    EXPECT_EQ(turned.sector, at.sector + 6);
+    EXPECT_EQ(turned.x, at.x);
+    EXPECT_EQ(back.sector, at.sector - 1);
+    EXPECT_NEAR(back.x, at.x + 30 * deg, 1e-15);
+    Scenario s = on_dynamometer(kind, 2.0, 20);
+    s.sensors.shaft = SensorShaft::load;
+    mount(s, 5);
+    EXPECT_THAT(base::to_string(check(s)[0]), HasSubstr("offset_deg"));
+  }
+}
+
+/// A drive that knows of exchanged wires takes them back; a drive that does not drives other pairs.
+TEST(Believed, AHallTableThatFitsTheWiresTakesThemBack) {
+  const auto final_speed = [](rig::WireOrder wires, rig::WireOrder table) {
+    Scenario s = cascade(40e-3);
+    s.sensors.hall_lines = wires;
+    s.believed.hall_lines = table;
+    s.compare = {{measure(MetricKind::final_value, Signal::speed), 0, "test"}};
+    return figures_of(s)[0];
+  };
+  using enum rig::WireOrder;
+  for (const rig::WireOrder order : {bca, cab, acb, cba, bac}) {
+    EXPECT_NEAR(final_speed(order, order), 100, 1.0);
+    EXPECT_GT(std::fabs(final_speed(abc, order) - 100), 20.0);
+    for (std::uint8_t code = 1; code < 7; ++code)
+      EXPECT_EQ(rig::code_at(order, rig::Wiring{.probes = order}.at_pins(code)), code);
+  }
+}
+
+TEST(Believed, RefusesWhatMakesNoMotor) {
+  const auto problem = [](const std::function<void(Believed&)>& change,
+                          RotorSensing rotor = RotorSensing::ideal) {
+    Scenario s = on_dynamometer(rotor, 2.0, 20);
+    s.sensors.resolver.pole_pairs = 4;
+    change(s.believed);
+    const base::Problems found = check(s);
+    return found.empty() ? std::string("none") : base::to_string(found[0]);
+  };
+  EXPECT_THAT(problem([](Believed& b) { b.pole_pairs = 0; }), HasSubstr("believed.pole_pairs"));
+  EXPECT_THAT(problem([](Believed& b) { b.pole_pairs = 10; }, RotorSensing::resolver),
+              HasSubstr("is no multiple of the resolver's 4"));
+  EXPECT_EQ(problem([](Believed& b) { b.pole_pairs = 12; }, RotorSensing::resolver), "none");
+  EXPECT_THAT(problem([](Believed& b) {
+                b.flux_linkage_mWb = base::Quantity{2, "phase", ""};
+                b.back_emf_mV_s = base::Quantity{2, "phase", ""};
+              }),
+              HasSubstr("a second time"));
+  EXPECT_THAT(problem([](Believed& b) {
+                b.q_axis_inductance_mH = base::Quantity{2, "phase", ""};
+              }),
+              HasSubstr("d_axis_inductance_mH"));
+  EXPECT_THAT(problem([](Believed& b) {
+                b.inductance_mH = base::Quantity{1e-7, "phase", ""};
+              }),
+              HasSubstr("believed.inductance_mH"));
+  EXPECT_THAT(problem([](Believed& b) {
+                b.resistance_ohm = base::Quantity{-1, "phase", ""};
+              }),
+              HasSubstr("believed.resistance_ohm"));
+  EXPECT_THAT(problem([](Believed& b) {
+                b.speed_constant_rpm_V = base::Quantity{0.5, "six-step", ""};
+              }),
+              HasSubstr("believed.speed_constant_rpm_V does not go with the motor's other values"));
+}
+
+TEST(Believed, ABeliefWithoutAFrameHasThatOfTheSheet) {
+  Scenario s = on_dynamometer(RotorSensing::ideal, 2.0, 20);
+  s.believed.resistance_ohm = base::Quantity{2.06, "", ""};
+  EXPECT_NEAR(believed_motor(s)->machine.R_ohm, 1.03, 1e-12);  // the sheet's is of two terminals
+}
+
+TEST(Believed, TellsWhatHasNoEffect) {
+  Scenario s = cascade();
+  s.believed.sensor_offset_deg = 10;
+  s.believed.pole_pairs = 9;
+  EXPECT_THAT(unused_keys(s), HasSubstr("believed.sensor_offset_deg ("));
+  EXPECT_THAT(unused_keys(s), HasSubstr("believed.pole_pairs ("));
+  s.sensors.rotor = RotorSensing::hall;
+  EXPECT_THAT(unused_keys(s), ::testing::Not(HasSubstr("believed.pole_pairs")));
+  s.control.mode = Mode::current;
+  s.control.current = {};
+  s.believed.inertia_gcm2 = base::Quantity{10, "", ""};
+  EXPECT_THAT(unused_keys(s), HasSubstr("believed.inertia_gcm2 ("));
+  s = on_dynamometer(RotorSensing::encoder, 2.0, 20);
+  s.believed.hall_lines = rig::WireOrder::bac;
+  EXPECT_THAT(unused_keys(s), HasSubstr("believed.hall_lines ("));
+}
+
+TEST(Believed, CostsAreToldInNumbers) {
+  Scenario s = on_dynamometer(RotorSensing::resolver, 3.0, 20);
+  const auto told = [&s] { return belief_costs(s, *compile(s)); };
+  EXPECT_THAT(told(), IsEmpty());
+  mount(s, 27);
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("K I cos d = 89.1 %")));
+  mount(s, 0);
+  s.believed.pole_pairs = 10;
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("p_f/p_m = 1.25 times as fast")));
+  s.believed.pole_pairs = {};
+  s.believed.inductance_mH = base::Quantity{0.143, "phase", ""};
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("L = 0.143 instead of 0.286 mH")));
+  s.believed = {};
+  s.believed.back_emf_mV_s = base::Quantity{33.5, "phase", ""};
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("K_m/K_f = 50 %")));
+}
+
+TEST(Believed, MayDifferFromDriveToDrive) {
+  Scenario s = cascade();
+  s.believed.resistance_ohm = base::Quantity{1.03, "terminal", ""};
+  s.spread = {{.key = "believed.resistance_ohm", .relative = 0.3}};
+  EXPECT_TRUE(check(s).empty());
+  const Scenario drive = varied(s, 1, 1);
+  const auto nominal = compile(s), other = compile(drive);
+  EXPECT_NE(other->drive.current.d1, nominal->drive.current.d1);
+  EXPECT_EQ(other->motor.machine.R_ohm, nominal->motor.machine.R_ohm);
+}
+
+}  // namespace SIXSTEP_TEST_FILE
