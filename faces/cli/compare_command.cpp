@@ -117,13 +117,13 @@ base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study
                          "give the time from one row to the next in seconds"};
   const base::Result<std::string> text = files::read_text(asked.path);
   if (!text) return text.problems();
-  base::Result<text::BoardLog> read = text::read_board_log(
-      asked.path, *text,
-      {.formulas = asked.columns,
-       .interval_s = asked.interval_s,
-       .pole_pairs = design::sheet_constants(scenario.sheet).pole_pairs,
-       .field_oriented = scenario.control.drive == study::FirmwareKind::field,
-       .esc = asked.esc});
+  base::Result<text::BoardLog> read =
+      text::read_board_log(asked.path, *text,
+                           {.formulas = asked.columns,
+                            .interval_s = asked.interval_s,
+                            .pole_pairs = design::sheet_constants(scenario.sheet).pole_pairs,
+                            .field_oriented = scenario.control.drive == study::FirmwareKind::field,
+                            .esc = asked.esc});
   if (!read) return of_options(read.problems());
   return std::optional(Log{.name = std::filesystem::path(asked.path).filename().string(),
                            .shift_s = asked.shift_s,

@@ -28,8 +28,8 @@ struct MotorArguments {
   std::string name;      ///< a path or a built-in name
   std::string data_dir;  ///< folder that contains motors/
   std::string style = "maxon";
-  std::string from;                   ///< another program's parameter file
-  std::vector<std::string> answers;   ///< answers to its questions
+  std::string from;                  ///< another program's parameter file
+  std::vector<std::string> answers;  ///< answers to its questions
   bool json = false;
 };
 
@@ -109,7 +109,8 @@ base::Result<std::string> new_motor_text(const MotorArguments& a) {
   const std::string name = stem.empty() ? "my motor" : stem;
   if (a.from.empty()) {
     if (a.answers.empty()) return text::motor_template(a.style, name);
-    return base::Problem{"--answer", a.answers.front(), "answers a question of --from FILE", "name that file"};
+    return base::Problem{"--answer", a.answers.front(), "answers a question of --from FILE",
+                         "name that file"};
   }
   const base::Result<std::string> read = files::read_regular_text(a.from);
   if (!read) return read.problems();
@@ -154,7 +155,8 @@ Verb declare_motor(CLI::App& app) {
     take_data(*verb, a->data_dir);
   }
   for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
-  CLI::App& fresh = *motor.add_subcommand("new", "write a motor file to be filled in, or taken over from another program");
+  CLI::App& fresh =
+      *motor.add_subcommand("new", "write a motor file to be filled in, or taken over from another program");
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
   CLI::Option* const style =
       fresh
@@ -162,14 +164,16 @@ Verb declare_motor(CLI::App& app) {
                       fmt::format("style of the sheet: {}", fmt::join(text::template_styles(), ", ")))
           ->capture_default_str();
   fresh
-      .add_option("--from", a->from,
-                  "take the values over from a VESC motor configuration (XML), an ODrive or moteus configuration, a "
-                  "SimpleFOC sketch or MATLAB's struct of a motor")
+      .add_option(
+          "--from", a->from,
+          "take the values over from a VESC motor configuration (XML), an ODrive or moteus configuration, a "
+          "SimpleFOC sketch or MATLAB's struct of a motor")
       ->type_name("FILE")
       ->excludes(style);
   fresh
-      .add_option("--answer", a->answers,
-                  "what the file of --from leaves open, as resistance=phase,kv=line-peak; the message names the answers")
+      .add_option(
+          "--answer", a->answers,
+          "what the file of --from leaves open, as resistance=phase,kv=line-peak; the message names the answers")
       ->type_name("WORD=CHOICE")
       ->delimiter(',');
   const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),

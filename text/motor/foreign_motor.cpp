@@ -124,15 +124,17 @@ class ForeignMotor {
     // Poles, resistance and flux make a motor: an inverter has a rated current too.
     const std::span<const ForeignKey> marks = tool_.keys.first(3);
     for (const ForeignWord& w : words_) {
-      const bool of_a_motor = std::any_of(marks.begin(), marks.end(),
-                                          [&w](const ForeignKey& row) { return row.word == w.name; });
+      const bool of_a_motor =
+          std::any_of(marks.begin(), marks.end(), [&w](const ForeignKey& row) { return row.word == w.name; });
       if (of_a_motor && std::find(parts.begin(), parts.end(), w.part) == parts.end()) parts.push_back(w.part);
     }
+    if (parts.size() == 1) part_ = parts.front();
     if (parts.size() < 2) return;
     const std::optional<std::string> answer = answer_to("motor");
     part_ = answer.value_or("");
     if (std::find(parts.begin(), parts.end(), *part_) != parts.end()) return;
-    tell(0, fmt::format("has {} motors", parts.size()), fmt::format("answer motor={}", fmt::join(parts, " or motor=")));
+    tell(0, fmt::format("has {} motors", parts.size()),
+         fmt::format("answer motor={}", fmt::join(parts, " or motor=")));
     words_.clear();
   }
 
@@ -144,9 +146,8 @@ class ForeignMotor {
     const bool formula = !x && tool_.kind == ForeignKind::matlab;
     if (x && *x > 0.0) return x;
     if (formula && word->value.find_first_of("(*+") != std::string::npos) {
-      body_ += wrapped_comment(
-          fmt::format("{}: {} is a formula, which is not taken over: {}", tool_.name, word->name,
-                      bounded(visible(word->value), 100)));
+      body_ += wrapped_comment(fmt::format("{}: {} is a formula, which is not taken over: {}", tool_.name,
+                                           word->name, bounded(visible(word->value), 100)));
       return {};
     }
     tell(word->line, fmt::format("{} = {} must be a number above 0", word->name, bounded(word->value, 100)),
@@ -168,7 +169,8 @@ class ForeignMotor {
   }
 
   std::string source(std::string_view what) const {
-    return toml_text(fmt::format("{}: {}{}{}", tool_.name, part_.value_or(""), part_ ? "." : "", what));
+    const std::string part = part_.value_or("");
+    return toml_text(fmt::format("{}: {}{}{}", tool_.name, part, part.empty() ? "" : ".", what));
   }
 
   std::string quantity(std::string_view key, double x, std::string_view frame, std::string_view what) const {
@@ -179,10 +181,11 @@ class ForeignMotor {
   void add_missing(std::string_view key) {
     const KeyEntry entry = foreign_entry(key);
     const bool open = frames_of(entry.about.frame).size() > 1;
-    const std::string value = entry.type == KeyType::quantity
-                                  ? fmt::format("{{ value = nan{}, source = \"\" }}",
-                                                open ? fmt::format(", frame = \"{}\"", entry.about.frame) : "")
-                                  : "0";
+    const std::string value =
+        entry.type == KeyType::quantity
+            ? fmt::format("{{ value = nan{}, source = \"\" }}",
+                          open ? fmt::format(", frame = \"{}\"", entry.about.frame) : "")
+            : "0";
     body_ += wrapped_comment("not in " + visible(file_) + ":") +
              template_line(entry, {.key = key, .value = value, .open = true});
   }
@@ -214,10 +217,12 @@ class ForeignMotor {
     const std::string answer = answer_to("pole_pairs").value_or("");
     const std::string one = ten_digits(pairs), other = ten_digits(*ratio);
     if (answer == one || answer == other) return answer == one ? pairs : *ratio;
-    tell(poles.line,
-         fmt::format("{} says {} pole pairs, foc_encoder_ratio {}, and both count where the encoder sits on the shaft",
-                     poles.name, one, other),
-         fmt::format("answer pole_pairs={} or pole_pairs={}", one, other));
+    tell(
+        poles.line,
+        fmt::format(
+            "{} says {} pole pairs, foc_encoder_ratio {}, and both count where the encoder sits on the shaft",
+            poles.name, one, other),
+        fmt::format("answer pole_pairs={} or pole_pairs={}", one, other));
     return pairs;
   }
 
@@ -238,8 +243,8 @@ class ForeignMotor {
     }
     const bool first = answer == row.frame;
     body_ += quantity(row.key, value, answer, word.name) +
-             wrapped_comment(fmt::format("answered {}={}; the other meaning is", row.question, answer)) + "# " +
-             quantity(row.key, value, first ? row.other : row.frame, word.name);
+             wrapped_comment(fmt::format("answered {}={}; the other meaning is", row.question, answer)) +
+             "# " + quantity(row.key, value, first ? row.other : row.frame, word.name);
   }
 
   void add_keys(std::initializer_list<std::string_view> keys, std::string_view needed) {
@@ -285,12 +290,15 @@ class ForeignMotor {
   void add_mean(const ForeignWord& mean, double L, const ForeignWord* difference) {
     const double half = difference ? foreign_number(difference->value).value_or(NAN) / 2 : 0.0;
     if (!(std::fabs(half) < L))
-      return tell(difference->line, fmt::format("{} = {} must be below twice {}", difference->name,
-                                                bounded(difference->value, 100), mean.name),
+      return tell(difference->line,
+                  fmt::format("{} = {} must be below twice {}", difference->name,
+                              bounded(difference->value, 100), mean.name),
                   "mend it in the file");
     if (half == 0.0) return add_inductance("inductance_uH", mean, L, mean.name);
-    add_inductance("d_axis_inductance_uH", mean, L - half, fmt::format("{} - {}/2", mean.name, difference->name));
-    add_inductance("q_axis_inductance_uH", mean, L + half, fmt::format("{} + {}/2", mean.name, difference->name));
+    add_inductance("d_axis_inductance_uH", mean, L - half,
+                   fmt::format("{} - {}/2", mean.name, difference->name));
+    add_inductance("q_axis_inductance_uH", mean, L + half,
+                   fmt::format("{} + {}/2", mean.name, difference->name));
   }
 
   /// Numbers in another unit, such as milliohms or microhenries, show in the winding's time constant.
@@ -313,10 +321,10 @@ class ForeignMotor {
   }
 
   std::string head(const std::string& name) const {
-    std::string text = wrapped_comment(
-        fmt::format("A motor, taken over from {}, {}. Replace each nan by a number; sixstep help KEY explains a "
-                    "key, and sixstep motor check FILE reports values that contradict each other.",
-                    visible(file_), foreign_name(tool_.kind)));
+    std::string text = wrapped_comment(fmt::format(
+        "A motor, taken over from {}, {}. Replace each nan by a number; sixstep help KEY explains a "
+        "key, and sixstep motor check FILE reports values that contradict each other.",
+        visible(file_), foreign_name(tool_.kind)));
     text += fmt::format("name = {}\n", toml_text(name));
     const ForeignWord* const type = find("motor_type");
     if (tool_.kind == ForeignKind::vesc && type && type->value != "2")
@@ -325,8 +333,9 @@ class ForeignMotor {
     const ForeignWord* const torque = find("torque_constant");
     if (torque && foreign_number(torque->value) == 0.04)
       text += wrapped_comment("torque_constant = 0.04 is the firmware's default: is it this motor's?");
-    return text + wrapped_comment("shape of the back-EMF over the electrical angle, sine or trapezoid: " +
-                                  std::string(tool_.name) + " computes with a sine") +
+    return text +
+           wrapped_comment("shape of the back-EMF over the electrical angle, sine or trapezoid: " +
+                           std::string(tool_.name) + " computes with a sine") +
            "back_emf = \"sine\"\n";
   }
 
@@ -350,11 +359,12 @@ base::Result<std::string> motor_of_foreign_file(const std::string& file, std::st
                                                 const std::vector<std::string>& answers) {
   const ForeignKind kind = foreign_kind(text);
   if (kind == ForeignKind::none)
-    return bounded({.where = file,
-                    .value = {},
-                    .limit = "is no parameter file that is known",
-                    .cure = "give a VESC motor configuration (XML), an ODrive or moteus configuration, a SimpleFOC "
-                            "sketch with its BLDCMotor, or MATLAB's struct of a motor"});
+    return bounded(
+        {.where = file,
+         .value = {},
+         .limit = "is no parameter file that is known",
+         .cure = "give a VESC motor configuration (XML), an ODrive or moteus configuration, a SimpleFOC "
+                 "sketch with its BLDCMotor, or MATLAB's struct of a motor"});
   base::Result<ForeignWords> words = foreign_words(kind, text);
   if (!words) {
     base::Problem damaged = words.problems().front();

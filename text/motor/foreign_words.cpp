@@ -167,7 +167,8 @@ std::string without_comments(std::string_view text) {
 /// The variable's name before "= BLDCMotor(", or between BLDCMotor and the bracket.
 std::string variable_before(std::string_view text, std::size_t name, std::size_t bracket) {
   constexpr std::string_view constructor = "BLDCMotor";
-  std::string_view between = trimmed(text.substr(name + constructor.size(), bracket - name - constructor.size()));
+  std::string_view between =
+      trimmed(text.substr(name + constructor.size(), bracket - name - constructor.size()));
   if (between.empty()) {
     std::string_view before = trimmed(text.substr(0, name));
     if (!before.ends_with('=')) return {};
@@ -198,8 +199,8 @@ base::Result<ForeignWords> words_of_xml(std::string_view text) {
     const std::size_t next = std::min(text.find('<', end), text.size());
     const std::string_view behind = text.substr(next, name.size() + 3);
     if (behind.starts_with("</") && behind.substr(2) == std::string(name) + ">")
-      out.push_back({std::string(name), {}, std::string(trimmed(text.substr(end + 1, next - end - 1))),
-                     lines.at(at)});
+      out.push_back(
+          {std::string(name), {}, std::string(trimmed(text.substr(end + 1, next - end - 1))), lines.at(at)});
   }
   if (!closed) return cut_off("element, </" + std::string(root) + ">,");
   return out;

@@ -27,7 +27,8 @@ struct LogColumns {
 
 struct BoardLog {
   study::Trace trace;
-  std::string recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: by its own headings or by formulas
+  std::string
+      recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: by its own headings or by formulas
   std::vector<NotUsed> not_used;
   Notes notes;
 };

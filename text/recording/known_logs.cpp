@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <span>
 
@@ -34,8 +35,10 @@ struct KnownKind {
 
 constexpr std::string_view mean_of_pulses = "a mean over PWM periods, where the simulation has the pulses";
 constexpr std::string_view of_axes = "of the rotor's axes, and the simulated drive commutates in blocks";
-constexpr std::string_view of_blocks = "of blocks, and the simulated drive is field-oriented: i_q is compared";
-constexpr std::string_view of_modulation = "relative to the largest modulation, and the simulated drive is field-oriented";
+constexpr std::string_view of_blocks =
+    "of blocks, and the simulated drive is field-oriented: i_q is compared";
+constexpr std::string_view of_modulation =
+    "relative to the largest modulation, and the simulated drive is field-oriented";
 
 constexpr KnownColumn vesc_columns[] = {
     {"ms_today", "time=ms_today/1000"},
@@ -120,13 +123,16 @@ constexpr KnownKind known_kinds[] = {
 };
 
 bool has(const Recording& r, std::string_view heading) {
-  return heading.empty() || std::any_of(r.columns.begin(), r.columns.end(), [heading](const RecordedColumn& c) {
+  return heading.empty() ||
+         std::any_of(r.columns.begin(), r.columns.end(), [heading](const RecordedColumn& c) {
            return (c.heading == heading || c.name == heading) && c.filled;
          });
 }
 
 /// Lines of SimpleFOC's own begin with this word.
-bool says_motor(std::string_view bytes) { return bytes.starts_with("MOT: ") || bytes.find("\nMOT: ") != bytes.npos; }
+bool says_motor(std::string_view bytes) {
+  return bytes.starts_with("MOT: ") || bytes.find("\nMOT: ") != bytes.npos;
+}
 
 const KnownKind* kind_of(const Recording& r, std::string_view bytes) {
   for (const KnownKind& kind : known_kinds) {
@@ -175,8 +181,8 @@ base::Result<int> motor_of_blackbox(const Recording& r, std::optional<int> esc) 
 }
 
 /// Takes the columns that mean the same as the simulation's.
-void take_columns(const KnownKind& kind, const Recording& r, const LogColumns& wanted, const std::string& motor,
-                  KnownLog& out) {
+void take_columns(const KnownKind& kind, const Recording& r, const LogColumns& wanted,
+                  const std::string& motor, KnownLog& out) {
   const DrivesWith drive = wanted.field_oriented ? DrivesWith::field : DrivesWith::blocks;
   for (const KnownColumn& column : kind.columns) {
     const std::string heading = replaced(column.heading, '#', motor);
@@ -187,9 +193,9 @@ void take_columns(const KnownKind& kind, const Recording& r, const LogColumns& w
     else if (column.formula.empty() || (column.drives != DrivesWith::any && column.drives != drive))
       out.not_used.push_back({heading, std::string(column.why)});
     else
-      out.formulas.push_back(
-          by_pairs ? replaced(replaced(column.formula, '#', motor), '@', fmt::format("{}", *wanted.pole_pairs))
-                   : std::string(column.formula));
+      out.formulas.push_back(by_pairs ? replaced(replaced(column.formula, '#', motor), '@',
+                                                 fmt::format("{}", *wanted.pole_pairs))
+                                      : std::string(column.formula));
   }
 }
 
@@ -200,7 +206,8 @@ base::Result<std::optional<KnownLog>> known_log(const Recording& r, std::string_
   const KnownKind* const kind = kind_of(r, bytes);
   if (kind == nullptr && wanted.esc) return one_drive_only(r);
   if (kind == nullptr) return std::optional<KnownLog>();
-  KnownLog out{.name = std::string(kind->name), .formulas = {}, .not_used = {}, .escs = std::string(kind->escs)};
+  KnownLog out{
+      .name = std::string(kind->name), .formulas = {}, .not_used = {}, .escs = std::string(kind->escs)};
   std::string motor;
   const bool of_motors = kind->columns.data() == blackbox_columns;
   if (wanted.esc && !of_motors && kind->escs.empty()) return one_drive_only(r);
@@ -230,11 +237,20 @@ base::Result<Recording> rows_of_esc(const Recording& r, const std::string& headi
   if (!esc) return r;
   Recording out = r;
   out.lines.clear();
+  std::set<std::size_t> lines;
   for (RecordedColumn& column : out.columns) column.values.clear();
   for (std::size_t row = 0; row < r.rows(); ++row) {
     if (found->values[row] != *esc) continue;
     out.lines.emplace_back(out.rows(), r.line_of(row));
-    for (std::size_t n = 0; n < r.columns.size(); ++n) out.columns[n].values.push_back(r.columns[n].values[row]);
+    lines.insert(r.line_of(row));
+    for (std::size_t n = 0; n < r.columns.size(); ++n)
+      out.columns[n].values.push_back(r.columns[n].values[row]);
+  }
+  // What stands in the rows of the other ESCs does not count.
+  for (RecordedColumn& column : out.columns) {
+    std::erase_if(column.bad, [&lines](const BadCell& cell) { return lines.count(cell.line) == 0; });
+    column.bad_cells = static_cast<std::size_t>(
+        std::count_if(column.values.begin(), column.values.end(), [](double x) { return std::isnan(x); }));
   }
   return out;
 }

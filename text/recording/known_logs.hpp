@@ -16,8 +16,8 @@ namespace text {
 struct KnownLog {
   std::string name;                   ///< "a VESC Tool log"
   std::vector<std::string> formulas;  ///< see column_formula.hpp; the time's too if the log has a time
-  std::vector<NotUsed> not_used;      ///< columns that mean something else than the simulation's, with the reason
-  std::string escs;                   ///< column with the number of the ESC; empty: none
+  std::vector<NotUsed> not_used;  ///< columns that mean something else than the simulation's, with the reason
+  std::string escs;               ///< column with the number of the ESC; empty: none
 };
 
 /// The log's kind, and its columns in a trace's quantities. Columns of the drive's axes are taken for a

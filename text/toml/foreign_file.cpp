@@ -9,8 +9,8 @@ namespace {
 struct ForeignMark {
   ForeignKind kind;
   std::string_view name;
-  std::string_view mark;     ///< text that occurs in no other program's files
-  std::string_view with{};   ///< a second text that must occur too
+  std::string_view mark;    ///< text that occurs in no other program's files
+  std::string_view with{};  ///< a second text that must occur too
 };
 
 constexpr ForeignMark foreign_marks[] = {
@@ -41,10 +41,11 @@ std::string_view foreign_name(ForeignKind kind) {
 std::optional<base::Problem> foreign_file(const std::string& name, std::string_view text) {
   const ForeignKind kind = foreign_kind(text);
   if (kind == ForeignKind::none) return {};
-  return base::Problem{.where = name + ":1:1:",
-                       .value = "",
-                       .limit = fmt::format("is {}, and a TOML file is wanted", foreign_name(kind)),
-                       .cure = fmt::format("make a motor file of it: sixstep motor new NAME --from {}", name)};
+  return base::Problem{
+      .where = name + ":1:1:",
+      .value = "",
+      .limit = fmt::format("is {}, and a TOML file is wanted", foreign_name(kind)),
+      .cure = fmt::format("make a motor file of it: sixstep motor new NAME --from {}", name)};
 }
 
 }  // namespace text
