@@ -9,29 +9,19 @@
 #include <optional>
 #include <span>
 
-#include "sixstep/base/angle.hpp"
 #include "sixstep/base/plausible.hpp"
+#include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/escape/escape.hpp"
 #include "text/keys/bounded.hpp"
 #include "text/keys/key_catalog.hpp"
-#include "text/keys/key_tree.hpp"
 #include "text/keys/template_line.hpp"
 #include "text/motor/foreign_keys.hpp"
+#include "text/motor/foreign_lines.hpp"
 #include "text/motor/foreign_words.hpp"
 
 namespace text {
 namespace {
-
-/// Ten digits, so that 2.23e-05 H becomes 22.3 uH and not 22.299999999999997.
-std::string ten_digits(double x) { return fmt::format("{:.10g}", x); }
-
-KeyEntry foreign_entry(std::string_view key) {
-  const KeyEntry* const entry = find_key(sheet_keys(), key);
-  for (const base::Spelling& spelling : entry->about.also)
-    if (spelling.key == key) return spelled(*entry, spelling);
-  return *entry;
-}
 
 base::Result<ForeignWords> foreign_words(ForeignKind kind, std::string_view text) {
   switch (kind) {
@@ -46,23 +36,6 @@ base::Result<ForeignWords> foreign_words(ForeignKind kind, std::string_view text
     default:
       return words_of_matlab(text);
   }
-}
-
-/// The peak of a phase's back-EMF per mechanical rad/s of a sine with this speed constant, in mV s.
-double emf_of_kv(double rpm_V, bool six_step) {
-  const double between = six_step ? 3.0 * std::sqrt(3.0) / base::pi : std::sqrt(3.0);
-  return 1e3 * 30.0 / base::pi / rpm_V / between;
-}
-
-/// The text `answer resistance=phase (...) or resistance=terminal (...)`.
-std::string answers_to(const ForeignKey& row, double x) {
-  const auto means = [&](std::string_view frame) {
-    return row.key == "resistance_ohm"
-               ? fmt::format("R_s = {} ohm", base::six_digits(frame == "terminal" ? x / 2 : x))
-               : fmt::format("K_e = {} mV s", base::six_digits(emf_of_kv(x, frame == "six-step")));
-  };
-  return fmt::format("answer {0}={1} ({2}) or {0}={3} ({4})", row.question, row.frame, means(row.frame),
-                     row.other, means(row.other));
 }
 
 class ForeignMotor {
@@ -163,7 +136,7 @@ class ForeignMotor {
     tell(word.line,
          fmt::format("{} = {} becomes {} = {}, which {}", word.name, bounded(word.value, 100), key,
                      base::six_digits(x),
-                     whole ? limit_of(entry.about.range, range, x) : "must be a whole number"),
+                     whole ? base::limit_of(entry.about.range, range, x) : "must be a whole number"),
          "check the number and its unit");
     return false;
   }
@@ -174,21 +147,10 @@ class ForeignMotor {
   }
 
   std::string quantity(std::string_view key, double x, std::string_view frame, std::string_view what) const {
-    return fmt::format("{} = {{ value = {}{}, source = {} }}\n", key, ten_digits(x),
-                       frame.empty() ? "" : fmt::format(", frame = \"{}\"", frame), source(what));
+    return foreign_line(key, x, frame, source(what));
   }
 
-  void add_missing(std::string_view key) {
-    const KeyEntry entry = foreign_entry(key);
-    const bool open = frames_of(entry.about.frame).size() > 1;
-    const std::string value =
-        entry.type == KeyType::quantity
-            ? fmt::format("{{ value = nan{}, source = \"\" }}",
-                          open ? fmt::format(", frame = \"{}\"", entry.about.frame) : "")
-            : "0";
-    body_ += wrapped_comment("not in " + visible(file_) + ":") +
-             template_line(entry, {.key = key, .value = value, .open = true});
-  }
+  void add_missing(std::string_view key) { body_ += missing_line(key, file_); }
 
   void add_poles() {
     for (const ForeignKey& row : tool_.keys) {

@@ -246,11 +246,15 @@ base::Result<Recording> rows_of_esc(const Recording& r, const std::string& headi
     for (std::size_t n = 0; n < r.columns.size(); ++n)
       out.columns[n].values.push_back(r.columns[n].values[row]);
   }
-  // What stands in the rows of the other ESCs does not count.
+  // What stands in the rows of the other ESCs does not count. Only a file's first bad cells have their text.
   for (RecordedColumn& column : out.columns) {
     std::erase_if(column.bad, [&lines](const BadCell& cell) { return lines.count(cell.line) == 0; });
-    column.bad_cells = static_cast<std::size_t>(
-        std::count_if(column.values.begin(), column.values.end(), [](double x) { return std::isnan(x); }));
+    const auto is_bad = [](double x) { return std::isnan(x); };
+    column.bad_cells =
+        static_cast<std::size_t>(std::count_if(column.values.begin(), column.values.end(), is_bad));
+    const auto first = std::find_if(column.values.begin(), column.values.end(), is_bad);
+    if (column.bad.empty() && column.bad_cells > 0)
+      column.bad.push_back({out.line_of(static_cast<std::size_t>(first - column.values.begin())), ""});
   }
   return out;
 }
