@@ -168,7 +168,6 @@ Verb declare_motor(CLI::App& app) {
           "--from", a->from,
           "take the values over from a VESC motor configuration (XML), an ODrive or moteus configuration, a "
           "SimpleFOC sketch or MATLAB's struct of a motor")
-      ->type_name("FILE")
       ->excludes(style);
   fresh
       .add_option(

@@ -94,7 +94,7 @@ class ForeignMotor {
   /// The motor of a file that has several.
   void choose_part() {
     std::vector<std::string> parts;
-    // Poles, resistance and flux make a motor: an inverter has a rated current too.
+    // Poles, resistance and flux make a motor: a bridge may have a rated current too.
     const std::span<const ForeignKey> marks = tool_.keys.first(3);
     for (const ForeignWord& w : words_) {
       const bool of_a_motor =
