@@ -28,6 +28,7 @@
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/escape/escape.hpp"
 #include "text/recording/board_log.hpp"
 #include "text/results/trace_comparison_text.hpp"
 #include "text/results/verdict_table.hpp"
@@ -103,7 +104,7 @@ struct Log {
 /// In problems, replaces the library's member by its option.
 base::Problems of_options(base::Problems problems) {
   for (base::Problem& p : problems)
-    if (p.where == "columns") p.where = "--columns";
+    if (p.where == "columns" || p.where == "esc") p.where.insert(0, "--");
   return problems;
 }
 
@@ -115,9 +116,13 @@ base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study
                          "give the time from one row to the next in seconds"};
   const base::Result<std::string> text = files::read_text(asked.path);
   if (!text) return text.problems();
-  base::Result<text::BoardLog> read = text::read_board_log(
-      asked.path, *text,
-      {asked.columns, asked.interval_s, design::sheet_constants(scenario.sheet).pole_pairs});
+  base::Result<text::BoardLog> read =
+      text::read_board_log(asked.path, *text,
+                           {.formulas = asked.columns,
+                            .interval_s = asked.interval_s,
+                            .pole_pairs = design::sheet_constants(scenario.sheet).pole_pairs,
+                            .field_oriented = scenario.control.drive == study::FirmwareKind::field,
+                            .esc = asked.esc});
   if (!read) return of_options(read.problems());
   return std::optional(Log{.name = std::filesystem::path(asked.path).filename().string(),
                            .shift_s = asked.shift_s,
@@ -214,6 +219,8 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
   if (!file) return refused(file.problems());
   base::Result<std::optional<Log>> log = read_log(arguments.log, jobs.front().scenario());
   if (!log) return refused(log.problems());
+  if (*log && !(*log)->read.recognised.empty() && !arguments.quiet)
+    print(fmt::format("{} is {}\n", text::visible((*log)->name), (*log)->read.recognised), stderr);
   std::vector<Compared> runs = on_one_grid(jobs);
   {
     Work work;

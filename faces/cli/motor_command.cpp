@@ -14,7 +14,9 @@
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/wiring_command.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "files/text_file.hpp"
 #include "text/escape/escape.hpp"
+#include "text/motor/foreign_motor.hpp"
 #include "text/motor/motor_library.hpp"
 #include "text/motor/motor_template.hpp"
 #include "text/motor/motor_text.hpp"
@@ -26,6 +28,8 @@ struct MotorArguments {
   std::string name;      ///< a path or a built-in name
   std::string data_dir;  ///< folder that contains motors/
   std::string style = "maxon";
+  std::string from;                  ///< another program's parameter file
+  std::vector<std::string> answers;  ///< answers to its questions
   bool json = false;
 };
 
@@ -90,9 +94,33 @@ Exit check_motor(const MotorArguments& a) {
   return motor->check.consistent ? Exit::ok : Exit::failed;
 }
 
+/// Replaces the library's words for questions by the option.
+base::Problems with_answer_option(base::Problems problems) {
+  for (base::Problem& p : problems) {
+    if (p.where == "answer") p.where = "--answer";
+    if (p.cure.starts_with("answer ")) p.cure.insert(0, "--");
+  }
+  return problems;
+}
+
+/// The text of a new motor file.
+base::Result<std::string> new_motor_text(const MotorArguments& a) {
+  const std::string stem = std::filesystem::path(a.name.empty() ? a.from : a.name).stem().string();
+  const std::string name = stem.empty() ? "my motor" : stem;
+  if (a.from.empty()) {
+    if (a.answers.empty()) return text::motor_template(a.style, name);
+    return base::Problem{"--answer", a.answers.front(), "answers a question of --from FILE",
+                         "name that file"};
+  }
+  const base::Result<std::string> read = files::read_regular_text(a.from);
+  if (!read) return read.problems();
+  base::Result<std::string> made = text::motor_of_foreign_file(a.from, *read, name, a.answers);
+  if (!made) return with_answer_option(made.problems());
+  return made;
+}
+
 Exit new_motor(const MotorArguments& a) {
-  const std::string stem = std::filesystem::path(a.name).stem().string();
-  const base::Result<std::string> text = text::motor_template(a.style, stem.empty() ? "my motor" : stem);
+  const base::Result<std::string> text = new_motor_text(a);
   if (!text) {
     complain(text.problems());
     return Exit::bad_input;
@@ -127,12 +155,26 @@ Verb declare_motor(CLI::App& app) {
     take_data(*verb, a->data_dir);
   }
   for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
-  CLI::App& fresh = *motor.add_subcommand("new", "write an empty motor file, to be filled in");
+  CLI::App& fresh =
+      *motor.add_subcommand("new", "write a motor file to be filled in, or taken over from another program");
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
+  CLI::Option* const style =
+      fresh
+          .add_option("--style", a->style,
+                      fmt::format("style of the sheet: {}", fmt::join(text::template_styles(), ", ")))
+          ->capture_default_str();
   fresh
-      .add_option("--style", a->style,
-                  fmt::format("style of the sheet: {}", fmt::join(text::template_styles(), ", ")))
-      ->capture_default_str();
+      .add_option(
+          "--from", a->from,
+          "take the values over from a VESC motor configuration (XML), an ODrive or moteus configuration, a "
+          "SimpleFOC sketch or MATLAB's struct of a motor")
+      ->excludes(style);
+  fresh
+      .add_option(
+          "--answer", a->answers,
+          "what the file of --from leaves open, as resistance=phase,kv=line-peak; the message names the answers")
+      ->type_name("WORD=CHOICE")
+      ->delimiter(',');
   const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),
              identify = declare_identify(motor), emf = declare_emf(motor);
   return {&motor, [a, &list, &show, &check, wiring, commission, identify, emf](const std::string& command) {

@@ -268,13 +268,18 @@ void declare_options(CLI::App& run, RunArguments& a) {
              "compare a board's log or an oscilloscope's record with the run, in a table and on the page of --html")
           ->excludes(bode)
           ->excludes(runs);
-  run.add_option("--columns", a.log.columns,
-                 "meaning of each column of --compare, with constants: "
-                 "time=ms_today/1000,speed=erpm*2*pi/60/7,i_m=current_motor; without it by its headings")
+  run.add_option(
+         "--columns", a.log.columns,
+         "meaning of each column of --compare, with constants: "
+         "time=ms_today/1000,speed=erpm*2*pi/60/7,i_m=current_motor; without it by its headings, also those of "
+         "VESC Tool, ArduPilot, Betaflight, ODrive, moteus and SimpleFOC")
       ->delimiter(',')
       ->needs(log);
   run.add_option("--interval", a.log.interval_s,
                  "time from row to row of --compare, s, if no column holds the time")
+      ->needs(log);
+  run.add_option("--esc", a.log.esc, "number of the ESC or motor in a log of several")
+      ->check(integer_in(0, 1000))
       ->needs(log);
   run.add_option(
          "--shift", a.log.shift_s,

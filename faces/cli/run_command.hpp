@@ -30,6 +30,7 @@ struct LogArguments {
   std::vector<std::string> columns;  ///< formulas such as "speed=erpm*2*pi/60/7"; empty: columns by their
                                      ///< headings
   std::optional<double> interval_s;  ///< interval of the log's rows, if no column is a time
+  std::optional<int> esc;            ///< number of the ESC in a log of several
 };
 
 struct RunArguments {

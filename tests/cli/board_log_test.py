@@ -131,8 +131,10 @@ class LogsOfOthers(LogTest):
     def test_vesc(self):
         head = "ms_today;input_voltage;temp_mos_max;current_motor;current_in;d_axis_current;q_axis_current;erpm;duty_cycle;tacho_meter;\n"
         self.log(head, lambda n, r: f"{36000000 + 1e3 * r['t_s']:.0f};36.00;31.2;{r['i_m_A']:.2f};0;0.01;0;{r['speed_rad_s'] * RPM * PAIRS:.1f};0.400;{n};\n")
-        told = self.compared(code=2)[1]
-        self.assertIn("has no column of time: it has ms_today", told)
+        text = self.expect_right(columns=("speed_rad_s", "i_m_A", "bus_V", "duty"))
+        self.assertIn("log.csv is a VESC Tool log: time = ms_today/1000, speed = erpm*2*pi/60/15, bus_V = input_voltage, i_m = current_motor, "
+                      "duty = duty_cycle\n", text)
+        self.assertIn("current_in (a mean over PWM periods, where the simulation has the pulses)", text)
         text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
         self.assertIn("its clock starts at 36000 s: times count from its first row", text)
         self.assertIn("not used: input_voltage, temp_mos_max, current_in, d_axis_current, q_axis_current, duty_cycle, tacho_meter (not named)", text)
@@ -150,7 +152,8 @@ class LogsOfOthers(LogTest):
     def test_simplefoc_has_neither_head_nor_time(self):
         self.log("MOT: Monitor enabled!\nMOT: Init\nMOT: Ready.\n",
                  lambda n, r: f"5.0000\t14.4000\t0.0000\t{1e3 * r['i_m_A']:.4f}\t0.0000\t{r['speed_rad_s']:.4f}\t0.1\n")
-        self.assertIn("without headings the first column is used", self.compared(code=2)[1])
+        self.assertIn("is a SimpleFOC monitor log, which has no time; give the interval of its rows", self.compared(code=2)[1])
+        self.assertIn("speed_rad_s", self.compared("--interval", "0.003")[0], "by the order of its bits")
         self.expect_right("--interval", "0.003", "--columns", "speed=column 6,i_m=column 4/1000")
 
     def test_what_the_board_said_between_the_rows_is_told(self):

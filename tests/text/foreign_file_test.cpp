@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter files of other programs are recognised. The message names the lines that the user must type.
+// Parameter files of other programs are recognised, and the message names the way to a motor file.
 #include "text/toml/foreign_file.hpp"
 
 #include <gmock/gmock.h>
@@ -31,51 +31,21 @@ std::string told(const char* content) {
   return sheet ? "a motor" : to_string(sheet.problems()[0]);
 }
 
-TEST(ForeignFile, SaysWhatItIsAndWhichLinesToType) {
+TEST(ForeignFile, SaysWhatItIsAndWhatMakesAMotorOfIt) {
   EXPECT_EQ(
       told(vesc),
-      "m.xml:1:1: is a VESC motor configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-      "resistance_ohm = { value = 0.0187, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, "
-      "flux_linkage_mWb = 5.12; add the inertia and the other values that the style firmware lists");
-  EXPECT_THAT(
-      told(moteus),
-      HasSubstr(
-          "is a moteus configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.0468, frame = \"phase\" }, "
-          "speed_constant_rpm_V = { value = 304, frame = \"line-peak\" }"));
-  EXPECT_THAT(
-      told(odrive),
-      HasSubstr(
-          "is an ODrive configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.039, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, "
-          "torque_constant_mNm_A = 30.63"));
-  EXPECT_THAT(
-      told(simple_foc),
-      HasSubstr(
-          "is a SimpleFOC sketch, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.039, frame = \"phase\" }, "
-          "speed_constant_rpm_V = { value = 270, frame = \"line-peak\" }, inductance_uH = { value = 22.3, frame = \"phase\" }"));
-  EXPECT_THAT(
-      told(matlab),
-      HasSubstr(
-          "is a MATLAB struct of a motor, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.36, frame = \"phase\" }, inductance_uH = { value = 200, frame = \"phase\" }, "
-          "flux_linkage_mWb = 6.4, inertia_kgm2 = 7.06e-06"));
+      "m.xml:1:1: is a VESC motor configuration, and a TOML file is wanted; make a motor file of it: sixstep motor new NAME "
+      "--from m.xml");
+  EXPECT_THAT(told(moteus), HasSubstr("is a moteus configuration, and a TOML file is wanted"));
+  EXPECT_THAT(told(odrive), HasSubstr("is an ODrive configuration, and a TOML file is wanted"));
+  EXPECT_THAT(told(simple_foc), HasSubstr("is a SimpleFOC sketch, and a TOML file is wanted"));
+  EXPECT_THAT(told(matlab), HasSubstr("is a MATLAB struct of a motor, and a TOML file is wanted"));
 }
 
 TEST(ForeignFile, AsAScenarioToo) {
   const auto scenario = read_scenario_text("s.xml", vesc, {.overrides = {}, .resolve = among({})});
   ASSERT_FALSE(scenario);
   EXPECT_THAT(to_string(scenario.problems()[0]), HasSubstr("s.xml:1:1: is a VESC motor configuration"));
-}
-
-/// The lines that the message names define a motor.
-TEST(ForeignFile, TheLinesAreTaken) {
-  const char* const typed =
-      "name = \"m\"\nback_emf = \"sine\"\npole_pairs = 7\nresistance_ohm = { value = 0.0187, frame = \"phase\" }\n"
-      "inductance_uH = { value = 22.3, frame = \"phase\" }\nflux_linkage_mWb = 5.12\ninertia_kgm2 = 9e-5\nnominal_voltage_V = 36\n";
-  const auto sheet = read_sheet("m.toml", among({{"m.toml", typed}}));
-  ASSERT_TRUE(sheet) << to_string(sheet.problems()[0]);
 }
 
 TEST(ForeignFile, OtherTextsStayWhatTheyAre) {

@@ -12,6 +12,7 @@
 #include "text/recording/board_words.hpp"
 #include "text/recording/column_formula.hpp"
 #include "text/recording/heading.hpp"
+#include "text/recording/known_logs.hpp"
 #include "text/recording/known_names.hpp"
 #include "text/recording/times.hpp"
 
@@ -124,17 +125,23 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
 
 class LogReader {
  public:
-  LogReader(const Recording& recording, const LogColumns& wanted) : r_(recording), wanted_(wanted) {}
+  LogReader(const Recording& recording, const LogColumns& wanted, const KnownLog* known)
+      : r_(recording), wanted_(wanted), known_(known), formulas_(known ? known->formulas : wanted.formulas) {}
 
   base::Result<BoardLog> read() {
     out_.notes = r_.notes;
+    if (known_) {
+      out_.recognised = known_->name;
+      for (const std::string& formula : formulas_)
+        out_.recognised += (out_.recognised == known_->name ? ": " : ", ") + spaced(formula);
+    }
     if (base::Problems wrong = read_formulas(); !wrong.empty()) return wrong;
-    if (base::Problems wrong = said_twice(r_); wanted_.formulas.empty() && !wrong.empty()) return wrong;
+    if (base::Problems wrong = said_twice(r_); formulas_.empty() && !wrong.empty()) return wrong;
     base::Result<Times> times = read_times();
     if (!times) return times.problems();
     out_.trace = {.columns = {study::all_columns().front()}, .values = {std::move(times->t_s)}};
     add_named(times->left_out);
-    if (wanted_.formulas.empty()) add_by_headings(*times);
+    if (formulas_.empty()) add_by_headings(*times);
     for (std::string& note : what_the_board_says(r_)) out_.notes.push_back(std::move(note));
     if (!problems_.empty()) return problems_;
     if (out_.trace.columns.size() < 2)
@@ -147,7 +154,7 @@ class LogReader {
 
  private:
   base::Problems read_formulas() {
-    for (const std::string& text : wanted_.formulas) {
+    for (const std::string& text : formulas_) {
       const base::Result<ColumnFormula> formula = column_formula(text);
       if (!formula) return formula.problems();
       if (is_time(formula->name)) {
@@ -193,7 +200,8 @@ class LogReader {
       add(*column, formula_values(r_, formula, wanted(*column), used), left_out);
       used_.push_back(used);
     }
-    if (named_.empty()) return;
+    if (known_) out_.not_used = known_->not_used;
+    if (named_.empty() || known_) return;
     for (const RecordedColumn& recorded : r_.columns)
       if (recorded.filled && std::find(used_.begin(), used_.end(), &recorded) == used_.end() &&
           &recorded != time_column(r_) && !is_the_boards_word(recorded))
@@ -220,8 +228,16 @@ class LogReader {
     }
   }
 
+  /// "time = ms_today/1000" for "time=ms_today/1000".
+  static std::string spaced(const std::string& formula) {
+    const std::size_t equals = formula.find('=');
+    return formula.substr(0, equals) + " = " + formula.substr(equals + 1);
+  }
+
   const Recording& r_;
   const LogColumns& wanted_;
+  const KnownLog* known_;
+  const std::vector<std::string>& formulas_;
   std::optional<ColumnFormula> time_;
   std::vector<std::pair<const study::Column*, ColumnFormula>> named_;
   std::vector<const RecordedColumn*> used_;
@@ -235,7 +251,14 @@ base::Result<BoardLog> read_board_log(const std::string& name, std::string_view 
                                       const LogColumns& wanted) {
   const base::Result<Recording> recording = read_recording(name, bytes, RowsFrom::last_start);
   if (!recording) return recording.problems();
-  return LogReader(*recording, wanted).read();
+  if (!wanted.formulas.empty()) return LogReader(*recording, wanted, nullptr).read();
+  const base::Result<std::optional<KnownLog>> known = known_log(*recording, bytes, wanted);
+  if (!known) return known.problems();
+  if (!*known) return LogReader(*recording, wanted, nullptr).read();
+  if ((*known)->escs.empty()) return LogReader(*recording, wanted, &**known).read();
+  const base::Result<Recording> rows = rows_of_esc(*recording, (*known)->escs, wanted.esc);
+  if (!rows) return rows.problems();
+  return LogReader(*rows, wanted, &**known).read();
 }
 
 }  // namespace text

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a recording of a running drive as a trace: the log of a board, the log of another maker's drive, or
 // an oscilloscope's record. Headings are those of a trace's columns with units of the same kind ("t [us]",
-// "i_m [mA]", "speed [rad/s]"); otherwise formulas name the columns.
+// "i_m [mA]", "speed [rad/s]"), or those of a known tool (known_logs.hpp); otherwise formulas name the columns.
 #pragma once
 #include <optional>
 #include <string>
@@ -21,15 +21,20 @@ struct LogColumns {
       formulas;  ///< see column_formula.hpp; if given, only their columns and the time are read
   std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
   std::optional<int> pole_pairs{};   ///< pole pairs of the motor, which convert electrical speeds
+  bool field_oriented = false;       ///< whether the simulated drive is: of known logs it takes other columns
+  std::optional<int> esc{};          ///< number of the drive whose rows or columns count, in a log of several
 };
 
 struct BoardLog {
   study::Trace trace;
+  std::string
+      recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: by its own headings or by formulas
   std::vector<NotUsed> not_used;
   Notes notes;
 };
 
 /// Reads a log from its last headings on, where the board last started; an incomplete last line is left out.
+/// Without formulas the columns of a known log are converted from the tool's units and frames.
 /// Problems: no time, no column of a trace, an unknown unit, a cell that is not a number, a time that does
 /// not rise.
 base::Result<BoardLog> read_board_log(const std::string& name, std::string_view bytes,

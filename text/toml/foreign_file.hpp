@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises another program's parameter file in the place of a TOML file: names the program and the
-// equivalent lines.
+// Recognises another program's parameter file.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,8 +11,15 @@
 
 namespace text {
 
-/// A Problem for a VESC motor configuration, an ODrive or moteus configuration, a SimpleFOC sketch or a
-/// MATLAB pmsm struct; else empty.
+enum class ForeignKind : std::uint8_t { none, vesc, odrive, moteus, simple_foc, matlab };
+
+/// The program whose file the text is, by words that no other program's file has.
+ForeignKind foreign_kind(std::string_view text);
+
+/// The kind in words: "a VESC motor configuration".
+std::string_view foreign_name(ForeignKind kind);
+
+/// A Problem for such a file in the place of a TOML file; else empty.
 std::optional<base::Problem> foreign_file(const std::string& name, std::string_view text);
 
 }  // namespace text

@@ -17,6 +17,30 @@ def kv(test, spot):
     curve.same(test, spot, "six-step", told[1], peak, 1e-3)
 
 
+def taken_over(test, spot):
+    """L_d and L_q lie half the difference of 4.1 uH beside 22.3 uH; the other values are those of the file, in smaller units."""
+    told = {key: float(x) for key, x in re.findall(r"^(\w+) = \{ value = ([\d.]+)", spot.text, re.M)}
+    for key, value in (("d_axis_inductance_uH", 22.3 - 4.1 / 2), ("q_axis_inductance_uH", 22.3 + 4.1 / 2), ("resistance_ohm", 0.0187),
+                       ("flux_linkage_mWb", 5.12)):
+        curve.same(test, spot, key, told[key], value, 1e-9)
+
+
+def asked(test, spot):
+    """Half of 0.23 ohm between two terminals; 920 rpm/V of the peak between two terminals, or of the mean over the driven pair."""
+    phase, terminal = (float(x) for x in re.findall(r"R_s = ([\d.]+) ohm", spot.text))
+    peak, mean = (float(x) for x in re.findall(r"K_e = ([\d.]+) mV s", spot.text))
+    curve.same(test, spot, "phase", phase, 0.23, 1e-9)
+    curve.same(test, spot, "terminal", terminal, 0.115, 1e-9)
+    curve.same(test, spot, "line-peak", peak, 1e3 / (920 * 3.14159265 / 30) / 3**0.5, 1e-5)
+    curve.same(test, spot, "six-step", mean, 1e3 / (920 * 3.14159265 / 30) / 1.6539867, 1e-5)
+
+
+def answered(test, spot):
+    """The number of the sketch, in both meanings."""
+    for x in re.findall(r"value = ([\d.]+)", spot.text):
+        curve.same(test, spot, "resistance", float(x), 0.23, 1e-9)
+
+
 def frames(test, spot):
     """0.42 Nm/A of a sine: terminal as it is, peak 2 K/3 of a phase, rms that over sqrt 2; terminal is 1.654 K_e."""
     terminal, peak, rms = (float(x) for x in re.findall(r"constant of ([\d.]+) mNm/A", spot.text))

@@ -183,6 +183,8 @@ BY_TEXT = [
     ("docs/howto/size-a-capacitor.md", "| worst duty |", capacitor.worst_duty), ("docs/howto/size-a-capacitor.md", "--vary", capacitor.capacitor_current),
     ("docs/howto/size-a-capacitor.md", "braking.toml", capacitor.braking),
     ("docs/howto/find-a-wiring-fault.md", "hall_lines=123,213", drives.crossed_loop), ("docs/howto/flash-an-image.md", "kHz pulses", drives.bring_up_avr), ("docs/reference/field-oriented-drive.md", "least that flows", drives.beyond_the_bus),
+    ("docs/howto/take-over-parameters.md", "--from mcconf.xml", drives.taken_over), ("docs/howto/take-over-parameters.md", "--answer resistance=terminal,", drives.answered),
+    ("docs/howto/take-over-parameters.md", "--from sketch.ino", drives.asked),
     ("docs/start/your-motor.md", "| oz-in-s2", drives.trade_units), ("docs/howto/flash-an-image.md", "| | do | measure |", drives.bring_up), ("docs/howto/use-a-cluster.md", "| for each row |", rows_at_the_leader),
     ("docs/howto/read-the-curve.md", "rpm ", curve.judge), ("docs/explanation/currents.md", "rpm ", curve.judge),
     ("docs/", "drives, seed", series.judge_drives),
@@ -235,7 +237,8 @@ DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file |
             ("docs/howto/use-a-cluster.md", "| | |"), ("docs/start/your-motor.md", "| key |"), ("docs/reference/motor-sheets.md", "| relation |"), ("docs/reference/plan-file.md", "| key of a plan |"),
             ("docs/reference/plan-file.md", "title = "), ("docs/howto/find-the-best-point.md", "minimise = "), ("docs/howto/run-many.md", "sixstep run data/scenarios"),
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
-            ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |")]
+            ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |"), ("docs/howto/compare-a-log.md", "| quantity |"),
+            ("docs/howto/take-over-parameters.md", "| program |")]
 # Tables with a named test that measures every row and has its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the parameter files of other programs as words with their texts. Each syntax is flat or nearly so,
+// and a reader of a few lines keeps the program small, where a library for XML or JSON would add a tenth of
+// a megabyte.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sixstep/base/result.hpp"
+#include "text/rooms.hpp"
+
+namespace text {
+
+struct ForeignWord {
+  std::string name;      ///< the other program's key, without the part that it belongs to: "phase_resistance"
+  std::string part;      ///< axis of an ODrive, variable of a sketch or of a script; else empty
+  std::string value;     ///< text of the value
+  std::size_t line = 1;  ///< line in the file
+};
+using ForeignWords = std::vector<ForeignWord>;
+
+/// The elements `<key>value</key>` without elements inside. Problem: the file ends before its root does.
+base::Result<ForeignWords> words_of_xml(std::string_view text);
+
+/// The numbers of a JSON object of objects. The part of "axis0.motor.config.pole_pairs", nested or with points
+/// in one key, is "axis0". Problem: the file ends too early or is no JSON.
+base::Result<ForeignWords> words_of_json(std::string_view text);
+
+/// Lines "key value", also "conf set key value".
+ForeignWords words_of_lines(std::string_view text);
+
+/// Assignments "struct.field = value;" of MATLAB; comments begin with %.
+ForeignWords words_of_matlab(std::string_view text);
+
+/// The arguments of each BLDCMotor of a sketch, named pp, R, KV, Lq, Ld as its constructor names them.
+/// Problem: a bracket that does not close.
+base::Result<ForeignWords> words_of_sketch(std::string_view text);
+
+/// The number of a text: numbers, pi and sqrt(number), multiplied or divided, with the f of C behind a number.
+/// Empty: any other formula.
+std::optional<double> foreign_number(std::string_view text);
+
+}  // namespace text
