@@ -11,6 +11,7 @@ import tomllib
 import unittest
 from math import acos, atan2, cos, cosh, exp, hypot, log, pi, radians, sin, sinh, sqrt
 
+import belief_laws
 import magnet_laws
 import position_laws
 import profile_laws
@@ -215,6 +216,7 @@ LAWS = {
     **position_laws.LAWS,
     **magnet_laws.LAWS,
     **profile_laws.LAWS,
+    **belief_laws.LAWS,
     "chopping-soft": [near(0.5 * STALL), near(ripple(0.5)), (0, 0)],
     "chopping-hard": [near((2 * 0.75 - 1) * STALL), near(2 * ripple(0.75)),
                       near(-STALL * (1 - 2 * A + A * B_OFF) / (1 - A * B_OFF))[::-1]],
