@@ -21,7 +21,7 @@ base::Problem unloaded(const std::string& path, std::string why) {
   if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
   return {.where = path,
           .limit = "cannot be loaded: " + why,
-          .cure = "compile it with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
+          .cure = "compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
 }
 
 /// Loads a shared object. Loading already runs the object's code: the constructors of its libraries.
@@ -64,8 +64,8 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
   }
   if (!bytes->starts_with(elf_magic))
     return base::Problem{.where = path,
-                         .limit = "is not a compiled library: it may be the source",
-                         .cure = "compile it and name the result: " + compile_command(path) +
+                         .limit = "is not a compiled library; it may be the source",
+                         .cure = "compile it, and name the compiled file: " + compile_command(path) +
                                  ", where FOLDER has sixstep/control/own/own_controller.h"};
   // The path gets a slash, because the loader searches a name without a slash among the system's libraries.
   std::error_code ignored;

@@ -148,7 +148,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   if (near.empty() && is_word) {
     const std::string text = with_word(scenario, key) + with_word(sheet, key) + with_word(plan, key);
     if (!text.empty()) {
-      print(fmt::format("No key is called {}. Keys and words that have it in their name or meaning:\n",
+      print(fmt::format("No key has the name {}. Keys and words with this word in their name or meaning:\n",
                         text::visible(key)) +
             text);
       return Exit::ok;
@@ -156,7 +156,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   }
   complain({{.where = key,
              .limit = "is not a key of a scenario or motor file",
-             .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});
+             .cure = near.empty() ? "sixstep help lists all keys" : fmt::format("did you mean {}?", near)}});
   return Exit::bad_input;
 }
 
@@ -169,8 +169,8 @@ Exit help_of_words(const CLI::App& app, const std::vector<std::string>& words) {
     const CLI::App* const next = command_of(*at, words[n]);
     if (next == nullptr) {
       complain({{.where = words[n],
-                 .limit = "is no command of " + before,
-                 .cure = before + " --help lists them; one key at a time is explained"}});
+                 .limit = "is not a command of " + before,
+                 .cure = before + " --help lists all commands; give only one key at a time"}});
       return Exit::bad_input;
     }
     at = next;

@@ -61,7 +61,7 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
     return base::Problem{.where = "--style",
                          .value = std::string(style_name),
                          .limit = fmt::format("is none of {}", fmt::join(template_styles(), ", ")),
-                         .cure = "choose the one whose sheet looks like yours"};
+                         .cure = "choose the style whose sheet looks like yours"};
   const std::vector<KeyEntry> keys = style->linear ? in_linear_words(sheet_keys()) : sheet_keys();
   std::string text = fmt::format(
       "# A motor, to be filled in from its sheet: {}.\n"

@@ -22,8 +22,7 @@ base::Problem in_doubt(const std::string& file, std::size_t line, std::string li
   return bounded({.where = fmt::format("{}:{}:", file, line),
                   .value = "",
                   .limit = std::move(limit),
-                  .cure = "write thousands without a mark between them, 2940, and one decimal mark, or leave "
-                          "the column out"});
+                  .cure = "write thousands without a separator, for example 2940, and use one decimal mark, or remove the column"});
 }
 
 }  // namespace
@@ -90,8 +89,7 @@ std::optional<base::Problem> DecimalMarks::doubt(const std::string& file, char s
     const Cell &late = comma->line < point->line ? *point : *comma,
                &early = comma->line < point->line ? *comma : *point;
     return in_doubt(file, late.line,
-                    fmt::format("holds {}, and line {} holds {}: one mark is decimal, and the other one's "
-                                "meaning is unclear",
+                    fmt::format("holds {}, and line {} holds {}: which of the two marks is decimal is unclear",
                                 late.text, early.line, early.text));
   }
   if (comma) return thousands(file, &Column::comma, ',', false);

@@ -78,7 +78,7 @@ std::string toml_line(const ForeignNumber& number, double value) {
 base::Problem foreign_problem(const std::string& name, std::string_view kind, const std::string& lines) {
   return {.where = name + ":1:1:",
           .value = "",
-          .limit = fmt::format("is {}, and a TOML file is wanted", kind),
+          .limit = fmt::format("is {}, not a TOML file", kind),
           .cure = lines.empty() ? "type its values into a motor's file of the style firmware"
                                 : "type into a motor's file: " + lines +
                                       "; add the inertia and the other values that the style firmware lists"};

@@ -19,7 +19,7 @@ inline void describe(base::Visitor& v, Align& s) {
   v.value("settled_s", s.settled_s,
           {.meaning = "time for which the rotor must stay aligned", .unit = "s", .range = base::from(0)});
   v.value("sector", s.sector,
-          {.meaning = "sector whose pair aligns: the rotor moves to the edge between the next two",
+          {.meaning = "sector whose pair aligns the rotor, which moves to the edge between the next two sectors",
            .range = base::between(0, 5)});
 }
 

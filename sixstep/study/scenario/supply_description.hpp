@@ -55,9 +55,9 @@ inline void describe(base::Visitor& v, Supply& s) {
   v.value("brake_on_V", s.brake_on_V,
           {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
   v.value("brake_off_V", s.brake_off_V,
-          {.meaning = "bus voltage below which it is off again", .unit = "V", .range = from(0)});
+          {.meaning = "bus voltage below which the brake resistor is off again", .unit = "V", .range = from(0)});
   v.value("sink_limit_A", s.sink_limit_A,
-          {.meaning = "current that a source that does not sink takes back all the same, at most",
+          {.meaning = "largest current that a source with sinks = false still takes back",
            .unit = "A",
            .range = from(0)});
   v.value("capacitor_resistance_ohm", s.capacitor_resistance_ohm,

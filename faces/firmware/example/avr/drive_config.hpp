@@ -3,7 +3,7 @@
 // Made by sixstep 0.1.0. Change the scenario, not this file:
 //   sixstep export header data/scenarios/firmware/avr.toml --arithmetic q15 --out faces/firmware/example/avr/drive_config.hpp
 //
-// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
+// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack. For the AVR use clang 19 or later.
 //
 // scenario  Current loop in Q15 on an AVR: a transducer in each phase, a tick every 100 us
 // notes     The drive that faces/firmware/example/avr flashes; sixstep run --on avr runs the same program. The period, a fifth of the motor's L/R, is long enough for 16 MHz, and the command takes effect one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
@@ -55,7 +55,7 @@
 // They are of the control code alone; a whole image also has the board's code.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
-#error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
+#error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
 #endif
 #include <cstdint>
 

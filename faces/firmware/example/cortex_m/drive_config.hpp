@@ -3,7 +3,7 @@
 // Made by sixstep 0.1.0. Change the scenario, not this file:
 //   sixstep export header data/scenarios/firmware/cortex-m.toml --arithmetic float --out faces/firmware/example/cortex_m/drive_config.hpp
 //
-// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
+// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack. For the AVR use clang 19 or later.
 //
 // scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
 // notes     The drive that faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that takes effect one period late. The settling time is the one that sixstep design --scenario on this file allows down to 70 rad/s.
@@ -51,7 +51,7 @@
 // Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us, and the STM32F303's may answer a period late below 69.6 us: watch `missed`.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
-#error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
+#error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
 #endif
 #include <cstdint>
 

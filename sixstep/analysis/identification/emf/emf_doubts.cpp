@@ -125,15 +125,15 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
             .value = base::six_digits(t_s[row]) + " s",
             .limit = "in row " + std::to_string(row + 1) + " is followed by a gap of " +
                      base::three_digits(*longest) + " s, and " + channel + " shows no steady period",
-            .cure = "cut out a part without a gap, of a period and a half and more"};
+            .cure = "use a part of the recording without a gap, at least one and a half periods long"};
   }
   if (!regular)
     return {.where = channel,
             .value = "",
-            .limit = "is noise or changes its speed all the time: its half waves have very different lengths",
-            .cure = "check the probe's connection; turn the motor steadily while it is recorded"};
+            .limit = "has half waves of very different lengths: it is noise, or the motor's speed changes all the time",
+            .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"};
   return {.where = channel,
-          .limit = "passes its mean " + std::to_string(passed) + " times; one and a half periods are needed",
+          .limit = "crosses its mean only " + std::to_string(passed) + " times; one and a half periods are needed",
           .cure = "record for longer, or turn the motor faster"};
 }
 
@@ -146,10 +146,10 @@ base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
     if (channel.residual_rms_V < rms) continue;
     return {{.where = record.channels[c].name,
              .value = "",
-             .limit = "is noise: " + base::three_digits(rms) + " V rms of it repeat with " +
+             .limit = "is noise: " + base::three_digits(rms) + " V rms repeat at " +
                       base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
-                      base::three_digits(channel.residual_rms_V) + " V rms do not",
-             .cure = "check the probe's connection; turn the motor steadily while it is recorded"}};
+                      base::three_digits(channel.residual_rms_V) + " V rms do not repeat",
+             .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"}};
   }
   return {};
 }
@@ -190,7 +190,7 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
              .value = "",
              .limit = "is clipped: it stays at " + base::six_digits(*high) + " or " + base::six_digits(*low) +
                       " V for " + base::three_digits(100.0 * channel.clipped) + " % of a period",
-             .cure = "record it again in a greater range of the channel"}};
+             .cure = "record the voltage again in a larger range of the channel"}};
   }
   return {};
 }
