@@ -62,10 +62,10 @@ TEST(Numbers, OfABenchAreHeldToTheTable) {
   many.points = 2147483647;
   EXPECT_EQ(
       first(analysis::check(many)),
-      "points = 2147483647 must be at most 200000; a page shows some hundred; each is simulated and stored");
+      "points = 2147483647 must be at most 200000; give fewer points; a page shows some hundred");
   many.points = 41;
   many.bench.voltage_V = 1e4;
-  EXPECT_NE(first(analysis::check(many)).find("lets the field turn at 2.39e+06 electrical rad/s"),
+  EXPECT_NE(first(analysis::check(many)).find("makes the field turn at 2.39e+06 electrical rad/s"),
             std::string::npos)
       << first(analysis::check(many));
 }

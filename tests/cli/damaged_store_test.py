@@ -125,7 +125,7 @@ class DamagedStore(ProgramTest):
     def test_a_store_is_no_standard_output(self):
         for words in (("run", "a.toml", "--runs", "5"), ("compare", "maxon-251601"), ("design", "--optimise", "a.toml")):
             told = self.run_program(*words, "--store", "-", code=2)
-            self.assertIn("--store = - means standard output elsewhere", told.stderr)
+            self.assertIn("--store = - means standard output", told.stderr)
         self.assertNotIn("-", self.names())
 
     def test_a_plan_is_the_same_however_it_is_spelled(self):

@@ -171,7 +171,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   EXPECT_NE(first(s).find("has not been read"), std::string::npos) << first(s);
   s = sheet_of(corners(120));
   s.back_emf = BackEmfShape::sine;
-  EXPECT_NE(first(s).find("applies to a table only, and back_emf is none"), std::string::npos) << first(s);
+  EXPECT_NE(first(s).find("applies to back_emf = \"table\" only"), std::string::npos) << first(s);
 }
 
 }  // namespace SIXSTEP_TEST_FILE

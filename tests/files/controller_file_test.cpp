@@ -28,8 +28,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   EXPECT_EQ(told("nowhere.so").find(folder + "/nowhere.so cannot be read: "), 0u) << told("nowhere.so");
   EXPECT_EQ(told("no_symbol.so"),
             folder +
-                "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile it "
-                "with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
+                "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
   EXPECT_EQ(told("answers_nothing.so")
                 .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller answers a null"),
             0u);
@@ -117,7 +116,7 @@ TEST(ControllerFile, ScenariosTellWhatTheyCannotHave) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       to_string(refused.problems()[0]),
-      "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario or the controller's numbers");
+      "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario, or the controller's numbers in control.own.number");
 }
 
 /// The controller's bytes count as read: a store detects a recompiled controller.

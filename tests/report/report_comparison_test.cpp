@@ -111,7 +111,7 @@ TEST(Comparison, a_boards_log_has_its_columns_and_no_verdict) {
                          .command = "sixstep run one.toml --compare b.csv --html x.html",
                          .version = "0.1.0"});
   EXPECT_THAT(html, HasSubstr("A board's log over its simulation"));
-  EXPECT_THAT(html, HasSubstr("b&lt;i&gt;.csv<small class=\"aside\">what a board sent</small>"));
+  EXPECT_THAT(html, HasSubstr("b&lt;i&gt;.csv<small class=\"aside\">recorded on a board</small>"));
   EXPECT_THAT(
       html,
       HasSubstr("<code>i_m_A</code></th><td class=\"num\">12</td><td class=\"num\">125.0\u00a0mA</td>"));

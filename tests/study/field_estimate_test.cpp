@@ -315,12 +315,12 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
                    with_real_sensors(x);
                    x.control.field.injection_V = 0.05;
                  }),
-                 "control.field.injection_V", "a digit of the converters");
+                 "control.field.injection_V", "less than one count of the converters");
   expect_refused(with([](Scenario& x) {
                    x.control.field.angle = FieldAngle::sensors;
                    x.control.field.injection_V = 1.0;
                  }),
-                 "control.field.injection_V", "injected nowhere");
+                 "control.field.injection_V", "control.field.angle has no injection");
 }
 
 /// The iron of the motor does not saturate, although the drive was designed for iron that does: the drive

@@ -129,7 +129,7 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
   const auto refused = study::run(s);
   ASSERT_FALSE(refused);
   EXPECT_EQ(to_string(refused.problems()[0]),
-            "control.own puppet cannot have five; change the scenario or the controller's numbers");
+            "control.own puppet cannot have five; change the scenario, or the controller's numbers in control.own.number");
 }
 
 /// The magnet's direction is as exact as the sensors: Hall codes give it to a sector of 60 degrees.
@@ -194,11 +194,11 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   wrong = pair;
   wrong.chopping = 3;
   EXPECT_EQ(fault(pair_puppet, wrong),
-            answered("chopping = 3 in step 1, which own_controller.h does not name"));
+            answered("chopping = 3 in step 1, which is no value of own_controller.h"));
   wrong = {};
   wrong.enabled = 1, wrong.leg[0].state = 4;
   EXPECT_EQ(fault(legs_puppet, wrong),
-            answered("leg[0].state = 4 in step 1, which own_controller.h does not name"));
+            answered("leg[0].state = 4 in step 1, which is no value of own_controller.h"));
   wrong = {};
   wrong.fault = 1;
   EXPECT_EQ(fault(pair_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
@@ -219,7 +219,7 @@ TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
     EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
     int given = 0, converters = 0;
     for (const std::string& text : out ? out->remarks : std::vector<std::string>{}) {
-      given += text.find("must keep by itself") != std::string::npos;
+      given += text.find("the controller itself must keep") != std::string::npos;
       converters += text.find("the converters show at most") != std::string::npos;
     }
     return std::pair(given, converters);

@@ -45,7 +45,7 @@ TEST(BoardLog, ATracesOwnHeadingInAnotherUnitIsRefused) {
     return log ? std::string("nothing") : log.problems()[0].limit + "; " + log.problems()[0].cure;
   };
   EXPECT_THAT(told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
-              HasSubstr("in A by its name and in mA by the unit behind it; head it i_m_A or i_m [mA]"));
+              HasSubstr("in A by its name but in mA by the unit after it; write the heading i_m_A or i_m [mA]"));
   EXPECT_THAT(told("t_s,speed_rad_s [rpm]\n0,1\n1,2\n"), HasSubstr("head it speed_rad_s or speed [rpm]"));
   EXPECT_THAT(told("t_s [ms],i_m [mA]\n0,1\n1,2\n"), HasSubstr("head it t_s or t [ms]"));
   EXPECT_EQ(told("t_s [s],i_m_A [A],bus_V (V)\n0,1,2\n1,2,3\n"), "nothing");
@@ -66,7 +66,7 @@ TEST(BoardLog, SaysWhatIsWrong) {
   };
   EXPECT_THAT(limit(""), HasSubstr("is empty"));
   EXPECT_THAT(limit("t [us],i_m [V]\n1,2\n3,4\n"), HasSubstr("where A belongs"));
-  EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column that a simulation has"));
+  EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column of the simulation"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is not a number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
@@ -115,7 +115,7 @@ TEST(BoardLog, RemarksBetweenRowsAndFaultsAreTold) {
     EXPECT_THAT(
         log->notes,
         ElementsAre("line 4 says \"fault: over-current\", and 1 more does", "line 9 says \"stop\"",
-                    "1 row says that the board missed control periods, up to 3: what it sent there is late",
+                    "1 row says that the board missed control periods, up to 3: its values there are late",
                     "1 row says that the board had a fault, faults 4 first in line 7"));
     EXPECT_THAT(log->not_used, testing::IsEmpty());
   }

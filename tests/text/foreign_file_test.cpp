@@ -34,33 +34,23 @@ std::string told(const char* content) {
 TEST(ForeignFile, SaysWhatItIsAndWhichLinesToType) {
   EXPECT_EQ(
       told(vesc),
-      "m.xml:1:1: is a VESC motor configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-      "resistance_ohm = { value = 0.0187, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, "
-      "flux_linkage_mWb = 5.12; add the inertia and the other values that the style firmware lists");
+      "m.xml:1:1: is a VESC motor configuration, not a TOML file; type into a motor's file: pole_pairs = 7, resistance_ohm = { value = 0.0187, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, flux_linkage_mWb = 5.12; add the inertia and the other values that the style firmware lists");
   EXPECT_THAT(
       told(moteus),
       HasSubstr(
-          "is a moteus configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.0468, frame = \"phase\" }, "
-          "speed_constant_rpm_V = { value = 304, frame = \"line-peak\" }"));
+          "is a moteus configuration, not a TOML file; type into a motor's file: pole_pairs = 7, resistance_ohm = { value = 0.0468, frame = \"phase\" }, speed_constant_rpm_V = { value = 304, frame = \"line-peak\" }"));
   EXPECT_THAT(
       told(odrive),
       HasSubstr(
-          "is an ODrive configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.039, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, "
-          "torque_constant_mNm_A = 30.63"));
+          "is an ODrive configuration, not a TOML file; type into a motor's file: pole_pairs = 7, resistance_ohm = { value = 0.039, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, torque_constant_mNm_A = 30.63"));
   EXPECT_THAT(
       told(simple_foc),
       HasSubstr(
-          "is a SimpleFOC sketch, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.039, frame = \"phase\" }, "
-          "speed_constant_rpm_V = { value = 270, frame = \"line-peak\" }, inductance_uH = { value = 22.3, frame = \"phase\" }"));
+          "is a SimpleFOC sketch, not a TOML file; type into a motor's file: pole_pairs = 7, resistance_ohm = { value = 0.039, frame = \"phase\" }, speed_constant_rpm_V = { value = 270, frame = \"line-peak\" }, inductance_uH = { value = 22.3, frame = \"phase\" }"));
   EXPECT_THAT(
       told(matlab),
       HasSubstr(
-          "is a MATLAB struct of a motor, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
-          "resistance_ohm = { value = 0.36, frame = \"phase\" }, inductance_uH = { value = 200, frame = \"phase\" }, "
-          "flux_linkage_mWb = 6.4, inertia_kgm2 = 7.06e-06"));
+          "is a MATLAB struct of a motor, not a TOML file; type into a motor's file: pole_pairs = 7, resistance_ohm = { value = 0.36, frame = \"phase\" }, inductance_uH = { value = 200, frame = \"phase\" }, flux_linkage_mWb = 6.4, inertia_kgm2 = 7.06e-06"));
 }
 
 TEST(ForeignFile, AsAScenarioToo) {

@@ -77,12 +77,12 @@ TEST(RecordedDoubts, ADecimalCommaBetweenCommasIsNamed) {
   for (const char* head : {"time [s],u_ab [V],u_bc [V]\n", ""})
     EXPECT_THAT(
         seen(with_commas(plain(head)), between_lines).problem,
-        AllOf(HasSubstr("commas are both decimal points and separators here"), HasSubstr("semicolons")));
+        AllOf(HasSubstr("commas are both decimal marks and separators"), HasSubstr("semicolons")));
 }
 
 TEST(RecordedDoubts, RowsOfMoreCellsThanHeadingsAreToldOf) {
   EXPECT_THAT(seen(plain("time [s],u_ab [V],u_bc [V]\n") + "0.06,1.5,2.5,3.5\n").problem,
-              HasSubstr("r.csv:502: has 4 cells, and the table 3 columns"));
+              HasSubstr("r.csv:502: has 4 cells, but the table has 3 columns"));
 }
 
 /// A word of an instrument for a missing sample does not remove a channel.
@@ -99,7 +99,7 @@ TEST(RecordedDoubts, ABadCellIsNamed) {
           static_cast<std::size_t>(std::count(head, head + std::string(head).size(), '\n'));
       const Seen found = seen(file, between_lines);
       EXPECT_THAT(found.problem, AllOf(HasSubstr(fmt::format("r.csv:{}: ", above + 8)),
-                                       HasSubstr("is not a number, nor is 1 more cell")))
+                                       HasSubstr("is not a number, and 1 more cell")))
           << cell << head;
     }
 }
@@ -125,7 +125,7 @@ TEST(RecordedDoubts, VoltagesThatAreNamedSayWhatTheyAreByTheirHeadings) {
   };
   const std::string file = plain("time [s],u_ab [V],CH2 [V]\n");
   expect_right(file, 1e-5, named({"u_ab"}), 1);
-  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not name the points"));
+  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not tell between which points"));
 }
 
 /// A known column is not called unknown: the reason says what it is and which column replaced it.
@@ -142,7 +142,7 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
         .notes;
   };
   EXPECT_THAT(notes("u_a,u_b [V]"),
-              ElementsAre("not used: u_a, u_b (a voltage of a terminal; line-to-line voltages are used)"));
+              ElementsAre("not used: u_a, u_b (a voltage of a terminal; the line-to-line voltages are used)"));
   EXPECT_THAT(notes("hall1,H2,code"),
               ElementsAre("not used: hall1, H2 (a Hall line, no voltage), code (Hall codes, no voltage)"));
   EXPECT_THAT(notes("i_a [A],speed"),
@@ -176,7 +176,7 @@ TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
   star.between = analysis::EmfBetween::star;
   EXPECT_THAT(seen(both).channels, ElementsAre("u_a", "u_b", "u_c"));
   EXPECT_THAT(seen(both).notes,
-              ElementsAre("not used: u_ab (a line-to-line voltage; those of terminals are used)"));
+              ElementsAre("not used: u_ab (a line-to-line voltage; the voltages of terminals are used)"));
   EXPECT_THAT(seen(both, star).channels, ElementsAre("u_a", "u_b", "u_c"));
   EXPECT_THAT(seen(both, between_lines).channels, ElementsAre("u_ab"));
   EXPECT_NEAR(seen(both).line_peak_mV_s, seen(both, between_lines).line_peak_mV_s, 1e-3);
@@ -195,7 +195,7 @@ TEST(RecordedDoubts, AHallLineIsTakenForNoVoltage) {
 TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
   const std::string file = plain("time [s],u_ab,u_ab\n");
   EXPECT_THAT(seen(file).problem,
-              HasSubstr("has 2 columns \"u_ab\"; name one by its place: column 2 or column 3"));
+              HasSubstr("has 2 columns \"u_ab\"; name one column by its place: column 2 or column 3"));
   const auto named = [](std::vector<std::string> voltages) {
     return BenchColumns{.hall = {},
                         .voltages = std::move(voltages),
@@ -219,7 +219,7 @@ TEST(RecordedDoubts, ARateInThePreamble) {
     const std::string file = rate + plain("Time,u_ab,u_bc\n", "{:.1f},{:.5f},{:.5f}\n", per_s);
     expect_right(file);
     EXPECT_THAT(seen(file).notes,
-                ElementsAre(fmt::format("Time is in {}, as \"Samplerate: 10 kHz\" says", unit)));
+                ElementsAre(fmt::format("Time is in {} by \"Samplerate: 10 kHz\"", unit)));
   }
   expect_right(rate + table("u_ab,u_bc\n", [](int, double, double a, double b) {
                  return fmt::format("{:.5f},{:.5f}\n", a, b);

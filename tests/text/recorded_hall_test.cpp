@@ -98,7 +98,7 @@ TEST(RecordedHall, SigrokAsItComes) {
   EXPECT_THAT(seen(file).notes,
               Contains("D0, D1 and D2 are taken for H1, H2 and H3, in the order of their columns"));
   EXPECT_THAT(seen(file, {"logic"}).problem,
-              HasSubstr("has 3 columns \"logic\"; name one by its place: column 2, column 3 or column 4"));
+              HasSubstr("has 3 columns \"logic\"; name one column by its place: column 2, column 3 or column 4"));
 }
 
 TEST(RecordedHall, SigrokWithoutTime) {
@@ -107,7 +107,7 @@ TEST(RecordedHall, SigrokWithoutTime) {
   ASSERT_FALSE(found.log.t_s.empty());
   EXPECT_NEAR(found.log.t_s.back(), 0.2, 1e-4);
   EXPECT_THAT(found.notes,
-              Contains("has no column of time: rows are 5e-05 s apart, as \"Samplerate: 20 kHz\" says"));
+              Contains("has no column of time; the rows are 5e-05 s apart by \"Samplerate: 20 kHz\""));
 }
 
 /// With a sample in each microsecond the numbers are nanoseconds; with one in each nanosecond they number the
@@ -161,7 +161,7 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
       ElementsAre(
           "not used: u_b (a voltage of a terminal; u_a, u_b and u_c are all needed), aux (its heading has no known meaning)"));
   EXPECT_THAT(notes("time,hall1,hall2,hall3,u_ab,u_bc,u_a", "1,2,3"),
-              ElementsAre("not used: u_a (a voltage of a terminal; line-to-line voltages are used)"));
+              ElementsAre("not used: u_a (a voltage of a terminal; the line-to-line voltages are used)"));
   std::string file = "time,hall1,hall\n";
   for (int row = 0; row < 300; ++row)
     file += fmt::format("{:.5f},{},{}\n", row * 5e-5, codes[row / 10 % 6] >> 2, codes[row / 10 % 6]);
@@ -188,7 +188,7 @@ TEST(RecordedHall, WhatVoltagesAreOfIsNeverGuessedByTheirNumber) {
     EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; u_a, u_b and u_c are needed"));
   for (const Seen& found :
        {with("CH4,CH5", two), with("CH4,CH5,CH6", three), with("u_ab,u_b", {"u_ab", "u_b"})})
-    EXPECT_THAT(found.problem, HasSubstr("between is missing: the headings do not name the points"));
+    EXPECT_THAT(found.problem, HasSubstr("between is missing, and the headings do not tell between which points"));
   EXPECT_EQ(with("u_ab,u_bc").log.voltages, RecordedVoltages::lines);
   EXPECT_EQ(with("u_a,u_b,u_c").log.voltages, RecordedVoltages::terminals);
   // Three voltages between terminals stay such if the user names them.

@@ -18,8 +18,8 @@ inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const
   for (const auto& choice : mode_choices)
     if (!unit.empty() && own(choice.value) == unit)
       return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
-  return in_mode + ", change control.mode, or write another unit of this quantity with the number: \"100 " +
-         std::string(unit) + "\"";
+  return in_mode + ", or the number with its unit, as \"100 " + std::string(unit) +
+         "\", or change control.mode";
 }
 
 /// A duty is a share of the period; a user who writes 50 means percent.

@@ -301,7 +301,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   request = good;
   request.record.channels.push_back(request.record.channels[0]);
   request.record.channels[1].name = "ch2";
-  EXPECT_THAT(told(request), HasSubstr("ch2 = 0 deg behind ch1 is none of 120 and 240"));
+  EXPECT_THAT(told(request), HasSubstr("ch2 = 0 deg behind ch1 is neither 120 nor 240"));
   request = good;
   request.record.t_s[100] = request.record.t_s[99];
   EXPECT_THAT(told(request), HasSubstr("in row 101 does not rise"));
