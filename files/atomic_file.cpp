@@ -165,7 +165,8 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (!exists && errno != ENOENT) return unwritable(to.path, errno);
   if (exists && S_ISDIR(there.st_mode)) return unwritable(to.path, EISDIR);
   if (exists && S_ISBLK(there.st_mode))
-    return base::Problem{.where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on this disk"};
+    return base::Problem{
+        .where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on this disk"};
   int descriptor = -1;
   if (exists && !S_ISREG(there.st_mode)) {
     descriptor = file.open_device();

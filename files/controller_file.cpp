@@ -19,9 +19,11 @@ constexpr std::string_view elf_magic =
 
 base::Problem unloaded(const std::string& path, std::string why) {
   if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
-  return {.where = path,
-          .limit = "cannot be loaded: " + why,
-          .cure = "compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
+  return {
+      .where = path,
+      .limit = "cannot be loaded: " + why,
+      .cure =
+          "compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
 }
 
 /// Loads a shared object. Loading already runs the object's code: the constructors of its libraries.

@@ -31,8 +31,7 @@ std::string meant(const std::string& path) {
 }
 
 base::Problem unreadable(const std::string& path, int reason) {
-  if (path == "-")
-    return {"-:", "", "is not a file", "to read from a pipe, name /dev/stdin"};
+  if (path == "-") return {"-:", "", "is not a file", "to read from a pipe, name /dev/stdin"};
   const std::string near = reason == ENOENT ? meant(path) : "";
   return {.where = path + ":",
           .limit = std::string("cannot be read: ") + std::strerror(reason),

@@ -254,8 +254,9 @@ std::string render_comparison(const ComparisonInput& in) {
              {{"title", title},
               {"subtitle", escaped(names) + "; differences are relative to the first"},
               {"runs", run_rows(in.runs)},
-              {"differences", with_log ? "<p class=\"quiet\">The log is assumed to be of this scenario's drive.</p>\n"
-                                       : difference_table(in.runs)},
+              {"differences",
+               with_log ? "<p class=\"quiet\">The log is assumed to be of this scenario's drive.</p>\n"
+                        : difference_table(in.runs)},
               {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs)) +
                               chips(in.runs) + trace_comparison_table(in)},
               {"plots", assets::plots_html()},

@@ -70,10 +70,11 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
     text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
                                                     : least_of_bus(held->largest_duty, legs));
     if (held->limit_A)
-      text += answer("Current limit", held->limit_s > 0.0
-                                          ? fmt::format("reference at {} during {}",
-                                                        computed(*held->limit_A, "A"), lasted(held->limit_s))
-                                          : computed(*held->limit_A, "A") + ", never reached by the reference");
+      text += answer(
+          "Current limit",
+          held->limit_s > 0.0
+              ? fmt::format("reference at {} during {}", computed(*held->limit_A, "A"), lasted(held->limit_s))
+              : computed(*held->limit_A, "A") + ", never reached by the reference");
   }
   if (text.empty()) text = answer("Limits", "nothing was required, and no duty was commanded");
   return card("limits", "What limits the drive", list(text));

@@ -85,8 +85,11 @@ sixstep_status Session::misuse(const char* function, const char* limit, const ch
 
 sixstep_status Session::usable(const char* function) {
   problems.clear();
-  if (!run_) return misuse(function, "needs an open session", "correct the problems that the opening reported, and open the session again");
-  if (outcome_) return misuse(function, "needs a running session, and this session is finished", "open another session");
+  if (!run_)
+    return misuse(function, "needs an open session",
+                  "correct the problems that the opening reported, and open the session again");
+  if (outcome_)
+    return misuse(function, "needs a running session, and this session is finished", "open another session");
   return SIXSTEP_OK;
 }
 
@@ -173,7 +176,8 @@ template <class Side>
 sixstep_status Session::advance_to_edge(const char* function, double to_s, const Side& side) {
   if (const sixstep_status status = usable(function); status != SIXSTEP_OK) return status;
   if (!ahead_)
-    return misuse(function, "needs a session whose gates the caller sets", "open the session with SIXSTEP_CHIP_GATES");
+    return misuse(function, "needs a session whose gates the caller sets",
+                  "open the session with SIXSTEP_CHIP_GATES");
   if (std::isnan(to_s)) return advance(to_s);
   const auto seconds = [](std::int64_t ps) { return static_cast<double>(ps) / sim::ticks_per_second; };
   const auto before = side(ahead_->present().signals);

@@ -158,9 +158,10 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (!sheet) return sheet.problems();
   const std::optional<int> of_sheet = design::sheet_constants(*sheet).pole_pairs;
   if (a.pole_pairs && of_sheet && *a.pole_pairs != *of_sheet)
-    return base::Problem{"--pole-pairs", std::to_string(*a.pole_pairs),
-                         fmt::format("contradicts the {} pole pairs of {}", *of_sheet, text::visible(sheet->name)),
-                         "leave out the less certain one: --pole-pairs or --motor"};
+    return base::Problem{
+        "--pole-pairs", std::to_string(*a.pole_pairs),
+        fmt::format("contradicts the {} pole pairs of {}", *of_sheet, text::visible(sheet->name)),
+        "leave out the less certain one: --pole-pairs or --motor"};
   if (of_sheet) a.pole_pairs = of_sheet;
   return std::optional(*sheet);
 }

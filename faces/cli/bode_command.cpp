@@ -106,7 +106,9 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
   // A quiet run prints its notes only if the loop has not answered.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)
-    print(text::visible(job.name()) + ": NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n", stderr);
+    print(text::visible(job.name()) +
+              ": NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n",
+          stderr);
   return answered ? Exit::ok : Exit::failed;
 }
 

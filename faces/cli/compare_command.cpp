@@ -205,8 +205,7 @@ base::Problems check_comparison(const RunArguments& arguments) {
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",
            .value = fmt::format("{} files", arguments.files.size()),
-           .limit =
-               fmt::format("must be at most {}, the number of colours of a page", report::most_compared),
+           .limit = fmt::format("must be at most {}, the number of colours of a page", report::most_compared),
            .cure = "compare fewer, or write one report each with --out DIR"}};
 }
 

@@ -150,8 +150,9 @@ Exit own_without_run(const analysis::Contest& contest) {
   for (std::size_t n = 0; n < contest.entries.size(); ++n) {
     const analysis::ContestEntry& entry = contest.entries[n];
     if (n < analysis::contestants().size() || entry.scenario) continue;
-    complain({{"--own " + std::string(entry.who->name), "", "was not compared, so that its row has no figures",
-               "correct the problems in the next lines"}});
+    complain(
+        {{"--own " + std::string(entry.who->name), "", "was not compared, so that its row has no figures",
+          "correct the problems in the next lines"}});
     complain(entry.scenario.problems());
     exit = Exit::failed;
   }
@@ -239,8 +240,7 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--current-settle", a.current_settle_s,
                   "settling time of all current loops in s. Default: that of the design");
   verb.add_option("--period", a.period_s, "control and PWM period in s. Default: 30e-6");
-  verb.add_option("--board", a.board,
-                  "scenario whose supply, bridge, PWM and sensors all controllers share");
+  verb.add_option("--board", a.board, "scenario whose supply, bridge, PWM and sensors all controllers share");
   for (const auto& [option, unit] : {std::pair{"--voltage", "V"}, std::pair{"--settle", "s"},
                                      std::pair{"--current-settle", "s"}, std::pair{"--period", "s"}})
     take_unit(verb.get_option(option), unit);

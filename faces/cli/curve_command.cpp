@@ -185,10 +185,8 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm. Default: 0");
   curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
   curve.add_option("--points", a.points, "number of points from standstill to no load. Default: 41");
-  curve.add_option("--ambient", a.ambient_degC,
-                   "temperature of the air around the motor, degC. Default: 25");
-  curve.add_option("--winding", a.winding_degC,
-                   "temperature of the winding on the curve, degC. Default: 25");
+  curve.add_option("--ambient", a.ambient_degC, "temperature of the air around the motor, degC. Default: 25");
+  curve.add_option("--winding", a.winding_degC, "temperature of the winding on the curve, degC. Default: 25");
   curve.add_option("--housing", a.housing_degC,
                    "temperature of housing and magnets on the curve, degC. Default: 25");
   curve.add_option("--csv", a.csv, "write all points with all columns");

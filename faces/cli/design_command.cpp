@@ -144,8 +144,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   // Advice is tried without the limits of the board's drive, only with the board's parts.
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
-      if (w.cure.starts_with("usable with"))
-        w.cure += ", tried without the limits of the board's drive";
+      if (w.cure.starts_with("usable with")) w.cure += ", tried without the limits of the board's drive";
   // The verdict applies to a sensorless drive's loops, but not to the written file, which lacks this drive's
   // commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
@@ -303,16 +302,18 @@ void declare_options(CLI::App& design, DesignArguments& a) {
                     "cancellation, symmetrical-optimum: bandwidth of the loop, in rad/s");
   design.add_option("--period", a.period_s, "control and PWM period in s. Default: 30e-6");
   design.add_option("--voltage", a.voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
-  design.add_option("--torque-limit", a.torque_limit_Nm,
-                    "speed, position: torque limit in N m. Default: the torque of 2.5 times the nominal current");
+  design.add_option(
+      "--torque-limit", a.torque_limit_Nm,
+      "speed, position: torque limit in N m. Default: the torque of 2.5 times the nominal current");
   design.add_option("--force-limit", a.force_limit_N,
                     "linear motor, instead of --torque-limit: force limit in N");
   design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver or ideal. Default: hall");
   design.add_option(
       "--edges", a.edges,
       "speed, position: number of Hall edges over which a speed is averaged, 1 to 6. Default: 6 or 1, adaptive");
-  design.add_option("--capture", a.capture_Hz,
-                    "speed, position: clock of the timer that captures the edges of Hall probes or an encoder, in Hz. Default: 1e6, for an encoder 16e6");
+  design.add_option(
+      "--capture", a.capture_Hz,
+      "speed, position: clock of the timer that captures the edges of Hall probes or an encoder, in Hz. Default: 1e6, for an encoder 16e6");
   design.add_option(
       "--lowest-speed", a.lowest_speed_rad_s,
       "speed, position: lowest speed that the loop must hold, in rad/s or m/s. Default: a tenth of the speed that the bus allows");

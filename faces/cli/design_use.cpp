@@ -12,7 +12,8 @@
 namespace cli {
 namespace {
 
-constexpr const char* in_scenario = "set the value in the scenario, in [control], [pwm], [supply], [sensors] or [load]";
+constexpr const char* in_scenario =
+    "set the value in the scenario, in [control], [pwm], [supply], [sensors] or [load]";
 constexpr const char* by_bandwidth = "set control.field.bandwidth_Hz in the scenario";
 constexpr const char* not_written = "leave it out: --json has all numbers";
 
@@ -113,7 +114,8 @@ base::Problems unread_by_optimise(const DesignArguments& a) {
   base::Problems found;
   for (const Use& use : uses)
     if (!use.in_optimise && use.given(a))
-      found.push_back({use.option, "", "applies to a single design, and --optimise reads this value from the plan",
+      found.push_back({use.option, "",
+                       "applies to a single design, and --optimise reads this value from the plan",
                        "leave it out, or set the value in the plan or its scenario"});
   return found;
 }

@@ -144,11 +144,12 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
   using Mode = sixstep::control::Mode;
   const bool cascade = control.mode == Mode::speed || control.mode == Mode::position;
   if (of_sensor && cascade && control.drive != study::FirmwareKind::field)
-    print(
-        "after setting these keys, design the loops again: sixstep design --scenario " + text::visible(a.file) +
-            " --toml NEW.toml\n",
-        stderr);
-  print("no header was written; to write it anyway, add --despite REASON, and the header will state all of this\n", stderr);
+    print("after setting these keys, design the loops again: sixstep design --scenario " +
+              text::visible(a.file) + " --toml NEW.toml\n",
+          stderr);
+  print(
+      "no header was written; to write it anyway, add --despite REASON, and the header will state all of this\n",
+      stderr);
   const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
   return graver(cli::exit_of(c.outcome), told);
 }
@@ -236,9 +237,11 @@ Verb declare_export(CLI::App& app) {
   CLI::App& exports = *app.add_subcommand("export", "export of a scenario's drive");
   exports.require_subcommand(1);
   const auto a = std::make_shared<ExportArguments>();
-  declare_options(*exports.add_subcommand(
-                      "header", "gains and scalings as constants for firmware, in C++20, if the run holds every requirement"),
-                  *a);
+  declare_options(
+      *exports.add_subcommand(
+          "header",
+          "gains and scalings as constants for firmware, in C++20, if the run holds every requirement"),
+      *a);
   const Verb unit = declare_unit_export(exports);
   const auto header = calling(export_header, a);
   return {&exports, [header, unit](const std::string& command) {

@@ -34,6 +34,19 @@ struct NewArguments {
   std::string command;
 };
 
+/// Replaces the library's words for other studies by the commands that make them.
+base::Problems with_commands(base::Problems problems, const NewArguments& a) {
+  const std::string motor = text::shell_word(a.motor);
+  const std::pair<std::string_view, std::string> commands[] = {
+      {"a design of the motor", fmt::format("sixstep design {} --mode {}", motor, a.mode)},
+      {"the torque-speed curve of the motor", fmt::format("sixstep curve {}", motor)}};
+  for (base::Problem& p : problems)
+    for (const auto& [words, command] : commands)
+      if (const std::size_t at = p.cure.find(words); at != std::string::npos)
+        p.cure.replace(at, words.size(), command);
+  return problems;
+}
+
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
   analysis::FirstScenarioSpec spec;
@@ -49,7 +62,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   spec.voltage_V = a.voltage_V;
   spec.for_each = side_by_side(0, true, "motors");
   base::Result<study::Scenario> scenario = analysis::first_scenario(spec);
-  if (!scenario) return in_options(scenario.problems());
+  if (!scenario) return with_commands(in_options(scenario.problems()), a);
   return scenario;
 }
 

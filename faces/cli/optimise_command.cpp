@@ -133,8 +133,8 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
   if (interrupted()) return told_interrupted("the search", kept_in(a.store));
   if (!best)
-    return refused(
-        {{a.plan + ":", "", "has no point that can be run", "find the reason with: sixstep run PLAN --only 0"}});
+    return refused({{a.plan + ":", "", "has no point that can be run",
+                     "find the reason with: sixstep run PLAN --only 0"}});
   const text::OptimumStory story{plan->name, plan->scenarios->plan(), *plan->columns, *figure};
   const std::string json = text::optimum_json(story, *best);
   if (const base::Problems unwritten = write(outputs, *plan, *best, json); !unwritten.empty())

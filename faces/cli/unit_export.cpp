@@ -83,9 +83,7 @@ base::Result<std::string> unit_binary_of(int fmi) {
   if (path.empty())
     return base::Problem{
         "export fmu", "",
-        fmt::format(
-            "needs sixstep-fmi{0}.so, the library for units of FMI {0}, which is not installed",
-            fmi),
+        fmt::format("needs sixstep-fmi{0}.so, the library for units of FMI {0}, which is not installed", fmi),
         fmt::format(
             "install the package sixstep, or build the target sixstep_fmi{} with the CMake option SIXSTEP_C=ON",
             fmi)};
@@ -118,7 +116,8 @@ std::string archive_of(const UnitParts& parts, int fmi) {
 /// What sets the gates of the unit.
 base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
   if (a.kind != "drive" && a.kind != "plant")
-    return base::Problem{"--kind", a.kind, "must be drive or plant", "use drive for a unit with its controller, plant without"};
+    return base::Problem{"--kind", a.kind, "must be drive or plant",
+                         "use drive for a unit with its controller, plant without"};
   if (a.kind == "drive") {
     if (a.inputs.empty()) return text::FmiChip::of_scenario;
     return base::Problem{"--inputs", a.inputs, "has no effect on a unit of the kind drive",

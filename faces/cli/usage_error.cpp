@@ -126,11 +126,10 @@ std::optional<Problem> no_number(const Called& called) {
     const std::string type = option->get_type_name(), word = option->results().front();
     const bool whole = type.starts_with("INT") || type.starts_with("UINT");
     if ((whole && !reads<std::int64_t>(word)) || (type.starts_with("FLOAT") && !reads<double>(word)))
-      return Problem{
-          .where = option->get_name(),
-          .value = word,
-          .limit = whole ? "must be a whole number" : "must be a number without a unit",
-          .cure = meaning(called, option)};
+      return Problem{.where = option->get_name(),
+                     .value = word,
+                     .limit = whole ? "must be a whole number" : "must be a number without a unit",
+                     .cure = meaning(called, option)};
   }
   return {};
 }

@@ -86,8 +86,10 @@ struct PlanStore::Inside {
   }
   base::Problems put(const analysis::RunRecord& row) {
     if (!row.fits(plan.columns))
-      return {{db.path() + ":", "", fmt::format("cannot store run {}: its columns differ from the columns of the plan", row->number),
-               "this is a defect of sixstep: please report it with the command"}};
+      return {
+          {db.path() + ":", "",
+           fmt::format("cannot store run {}: its columns differ from the columns of the plan", row->number),
+           "this is a defect of sixstep: please report it with the command"}};
     std::vector<Cell> cells = cells_of(row);
     cells.emplace_back(static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums)));
     for (std::size_t n = 0; n < cells.size(); ++n) insert->bind_cell(static_cast<int>(n) + 1, cells[n]);
@@ -174,7 +176,8 @@ base::Problems check_pages(Database& db) {
 }
 
 base::Problem foreign(const std::string& path) {
-  return {path + ":", "", "is not a store of runs", "name another file: sixstep overwrites only its own files"};
+  return {path + ":", "", "is not a store of runs",
+          "name another file: sixstep overwrites only its own files"};
 }
 
 }  // namespace
@@ -232,9 +235,9 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return refuse("holds the runs of another plan: " + before.plan,
                   "name another store for this plan: " + now.plan);
   if (before.inputs != now.inputs || *before.columns != *now.columns)
-    return refuse(
-        "holds runs of a scenario that has changed since then: " + before.scenario + " or a file that it names",
-        "name another store, or overwrite this one (force)");
+    return refuse("holds runs of a scenario that has changed since then: " + before.scenario +
+                      " or a file that it names",
+                  "name another store, or overwrite this one (force)");
   // In messages, columns have their names in the plan, not those in the file.
   store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;

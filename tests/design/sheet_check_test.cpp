@@ -132,8 +132,9 @@ TEST(SheetCheck, ANominalSpeedOnTheIdealLineSaysWhatCommutationTakes) {
   EXPECT_EQ(relation(checked(s), "nominal speed").verdict, RelationVerdict::holds);
   const double part = 3 * 8 * 0.286e-3 * (83.4 / 33.5 + 0.185) / (base::pi * 0.0335);
   const std::string remark = relation(checked(s), "nominal speed").remark;
-  EXPECT_NE(remark.find("about " + base::rounded(100 * part / (1 + part), 2) + " %; sixstep curve shows"),
-            std::string::npos)
+  EXPECT_NE(
+      remark.find("about " + base::rounded(100 * part / (1 + part), 2) + " %; the torque-speed curve has"),
+      std::string::npos)
       << remark;
 }
 
@@ -227,11 +228,13 @@ TEST(SheetCheck, FrictionThatLacksHalfTheCurrentIsNoFactorOfAFrame) {
 TEST(SheetCheck, AWellKnownFactorIsNamed) {
   Sheet s = printed_251601();
   s.resistance_ohm->value *= 2;
-  EXPECT_EQ(relation(checked(s), "stall current").remark,
-            "a factor 2: terminal against phase? the stall torque agrees with the stall current: check the resistance and the voltage");
+  EXPECT_EQ(
+      relation(checked(s), "stall current").remark,
+      "a factor 2: terminal against phase? the stall torque agrees with the stall current: check the resistance and the voltage");
   s = printed_251601();
   s.stall_torque_mNm->value /= 10;
-  EXPECT_EQ(relation(checked(s), "stall torque").remark, "a factor 10: a misplaced decimal point, or a wrong unit?");
+  EXPECT_EQ(relation(checked(s), "stall torque").remark,
+            "a factor 10: a misplaced decimal point, or a wrong unit?");
   s = printed_251601();
   s.back_emf = BackEmfShape::sine;
   s.torque_constant_mNm_A.reset();

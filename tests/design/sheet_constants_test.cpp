@@ -68,8 +68,9 @@ TEST(SheetConstants, GeometryGivesTheTerminalTorqueConstant) {
   s.flux_density_T = Quantity{0.5, "", ""};
   s.active_length_mm = Quantity{10, "", ""};
   s.air_gap_radius_mm = Quantity{20, "", ""};
-  EXPECT_EQ(told(s),
-            "flux_density_T needs turns_in_series beside it; give all four values of K_t = 2 B l r N, or none");
+  EXPECT_EQ(
+      told(s),
+      "flux_density_T needs turns_in_series beside it; give all four values of K_t = 2 B l r N, or none");
   s.turns_in_series = 100;
   const auto m = motor_model(s);
   ASSERT_TRUE(m);
@@ -156,8 +157,9 @@ TEST(SheetConstants, PolesPairsAndWindingsAreToldApart) {
   s.pole_pairs = 14;
   EXPECT_EQ(told(s), "pole_pairs = 14 is the number of poles of winding = \"12N14P\"; write pole_pairs = 7");
   s.pole_pairs = 8;
-  EXPECT_EQ(told(s),
-            "pole_pairs = 8 contradicts winding = \"12N14P\", which has 7 pole pairs; correct the wrong one of the two");
+  EXPECT_EQ(
+      told(s),
+      "pole_pairs = 8 contradicts winding = \"12N14P\", which has 7 pole pairs; correct the wrong one of the two");
   s.pole_pairs.reset();
   s.winding.clear();
   s.poles = 15;
@@ -215,8 +217,9 @@ TEST(SheetConstants, SaliencyAndBrakesAreAskedFor) {
   s.with_brake = true;
   EXPECT_EQ(sheet_constants(s).J_kg_m2->value, 150e-7);
   s.inertia_with_brake_gcm2->value = 13.5;
-  EXPECT_EQ(told(s),
-            "inertia_with_brake_gcm2 = 13.5 is less than the rotor's own, inertia_gcm2 = 135; swap the two values: a brake adds inertia");
+  EXPECT_EQ(
+      told(s),
+      "inertia_with_brake_gcm2 = 13.5 is less than the rotor's own, inertia_gcm2 = 135; swap the two values: a brake adds inertia");
 }
 
 TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {

@@ -26,9 +26,10 @@ std::string told(const std::string& file) {
 TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   EXPECT_EQ(told("sine_voltage.so"), "loaded sine voltage");
   EXPECT_EQ(told("nowhere.so").find(folder + "/nowhere.so cannot be read: "), 0u) << told("nowhere.so");
-  EXPECT_EQ(told("no_symbol.so"),
-            folder +
-                "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
+  EXPECT_EQ(
+      told("no_symbol.so"),
+      folder +
+          "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
   EXPECT_EQ(told("answers_nothing.so")
                 .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller answers a null"),
             0u);

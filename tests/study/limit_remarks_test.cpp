@@ -93,8 +93,9 @@ TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   // 206 J into 2.5 J/K are less than 100 K, into 1 J/K more.
   const auto told = [&s] {
     const auto remarks = outcome_of(s).remarks;
-    return std::any_of(remarks.begin(), remarks.end(),
-                       [](const auto& text) { return text.find("above its limit of 125 degC") != text.npos; });
+    return std::any_of(remarks.begin(), remarks.end(), [](const auto& text) {
+      return text.find("above its limit of 125 degC") != text.npos;
+    });
   };
   EXPECT_FALSE(told());
   s.sheet.thermal_time_constant_winding_s->range = base::Interval{4.0, 10.0};

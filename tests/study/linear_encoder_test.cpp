@@ -119,8 +119,7 @@ TEST(LinearEncoder, WhatCannotBeIsRefused) {
   EXPECT_EQ(refused([](Scenario&) {}), "nothing");
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.pitch_mm.reset(); }), HasSubstr("is missing"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.pitch_mm = 0.021; }), HasSubstr("whole number"));
-  EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.lines = 500; }),
-              HasSubstr("pitch_mm instead"));
+  EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.lines = 500; }), HasSubstr("pitch_mm instead"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.shaft = SensorShaft::load; }),
               HasSubstr("this motor is linear"));
   for (const RotorSensing rotor : {RotorSensing::absolute, RotorSensing::resolver})

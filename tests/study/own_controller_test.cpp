@@ -128,8 +128,9 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
   s.control.own.number = {{"first", 5.0}};
   const auto refused = study::run(s);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(to_string(refused.problems()[0]),
-            "control.own puppet cannot have five; change the scenario, or the controller's numbers in control.own.number");
+  EXPECT_EQ(
+      to_string(refused.problems()[0]),
+      "control.own puppet cannot have five; change the scenario, or the controller's numbers in control.own.number");
 }
 
 /// The magnet's direction is as exact as the sensors: Hall codes give it to a sector of 60 degrees.

@@ -152,9 +152,8 @@ TEST(Remarks, SamplesThatTheDriveTakesTooSoon) {
   Scenario s = on_one_shunt();
   s.pwm.minimum_pulse_s = 3e-6;
   s.reference.value = 1.0;
-  EXPECT_THAT(remarks_on(s),
-              Contains(AllOf(HasSubstr("from a duty of 0.0667 on the drive uses such samples"),
-                             HasSubstr("set sensors.shunt_settle_s = 1.5 us"))));
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("from a duty of 0.0667 on the drive uses such samples"),
+                                            HasSubstr("set sensors.shunt_settle_s = 1.5 us"))));
   s.sensors.shunt_settle_s = 1.5e-6;
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("above a duty of 0.1"), Not(HasSubstr("uses such")))));
 }

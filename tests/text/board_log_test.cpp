@@ -44,8 +44,9 @@ TEST(BoardLog, ATracesOwnHeadingInAnotherUnitIsRefused) {
     const auto log = text::read_board_log("b.csv", text);
     return log ? std::string("nothing") : log.problems()[0].limit + "; " + log.problems()[0].cure;
   };
-  EXPECT_THAT(told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
-              HasSubstr("in A by its name but in mA by the unit after it; write the heading i_m_A or i_m [mA]"));
+  EXPECT_THAT(
+      told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
+      HasSubstr("in A by its name but in mA by the unit after it; write the heading i_m_A or i_m [mA]"));
   EXPECT_THAT(told("t_s,speed_rad_s [rpm]\n0,1\n1,2\n"), HasSubstr("head it speed_rad_s or speed [rpm]"));
   EXPECT_THAT(told("t_s [ms],i_m [mA]\n0,1\n1,2\n"), HasSubstr("head it t_s or t [ms]"));
   EXPECT_EQ(told("t_s [s],i_m_A [A],bus_V (V)\n0,1,2\n1,2,3\n"), "nothing");

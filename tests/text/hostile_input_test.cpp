@@ -42,7 +42,8 @@ TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
   const std::string bus = "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-7\n";
   EXPECT_THAT(
       told(head + bus),
-      ElementsAre("x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with supply.resistance_ohm = 0.2 and the winding 14.4 ns, and no board is below 100 ns; check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
+      ElementsAre(
+          "x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with supply.resistance_ohm = 0.2 and the winding 14.4 ns, and no board is below 100 ns; check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
   EXPECT_THAT(told(head + "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-5\n"), SizeIs(0));
   EXPECT_THAT(told(head + "[initial]\nbus_V = 1e308\n[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-3\n"),
               ElementsAre(HasSubstr("initial.bus_V = 1e308 must be above 0 and at most 100000")));
@@ -171,8 +172,10 @@ std::string repeated(const std::string& text, std::size_t times) {
 }
 
 TEST(HostileInput, AKeyOfAHundredThousandPartsDoesNotTakeTheStack) {
-  EXPECT_THAT(told(head + repeated("a.", 100'000) + "b = 1\n"),
-              ElementsAre("x.toml:3:66: nests deeper than 32 tables or lists; remove levels: no key is deeper than control.current.settle_s"));
+  EXPECT_THAT(
+      told(head + repeated("a.", 100'000) + "b = 1\n"),
+      ElementsAre(
+          "x.toml:3:66: nests deeper than 32 tables or lists; remove levels: no key is deeper than control.current.settle_s"));
   EXPECT_THAT(told(head + "[" + repeated("a.", 100'000) + "b]\n"), ElementsAre(HasSubstr("nests deeper")));
   EXPECT_THAT(told(head + "a = " + repeated("[", 100'000)), ElementsAre(HasSubstr("nests deeper")));
   EXPECT_THAT(told(head + "a = " + repeated("{a = ", 100'000)), ElementsAre(HasSubstr("nests deeper")));

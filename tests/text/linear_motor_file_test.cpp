@@ -130,8 +130,9 @@ TEST(LinearMotorFile, TheOtherKindsWordsAreRefused) {
       told("load.torque_Nm = 3\n"),
       HasSubstr(
           "s.toml:3:18: load.torque_Nm = 3 applies to rotary motors only, and this motor is linear; write force_N"));
-  EXPECT_THAT(told("load.force_N = 3\n", "maxon-251601"),
-              HasSubstr("load.force_N = 3 applies to linear motors only, and this motor is rotary; write torque_Nm"));
+  EXPECT_THAT(
+      told("load.force_N = 3\n", "maxon-251601"),
+      HasSubstr("load.force_N = 3 applies to linear motors only, and this motor is rotary; write torque_Nm"));
   EXPECT_THAT(told("[[at]]\ntime_s = 0.005\nload.torque_Nm = 3\n"), HasSubstr("write force_N"));
   EXPECT_THAT(told("motor_override.mass_kg = 3\n", "maxon-251601"), HasSubstr("write inertia_gcm2"));
 }
@@ -147,11 +148,13 @@ TEST(LinearMotorFile, NamesItsSignalsItself) {
   EXPECT_EQ(told(asked("speed_m_s")) + told(asked("load_N")) + told(asked("position_m")), "");
   EXPECT_THAT(
       told(asked("torque")),
-      HasSubstr("s.toml:5:10: require.signal = \"torque\" applies to rotary motors only, and this motor is linear; write \"force\""));
+      HasSubstr(
+          "s.toml:5:10: require.signal = \"torque\" applies to rotary motors only, and this motor is linear; write \"force\""));
   EXPECT_THAT(told(asked("load_Nm")), HasSubstr("write \"load_N\""));
   EXPECT_THAT(
       told(asked("force"), "maxon-251601"),
-      HasSubstr("require.signal = \"force\" applies to linear motors only, and this motor is rotary; write \"torque\""));
+      HasSubstr(
+          "require.signal = \"force\" applies to linear motors only, and this motor is rotary; write \"torque\""));
   EXPECT_THAT(told(asked("forse")), HasSubstr("did you mean \"force\"?"));
 }
 

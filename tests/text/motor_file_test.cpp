@@ -116,8 +116,9 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
                                 "simulatable = true\nnot_simulatable_because = \"\"\n"
                                 "inertia_kgm2 = 6e-6\ninertia_with_brake_kgm2 = 6e-7\n");
   ASSERT_FALSE(scenario);
-  EXPECT_EQ(to_string(scenario.problems().front()),
-            "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's own, inertia_kgm2 = 6e-06; swap the two values: a brake adds inertia");
+  EXPECT_EQ(
+      to_string(scenario.problems().front()),
+      "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's own, inertia_kgm2 = 6e-06; swap the two values: a brake adds inertia");
 }
 
 /// Visits a sheet and finds one quantity.

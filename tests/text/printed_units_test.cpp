@@ -124,8 +124,7 @@ TEST(PrintedUnits, RmsInAUnitIsTheFrame) {
       read(motor + "back_emf_constant_V_krpm = { value = \"0.382 Vrms/(rad/s)\", frame = \"line-rms\" }\n")
           .back_emf_constant_V_krpm->frame,
       "line-rms");
-  EXPECT_THAT(told(motor + "line_6_nominal_current_A = \"3 Arms\"\n"),
-              HasSubstr("no rms value"));
+  EXPECT_THAT(told(motor + "line_6_nominal_current_A = \"3 Arms\"\n"), HasSubstr("no rms value"));
   EXPECT_THAT(told(motor + "nominal_voltage_V = \"230 Vrms\"\n"), HasSubstr("no rms value"));
 }
 

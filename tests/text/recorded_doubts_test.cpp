@@ -75,9 +75,8 @@ TEST(RecordedDoubts, LettersThatArePhases) {
 
 TEST(RecordedDoubts, ADecimalCommaBetweenCommasIsNamed) {
   for (const char* head : {"time [s],u_ab [V],u_bc [V]\n", ""})
-    EXPECT_THAT(
-        seen(with_commas(plain(head)), between_lines).problem,
-        AllOf(HasSubstr("commas are both decimal marks and separators"), HasSubstr("semicolons")));
+    EXPECT_THAT(seen(with_commas(plain(head)), between_lines).problem,
+                AllOf(HasSubstr("commas are both decimal marks and separators"), HasSubstr("semicolons")));
 }
 
 TEST(RecordedDoubts, RowsOfMoreCellsThanHeadingsAreToldOf) {
@@ -125,7 +124,8 @@ TEST(RecordedDoubts, VoltagesThatAreNamedSayWhatTheyAreByTheirHeadings) {
   };
   const std::string file = plain("time [s],u_ab [V],CH2 [V]\n");
   expect_right(file, 1e-5, named({"u_ab"}), 1);
-  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not tell between which points"));
+  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem,
+              HasSubstr("the headings do not tell between which points"));
 }
 
 /// A known column is not called unknown: the reason says what it is and which column replaced it.
@@ -141,8 +141,9 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
                 columns)
         .notes;
   };
-  EXPECT_THAT(notes("u_a,u_b [V]"),
-              ElementsAre("not used: u_a, u_b (a voltage of a terminal; the line-to-line voltages are used)"));
+  EXPECT_THAT(
+      notes("u_a,u_b [V]"),
+      ElementsAre("not used: u_a, u_b (a voltage of a terminal; the line-to-line voltages are used)"));
   EXPECT_THAT(notes("hall1,H2,code"),
               ElementsAre("not used: hall1, H2 (a Hall line, no voltage), code (Hall codes, no voltage)"));
   EXPECT_THAT(notes("i_a [A],speed"),
@@ -218,8 +219,7 @@ TEST(RecordedDoubts, ARateInThePreamble) {
   for (const auto& [per_s, unit] : {std::pair{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}}) {
     const std::string file = rate + plain("Time,u_ab,u_bc\n", "{:.1f},{:.5f},{:.5f}\n", per_s);
     expect_right(file);
-    EXPECT_THAT(seen(file).notes,
-                ElementsAre(fmt::format("Time is in {} by \"Samplerate: 10 kHz\"", unit)));
+    EXPECT_THAT(seen(file).notes, ElementsAre(fmt::format("Time is in {} by \"Samplerate: 10 kHz\"", unit)));
   }
   expect_right(rate + table("u_ab,u_bc\n", [](int, double, double a, double b) {
                  return fmt::format("{:.5f},{:.5f}\n", a, b);

@@ -97,8 +97,9 @@ TEST(RecordedHall, SigrokAsItComes) {
   }
   EXPECT_THAT(seen(file).notes,
               Contains("D0, D1 and D2 are taken for H1, H2 and H3, in the order of their columns"));
-  EXPECT_THAT(seen(file, {"logic"}).problem,
-              HasSubstr("has 3 columns \"logic\"; name one column by its place: column 2, column 3 or column 4"));
+  EXPECT_THAT(
+      seen(file, {"logic"}).problem,
+      HasSubstr("has 3 columns \"logic\"; name one column by its place: column 2, column 3 or column 4"));
 }
 
 TEST(RecordedHall, SigrokWithoutTime) {
@@ -188,7 +189,8 @@ TEST(RecordedHall, WhatVoltagesAreOfIsNeverGuessedByTheirNumber) {
     EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; u_a, u_b and u_c are needed"));
   for (const Seen& found :
        {with("CH4,CH5", two), with("CH4,CH5,CH6", three), with("u_ab,u_b", {"u_ab", "u_b"})})
-    EXPECT_THAT(found.problem, HasSubstr("between is missing, and the headings do not tell between which points"));
+    EXPECT_THAT(found.problem,
+                HasSubstr("between is missing, and the headings do not tell between which points"));
   EXPECT_EQ(with("u_ab,u_bc").log.voltages, RecordedVoltages::lines);
   EXPECT_EQ(with("u_a,u_b,u_c").log.voltages, RecordedVoltages::terminals);
   // Three voltages between terminals stay such if the user names them.

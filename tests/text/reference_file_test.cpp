@@ -81,13 +81,15 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
               ElementsAre("r.csv:2: column 2 \"\" is not a number; write numbers as 0.5 or 5e-1",
                           "r.csv:3: column 2 \"x\" is not a number; write numbers as 0.5 or 5e-1",
                           "r.csv:6: column 2 \"nan\" is not a number; write numbers as 0.5 or 5e-1"));
-  EXPECT_THAT(told("# remark\n0,1\n0.1,1\n\n0.1,1\n-1,2\n"),
-              ElementsAre("r.csv:5: time 0.1 is not above the row before; sort the rows; the first may be 0 s",
-                          "r.csv:6: time -1 is not above the row before; sort the rows; the first may be 0 s"));
+  EXPECT_THAT(
+      told("# remark\n0,1\n0.1,1\n\n0.1,1\n-1,2\n"),
+      ElementsAre("r.csv:5: time 0.1 is not above the row before; sort the rows; the first may be 0 s",
+                  "r.csv:6: time -1 is not above the row before; sort the rows; the first may be 0 s"));
   EXPECT_THAT(told("t,torque\n0,1\n", "torqe"),
               ElementsAre("r.csv: has no column \"torqe\"; did you mean \"torque\"?"));
-  EXPECT_THAT(told("0,1\n", "torque"),
-              ElementsAre("r.csv:1: has no headings; write headings in the first line, one of them \"torque\""));
+  EXPECT_THAT(
+      told("0,1\n", "torque"),
+      ElementsAre("r.csv:1: has no headings; write headings in the first line, one of them \"torque\""));
   std::string broken = "0,1\n";
   for (int n = 0; n < 100; ++n) broken += "x,y\n";
   EXPECT_EQ(told(broken).size(), 6u);
@@ -130,10 +132,13 @@ TEST_F(ReferenceInAFile, ItsSlipsAreToldWhereTheyStand) {
               ElementsAre("x.toml:7:8: reference.file = \"/dev/zero\" names /dev/zero, which cannot be read: "
                           "it is not a regular file; name a file"));
   std::ofstream(folder_ / "r.csv") << "0,1\n0,3\n";
-  EXPECT_THAT(complaints("file = \"r.csv\"\n"),
-              ElementsAre("r.csv:2: time 0 is not above the row before; sort the rows; the first may be 0 s"));
-  EXPECT_THAT(complaints("file = \"r.csv\"\ntimes_s = [0]\nvalues = [1]\n"),
-              ElementsAre("x.toml:7:8: reference.file = \"r.csv\" contradicts times_s and values: give the rows only once; keep file, or times_s and values"));
+  EXPECT_THAT(
+      complaints("file = \"r.csv\"\n"),
+      ElementsAre("r.csv:2: time 0 is not above the row before; sort the rows; the first may be 0 s"));
+  EXPECT_THAT(
+      complaints("file = \"r.csv\"\ntimes_s = [0]\nvalues = [1]\n"),
+      ElementsAre(
+          "x.toml:7:8: reference.file = \"r.csv\" contradicts times_s and values: give the rows only once; keep file, or times_s and values"));
   EXPECT_THAT(complaints("column = \"b\"\n"),
               ElementsAre("x.toml:5:1: reference.file is missing for shape = \"csv\"; give file = "
                           "\"NAME.csv\", or times_s and values"));

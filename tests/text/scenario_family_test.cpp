@@ -168,10 +168,12 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
               ElementsAre(::testing::StartsWith("syntax.toml:1:17: ")));
   EXPECT_THAT(
       complaints("extends = 3\n" + head),
-      ElementsAre("x.toml:1:11: extends = 3 must be a list of words; write words in brackets: [\"a\", \"b\"]"));
+      ElementsAre(
+          "x.toml:1:11: extends = 3 must be a list of words; write words in brackets: [\"a\", \"b\"]"));
   EXPECT_THAT(
       complaints(head, {.overrides = {{"extends", "a.toml"}}}),
-      ElementsAre("--set extends = a.toml cannot be set: the files are joined before --set; write extends in the scenario"));
+      ElementsAre(
+          "--set extends = a.toml cannot be set: the files are joined before --set; write extends in the scenario"));
   // Two names each, twenty files deep, would be a million files without a limit.
   for (int n = 0; n < 20; ++n)
     write(fmt::format("d{}.toml", n), fmt::format("extends = [\"d{0}.toml\", \"d{0}.toml\"]\n", n + 1));

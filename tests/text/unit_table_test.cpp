@@ -194,8 +194,9 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_EQ(measure_in("V/krpm"), "");
   EXPECT_THAT(frames_with("line-peak|line-rms|phase-peak|phase-rms", "rms"),
               ::testing::ElementsAre("line-rms", "phase-rms"));
-  EXPECT_EQ(refused("230 Vrms", "V"),
-            "has the unit Vrms, and this key takes no rms value; write the value in V; the peak of a sine is sqrt 2 times its rms value");
+  EXPECT_EQ(
+      refused("230 Vrms", "V"),
+      "has the unit Vrms, and this key takes no rms value; write the value in V; the peak of a sine is sqrt 2 times its rms value");
   EXPECT_THAT(refused("5 Apk", {"A", "terminal|rms"}), ::testing::HasSubstr("no peak value"));
   EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), ::testing::HasSubstr("no rms value"));
 }

@@ -213,10 +213,12 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
   EXPECT_EQ(
       told("metric = \"max\"\nmax = \"20 ms\"\n"),
       "x.toml:5:7: require.max = \"20 ms\" has the unit ms, which cannot be converted to A; units that fit: A or mA\n");
-  EXPECT_EQ(told("metric = \"settling_time_s\"\nlevel = \"2 A\"\nmax = \"2 A\"\n"),
-            "x.toml:6:7: require.max = \"2 A\" has the unit A, which cannot be converted to s; units that fit: s, ms, us or min\n");
-  EXPECT_EQ(told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
-            "x.toml:5:7: require.min = \"8 W\" has the unit W, and this key is a plain number; write the number alone, or in %\n");
+  EXPECT_EQ(
+      told("metric = \"settling_time_s\"\nlevel = \"2 A\"\nmax = \"2 A\"\n"),
+      "x.toml:6:7: require.max = \"2 A\" has the unit A, which cannot be converted to s; units that fit: s, ms, us or min\n");
+  EXPECT_EQ(
+      told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
+      "x.toml:5:7: require.min = \"8 W\" has the unit W, and this key is a plain number; write the number alone, or in %\n");
   EXPECT_EQ(told("metric = \"max\"\nmax = \"2\"\n"),
             "x.toml:5:7: require.max = \"2\" lacks its unit; write 2, which is in A, or \"2 A\"\n");
   // The unit is unknown here: only the word is reported.

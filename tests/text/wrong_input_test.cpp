@@ -48,7 +48,8 @@ TEST_F(WrongInput, AGoodFileIsToldNothing) { EXPECT_THAT(complaints(head), Eleme
 TEST_F(WrongInput, AMotorTakenForAScenarioIsToldInOneSentence) {
   EXPECT_THAT(
       complaints("name = \"mine\"\npole_pairs = 4\nresistance_ohm = 0.5\n"),
-      ElementsAre("x.toml:1:1: is a motor file, not a scenario; write a scenario for this motor with: sixstep new first --motor x.toml"));
+      ElementsAre(
+          "x.toml:1:1: is a motor file, not a scenario; write a scenario for this motor with: sixstep new first --motor x.toml"));
   EXPECT_THAT(complaints("pole_pairs = 4\n" + head),  // a scenario with a motor's key in the wrong place
               ElementsAre(HasSubstr("x.toml:1:1: pole_pairs is not a key here")));
 }
@@ -57,8 +58,7 @@ TEST_F(WrongInput, AScenarioTakenForAMotorIsToldInOneSentence) {
   write("y.toml", head);
   EXPECT_THAT(
       complaints("motor = \"y.toml\"\nduration_s = 0.02\n"),
-      ElementsAre(
-          "y.toml:1:1: is a scenario, not a motor file; name the scenario's motor, maxon-251601"));
+      ElementsAre("y.toml:1:1: is a scenario, not a motor file; name the scenario's motor, maxon-251601"));
   write("z.toml", "duration_s = 0.02\n");
   EXPECT_THAT(complaints("motor = \"z.toml\"\nduration_s = 0.02\n"),
               ElementsAre(HasSubstr("is a scenario, not a motor file; name a motor file")));
@@ -152,9 +152,10 @@ TEST_F(WrongInput, FrameMustBeOneOfTheKeysOwn) {
         "inductance_mH = { value = 1, frame = \"star\" }\ninertia_gcm2 = { value = 1, frame = \"phase\" }\n");
   EXPECT_THAT(
       complaints("motor = \"m\"\nduration_s = 0.02\n"),
-      ElementsAre("m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; give the "
-                  "points between which the sheet measures",
-                  "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; remove frame: this value has only one meaning"));
+      ElementsAre(
+          "m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; give the "
+          "points between which the sheet measures",
+          "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; remove frame: this value has only one meaning"));
 }
 
 TEST_F(WrongInput, FlatWidthOfHalfATurn) {
@@ -214,7 +215,8 @@ TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
 TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
   EXPECT_THAT(
       complaints("motor = \"maxon-251601\"\nduration_s = 20 ms\n"),
-      ElementsAre("x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw 'm'; end the line after the value; the key contains the unit"));
+      ElementsAre(
+          "x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw 'm'; end the line after the value; the key contains the unit"));
 }
 
 /// The parser once assumed that a name begins after a bracket.
@@ -234,7 +236,8 @@ TEST_F(WrongInput, AWrongDurationIsToldAlone) {
 TEST_F(WrongInput, PercentIsNoDuty) {
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 50\n"),
-      ElementsAre("x.toml:6:9: reference.value = 50 must lie from -1 to 1 in duty mode; write 0.5 for 50 %: a duty is the fraction of the period in which the switch is on, with a sign"));
+      ElementsAre(
+          "x.toml:6:9: reference.value = 50 must lie from -1 to 1 in duty mode; write 0.5 for 50 %: a duty is the fraction of the period in which the switch is on, with a sign"));
 }
 
 TEST_F(WrongInput, NoLoopSettlesWithinTwoSamples) {
@@ -242,7 +245,8 @@ TEST_F(WrongInput, NoLoopSettlesWithinTwoSamples) {
       head + "[control]\nmode = \"current\"\n[control.current]\ndamping = 0.9\nsettle_s = ";
   EXPECT_THAT(
       complaints(loop + "59e-6\n"),
-      ElementsAre("x.toml:7:12: control.current.settle_s = 5.9e-05 is shorter than two control periods, in which no loop can settle; write at least 6e-05, better 10 periods, 0.0003; or shorten pwm.period_s"));
+      ElementsAre(
+          "x.toml:7:12: control.current.settle_s = 5.9e-05 is shorter than two control periods, in which no loop can settle; write at least 6e-05, better 10 periods, 0.0003; or shorten pwm.period_s"));
   EXPECT_THAT(complaints(loop + "60e-6\n"), ElementsAre());
 }
 
@@ -270,7 +274,8 @@ TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
-      ElementsAre("x.toml:7:1: require.level is missing, and the reference belongs to another signal; give the level that the signal must reach, in the signal's unit"));
+      ElementsAre(
+          "x.toml:7:1: require.level is missing, and the reference belongs to another signal; give the level that the signal must reach, in the signal's unit"));
 }
 
 TEST_F(WrongInput, FrequentSlipsOfSyntaxHaveTheirCure) {
@@ -293,7 +298,8 @@ TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
               ElementsAre(::testing::HasSubstr("; write unit = \"1\"; ")));
   EXPECT_THAT(
       complaints(head, {.overrides = {{"duration_s.x", "1"}}}),
-      ElementsAre("--set duration_s.x = 1 does not name a key; write --set table.key=value, for example --set supply.voltage_V=12"));
+      ElementsAre(
+          "--set duration_s.x = 1 does not name a key; write --set table.key=value, for example --set supply.voltage_V=12"));
 }
 
 TEST_F(WrongInput, UnreadableFile) {

@@ -167,9 +167,9 @@ std::vector<std::string> contest_notes(const Contest& c) {
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
     else if (c.rows[n].nominal && !c.rows[n].nominal_held)
-      notes.push_back(
-          fmt::format("{} does not hold the required speed ({}), so that none of its figures counts as the least",
-                      controller_name(c, n), missed_speed(c.rows[n])));
+      notes.push_back(fmt::format(
+          "{} does not hold the required speed ({}), so that none of its figures counts as the least",
+          controller_name(c, n), missed_speed(c.rows[n])));
     else if (c.rows[n].nominal_held && !analysis::may_win(c, n))
       notes.push_back(fmt::format(
           "{} starts with a peak of {}, {:.1f} times the current of the torque limit. Commutation and ripple explain at most {}, so that none of its figures counts as the least",
@@ -204,9 +204,10 @@ std::vector<std::string> contest_legend(const Contest& c) {
       fmt::format(
           "* least of the controllers that hold the course and start with a peak of at most {}: 1.5 times the current of the torque limit, plus the PWM ripple",
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)),
-      fmt::format("load settles: 0 s if after the load step the speed stays within {:g} % of {} rad/s, which is {} rad/s",
-                  100 * analysis::settled_part, base::rounded(c.bench.course.high_rad_s, 4),
-                  base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
+      fmt::format(
+          "load settles: 0 s if after the load step the speed stays within {:g} % of {} rad/s, which is {} rad/s",
+          100 * analysis::settled_part, base::rounded(c.bench.course.high_rad_s, 4),
+          base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
       "lowest: slowest speed held against the full load, found by halving the speed",
       fmt::format(
           "ripple to turn-ons: at the high speed against half of the full load; slow swing, slow ripple: at {} rad/s against the full load",

@@ -11,8 +11,10 @@ namespace {
 using CountedJson = nlohmann::json;
 
 base::Problem not_counted(std::string limit) {
-  return {
-      .where = {}, .value = {}, .limit = std::move(limit), .cure = "write the count with tools/own_cost.sh --json"};
+  return {.where = {},
+          .value = {},
+          .limit = std::move(limit),
+          .cure = "write the count with tools/own_cost.sh --json"};
 }
 
 std::string whole_at(const CountedJson& from, const char* pointer) {

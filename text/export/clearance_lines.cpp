@@ -147,7 +147,8 @@ std::string assumptions(const ClearanceText& t) {
   text += entry("currents", currents(s.sensors)) + entry("bus", bus(s.sensors)) +
           entry("rotor", rotor(s.sensors)) + entry("wires", wires(s)) + entry("load", load(s.load)) +
           entry("heat", heat(s.heat));
-  if (t.other_scale) text += entry("scale", "those of the scenario; the larger range below was proved, not simulated");
+  if (t.other_scale)
+    text += entry("scale", "those of the scenario; the larger range below was proved, not simulated");
   return text;
 }
 

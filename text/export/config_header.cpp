@@ -282,9 +282,10 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
                          "set it to duty, current, speed or position"};
   // A header would configure the library's drive, but the run used the user's controller.
   if (w.scenario.control.drive == study::FirmwareKind::own)
-    return base::Problem{"control.drive", "\"own\"",
-                         "has its constants in its own source, and a header configures the library's drives only",
-                         "compile that source for the chip"};
+    return base::Problem{
+        "control.drive", "\"own\"",
+        "has its constants in its own source, and a header configures the library's drives only",
+        "compile that source for the chip"};
   const base::Result<study::Compiled> c = study::compile(w.scenario);
   if (!c) return c.problems();
   const study::Arithmetic arithmetic = w.arithmetic.value_or(w.scenario.control.arithmetic);

@@ -51,7 +51,8 @@ void check_pins(const MapFile& w, Complaints& c) {
   std::set<std::string> taken;
   for (const auto& [key, pins] : {std::pair{"hall", &w.hall}, {"upper", &w.upper}, {"lower", &w.lower}}) {
     if (pins->size() != 3 || !std::all_of(pins->begin(), pins->end(), is_pin))
-      refuse(c, key, "is not three pins", "name the pins as the data sheet does: [\"PK0\", \"PK1\", \"PK2\"]");
+      refuse(c, key, "is not three pins",
+             "name the pins as the data sheet does: [\"PK0\", \"PK1\", \"PK2\"]");
     for (const std::string& pin : *pins)
       if (!taken.insert(pin).second)
         refuse(c, key, fmt::format("names {} a second time", pin), "give each line its own pin");

@@ -134,21 +134,25 @@ base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& 
   if (wanted.unit == "s" && plain_spelling(unit).ends_with("Hz"))
     return {.limit = fmt::format("has the unit {}, and this key is a time", unit),
             .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
-  return {.limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
-          .cure = multiplies_minutes(from, to)
-                      ? "the unit multiplies by minutes; write per rpm as /rpm or /min-1. Units that fit: " + fit
-                      : "units that fit: " + fit};
+  return {
+      .limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
+      .cure = multiplies_minutes(from, to)
+                  ? "the unit multiplies by minutes; write per rpm as /rpm or /min-1. Units that fit: " + fit
+                  : "units that fit: " + fit};
 }
 
 base::Problem other_measure(const std::string& unit, std::string_view measure, const Wanted& wanted) {
   std::string frames;
   for (const std::string& frame : frames_with(wanted.frames, "")) frames += " \"" + frame + "\"";
-  return {.limit = fmt::format("has the unit {}, and this key takes no {} value", unit, measure),
-          .cure = frames.empty()
-                      ? fmt::format("write the value in {}; the peak of a sine is sqrt 2 times its rms value",
-                                    wanted.unit)
-                      : fmt::format("convert the value to one of the frames{}; the peak of a sine is sqrt 2 times its rms value",
-                                    frames)};
+  return {
+      .limit = fmt::format("has the unit {}, and this key takes no {} value", unit, measure),
+      .cure =
+          frames.empty()
+              ? fmt::format("write the value in {}; the peak of a sine is sqrt 2 times its rms value",
+                            wanted.unit)
+              : fmt::format(
+                    "convert the value to one of the frames{}; the peak of a sine is sqrt 2 times its rms value",
+                    frames)};
 }
 
 double to_power(double x, int power) {
@@ -163,16 +167,14 @@ base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const
                                        const Wanted& wanted, Conversion conversion) {
   if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)
     return base::Problem{
-        .limit =
-            fmt::format("has the unit {}, which may count turns of the shaft or electrical turns",
-                        unit),
+        .limit = fmt::format("has the unit {}, which may count turns of the shaft or electrical turns", unit),
         .cure = fmt::format(
             "write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; units that fit: {}",
             units_that_fit(wanted.unit))};
   if (!wanted.pole_pairs)
     return base::Problem{
-        .limit = fmt::format("has the unit {}, which counts electrical turns, and the pole pairs are not given",
-                             unit),
+        .limit = fmt::format(
+            "has the unit {}, which counts electrical turns, and the pole pairs are not given", unit),
         .cure = "also give pole_pairs, poles or winding, or convert the value; units that fit: " +
                 units_that_fit(wanted.unit)};
   const double p = *wanted.pole_pairs;

@@ -199,13 +199,15 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
 base::Result<analysis::Axis> axis_of(std::string_view text) {
   const std::size_t cut = text.find('=');
   if (cut == std::string_view::npos || cut == 0 || cut + 1 == text.size())
-    return base::Problem{std::string(text), "", "does not name a key and its values",
-                         "write KEY=FROM:TO:POINTS or KEY=VALUE,VALUE, for example pwm.period_s=20us:100us:9"};
+    return base::Problem{
+        std::string(text), "", "does not name a key and its values",
+        "write KEY=FROM:TO:POINTS or KEY=VALUE,VALUE, for example pwm.period_s=20us:100us:9"};
   const std::string key(text.substr(0, cut));
   const std::string_view values = text.substr(cut + 1);
   const std::vector<std::string> parts = split(values, ':');
   if (parts.size() > 4)
-    return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING", "remove the other parts"};
+    return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING",
+                         "remove the other parts"};
   if (parts.size() > 1) return range_of(key, parts, text);
   analysis::Axis axis{.key = key, .values = split(values, ',')};
   in_keys_unit(axis);

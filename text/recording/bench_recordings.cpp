@@ -192,8 +192,9 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
   if (columns.size() == 3) return codes_of(r, columns);
   const char* lacks = columns.empty() ? "has no columns of Hall lines: it has "
                                       : "does not have three columns of Hall lines: it has ";
-  return of_recording(r, lacks + headings_of(r),
-                      "write the headings hall1, hall2, hall3, or hall for a column of codes, or name the columns");
+  return of_recording(
+      r, lacks + headings_of(r),
+      "write the headings hall1, hall2, hall3, or hall for a column of codes, or name the columns");
 }
 
 /// The points between which a log's voltages were measured: as requested, else according to the headings. The
@@ -201,10 +202,11 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
 base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
   if (voltages.between) return *voltages.between;
   if (const std::optional<analysis::EmfBetween> said = between_in(voltages.columns)) return *said;
-  return base::Problem{.where = "between",
-                       .value = "",
-                       .limit = "is missing, and the headings do not tell between which points the voltages were measured",
-                       .cure = "give lines for two terminals, or star for a terminal and any common point"};
+  return base::Problem{
+      .where = "between",
+      .value = "",
+      .limit = "is missing, and the headings do not tell between which points the voltages were measured",
+      .cure = "give lines for two terminals, or star for a terminal and any common point"};
 }
 
 base::Problems take_voltages(const Recording& r, const Voltages& voltages, const Times& times,
@@ -267,12 +269,14 @@ base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchC
     note_rest(r, voltages->columns, times->column, {false, false, false, meaning_of_first(voltages->columns)},
               notes);
   if (voltages->columns.empty())
-    return of_recording(r, "has no column of voltages: it has " + headings_of(r), "name the columns of the voltages");
+    return of_recording(r, "has no column of voltages: it has " + headings_of(r),
+                        "name the columns of the voltages");
   if (!voltages->between)
-    return base::Problem{.where = "between",
-                         .value = "",
-                         .limit = "is missing, and the headings do not tell between which points the voltages were measured",
-                         .cure = "give lines for two terminals, or star for a terminal and the star point"};
+    return base::Problem{
+        .where = "between",
+        .value = "",
+        .limit = "is missing, and the headings do not tell between which points the voltages were measured",
+        .cure = "give lines for two terminals, or star for a terminal and the star point"};
   out.between = *voltages->between;
   out.t_s = std::move(times->t_s);
   for (const Picked& picked : voltages->columns) {

@@ -82,8 +82,9 @@ base::Result<const study::Column*> trace_column(const std::string& name) {
   return bounded({.where = "columns",
                   .value = name,
                   .limit = "is not a column of the simulation",
-                  .cure = near.empty() ? "name a column of the trace, for example speed, i_m, u_ab, duty or bus_V"
-                                       : fmt::format("did you mean {}?", near)});
+                  .cure = near.empty()
+                              ? "name a column of the trace, for example speed, i_m, u_ab, duty or bus_V"
+                              : fmt::format("did you mean {}?", near)});
 }
 
 bool is_time(const std::string& name) {

@@ -63,11 +63,11 @@ base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked,
   const std::string belongs = wanted.unit.empty() ? "a plain number" : wanted.unit;
   const RecordedColumn& column = *picked.column;
   if (!column.odd_unit.empty())
-    return of_recording(
-        r,
-        fmt::format("has the heading {} in \"{}\", which is not a unit; expected is {}", column.name, column.odd_unit,
-                    belongs),
-        wanted.unit.empty() ? "write the heading without a unit" : "units that fit: " + units_that_fit(wanted.unit));
+    return of_recording(r,
+                        fmt::format("has the heading {} in \"{}\", which is not a unit; expected is {}",
+                                    column.name, column.odd_unit, belongs),
+                        wanted.unit.empty() ? "write the heading without a unit"
+                                            : "units that fit: " + units_that_fit(wanted.unit));
   if (picked.unit.empty()) return Conversion{};
   base::Result<Conversion> found = conversion(picked.unit, wanted);
   if (!found)

@@ -96,7 +96,8 @@ base::Problem of_recording(const Recording& recording, std::string limit, std::s
 
 base::Result<Recording> read_recording(const std::string& name, std::string_view bytes, RowsFrom from) {
   const std::optional<std::string> plain = plain_text(bytes);
-  if (!plain) return of_file(name, "is not a text file", "export the recording as CSV, or unpack a .gz with gzip -d");
+  if (!plain)
+    return of_file(name, "is not a text file", "export the recording as CSV, or unpack a .gz with gzip -d");
   if (plain->find_first_not_of(" \t\n") == std::string::npos)
     return of_file(name, "is empty", "export the recording again: headings, then rows of numbers");
   WholeRows rows{.text = *plain, .lines_before = 0, .notes = {}};

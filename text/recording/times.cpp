@@ -122,9 +122,8 @@ base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn&
     std::vector<double> in_s = *t;
     for (double& x : in_s) x /= unit.per_s;
     if (!go_with(in_s, interval_s)) continue;
-    notes.push_back(
-        fmt::format("{} has no unit; {} is assumed, which agrees with the given interval",
-                    column.name, unit.name));
+    notes.push_back(fmt::format("{} has no unit; {} is assumed, which agrees with the given interval",
+                                column.name, unit.name));
     return times_at_interval(r, std::move(in_s), column, interval_s, notes);
   }
   if (guessed && !go_with(*t, interval_s)) {
@@ -169,10 +168,11 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
                                   r.clock->said, interval_s));
     return t;
   }
-  return of_recording(r,
-                      fmt::format("contradicts itself: {} rises by {:.6g} s from row to row, but \"{}\" says {:.6g} s",
-                                  column.name, steps.middle, r.clock->said, interval_s),
-                      "write the right unit in the heading, for example time [us], or give the interval of the rows");
+  return of_recording(
+      r,
+      fmt::format("contradicts itself: {} rises by {:.6g} s from row to row, but \"{}\" says {:.6g} s",
+                  column.name, steps.middle, r.clock->said, interval_s),
+      "write the right unit in the heading, for example time [us], or give the interval of the rows");
 }
 
 }  // namespace
@@ -216,10 +216,11 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
 base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t,
                                       const RecordedColumn& column, double interval_s, Notes& notes) {
   if (!go_with(t, interval_s))
-    return of_recording(recording,
-                        fmt::format("contradicts the given interval of {:.6g} s: {} rises by {:.6g} s from row to row",
-                                    interval_s, column.name, steps_of(t).middle),
-                        "do not give the interval, or write the right unit in the heading, for example time [us]");
+    return of_recording(
+        recording,
+        fmt::format("contradicts the given interval of {:.6g} s: {} rises by {:.6g} s from row to row",
+                    interval_s, column.name, steps_of(t).middle),
+        "do not give the interval, or write the right unit in the heading, for example time [us]");
   // The interval is needed only for times with too few digits.
   if (steps_of(t).even() && std::adjacent_find(t.begin(), t.end()) == t.end())
     return rising_times(recording, std::move(t), column, notes);
@@ -236,7 +237,8 @@ base::Result<Times> times_of(const Recording& recording, std::optional<double> i
   base::Result<std::vector<double>> values = values_of(recording, {column, column->unit}, "s");
   if (!values) return values.problems();
   if (column->unit.empty() && !recording.clock && are_numbers_of_rows(*values))
-    return of_recording(recording, fmt::format("has no time: its column {} only numbers the rows", column->name),
+    return of_recording(recording,
+                        fmt::format("has no time: its column {} only numbers the rows", column->name),
                         "write the heading time [s] if these are seconds, or give the interval of the rows");
   base::Result<std::vector<double>> t_s = by_clock(recording, *column, std::move(*values), notes);
   if (!t_s) return t_s.problems();

@@ -63,7 +63,8 @@ std::string crossed_phases(const sixstep::rig::Wiring& wires) {
   if (wires.phases == WireOrder::abc) return "";
   const bool turns_over = wires.phases != WireOrder::bca && wires.phases != WireOrder::cab;
   return fmt::format("Phases {} are at the legs a b c. The chip names phases and probes by its legs{}.\n",
-                     phases_word(wires), turns_over ? "; its forward direction is backward for the motor" : "");
+                     phases_word(wires),
+                     turns_over ? "; its forward direction is backward for the motor" : "");
 }
 
 std::string lines(const CommissionStudy& s) {
@@ -174,8 +175,9 @@ std::string commission_failure(const CommissionStudy& s) {
   if (s.state.phase == CommissioningPhase::failed)
     out = fault_words(s.state.fault);
   else if (!s.done())
-    out = fmt::format("the chip was still {} after {}, because the rotor follows too slowly: raise the test current",
-                      phase_word(s.state.phase), quantity_text(s.seconds, "s", 3));
+    out = fmt::format(
+        "the chip was still {} after {}, because the rotor follows too slowly: raise the test current",
+        phase_word(s.state.phase), quantity_text(s.seconds, "s", 3));
   if (s.lines_found() || s.state.phase < CommissioningPhase::turning ||
       s.state.fault == CommissioningFault::offset || s.state.fault == CommissioningFault::current ||
       s.state.fault == CommissioningFault::winding)

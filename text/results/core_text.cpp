@@ -58,8 +58,8 @@ std::vector<std::string> chip_texts(const study::ChipReport& c) {
         "OVERRUN: {} of {} periods had no control interrupt, because the interrupt takes longer than a period",
         c.times.periods - c.times.conversions, c.times.periods));
   if (const std::vector<std::string> why = chip_faults(c); !why.empty())
-    out.push_back(
-        fmt::format("FAULT: the chip turned all gates off; reason on its serial line: {}", fmt::join(why, ", then ")));
+    out.push_back(fmt::format("FAULT: the chip turned all gates off; reason on its serial line: {}",
+                              fmt::join(why, ", then ")));
   if (const std::string_view last = last_remark(c.sent); last.starts_with(waits_remark))
     out.push_back(fmt::format("WAITS: the chip drives only after its setpoint was 0, and waits for {}",
                               printable(last.substr(waits_remark.size()))));

@@ -172,9 +172,10 @@ std::string points(const analysis::CurveRequest& request, const analysis::Curve&
 std::string locked(const analysis::OperatingPoint& turning, const Units& u) {
   const analysis::LockedRotor& l = *turning.locked;
   if (l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm) return "";
-  return fmt::format("Locked rotor: {} to {} {}, depending on the angle; the row above has the least torque.\n",
-                     significant(l.least_torque_Nm * u.torque.factor, 4),
-                     significant(l.greatest_torque_Nm * u.torque.factor, 4), u.torque.name);
+  return fmt::format(
+      "Locked rotor: {} to {} {}, depending on the angle; the row above has the least torque.\n",
+      significant(l.least_torque_Nm * u.torque.factor, 4),
+      significant(l.greatest_torque_Nm * u.torque.factor, 4), u.torque.name);
 }
 
 std::string left_out(const analysis::Bench& b) {
@@ -278,8 +279,8 @@ std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& cur
   std::string text = fmt::format("The sheet allows {}, but the no-load speed is {}", speed_text(allowed, u),
                                  speed_text(fastest, u));
   if (past(curve.marks.best_efficiency))
-    text +=
-        fmt::format(", and the best efficiency is at {}", speed_text(curve.marks.best_efficiency->speed_rad_s, u));
+    text += fmt::format(", and the best efficiency is at {}",
+                        speed_text(curve.marks.best_efficiency->speed_rad_s, u));
   return text + ": points above the sheet's speed limit are not operating points.\n";
 }
 

@@ -122,7 +122,8 @@ std::string figures_text(const DriveDesign& d) {
                                            : "without bound";
   });
   return std::string("\nLoops, with the hold of the PWM and the loops within") +
-         (sensed ? "; with an ideal speed, except in lines that name the speed's sensor\n" : "\n") + rows.text();
+         (sensed ? "; with an ideal speed, except in lines that name the speed's sensor\n" : "\n") +
+         rows.text();
 }
 
 std::string sensing_text(const DriveDesign& d) {
@@ -192,9 +193,9 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
     text += fmt::format("{}{:.1f} V at {}", n ? ", " : "",
                         sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w), speed(w, 0));
   }
-  text += motion.words(fmt::format(
-      " rad/s; none above {} rad/s, without commutation time (with it: sixstep curve)\n",
-      speed(d.headroom_end_rad_s, 0)));
+  text += motion.words(
+      fmt::format(" rad/s; none above {} rad/s, without commutation time (with it: sixstep curve)\n",
+                  speed(d.headroom_end_rad_s, 0)));
   const std::string held = fmt::format("{:.3g} E + 3 R i = U with E and R of a phase",
                                        sixstep::design::commutation_emfs(d.motor.machine));
   text += d.commutation_limit_rad_s > 0

@@ -131,7 +131,8 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
   for (const analysis::FrameReading& r : c.readings)
     if (r.fits) fitting += (fitting.empty() ? "" : ", ") + std::string(r.frame);
   if (printed && printed->fits)
-    return "fits" + (fitting == printed->frame ? std::string() : "; within the tolerance these fit, too: " + fitting);
+    return "fits" +
+           (fitting == printed->frame ? std::string() : "; within the tolerance these fit, too: " + fitting);
   if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", to_percent * tolerance);
   if (!printed) return "names no frame; fits " + fitting;
   return "CONTRADICTS: reads like " + fitting;

@@ -75,7 +75,8 @@ std::string field_design_text(const FieldStudy& f, bool colour) {
   if (!f.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : f.warnings)
     text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", visible(w.what), visible(w.cure));
-  return text + "\nTest the scenario with all switching by sixstep run; measure the loop by sixstep run --bode\n";
+  return text +
+         "\nTest the scenario with all switching by sixstep run; measure the loop by sixstep run --bode\n";
 }
 
 }  // namespace text

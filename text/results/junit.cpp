@@ -57,8 +57,8 @@ JunitSuite junit_suite(const std::string& name, const analysis::Series& series) 
                           series.faults.front().number, series.faults.front().problem);
   if (!series.refused.empty())
     broken +=
-        fmt::format("{}{} could not run, first run {}: {}", broken.empty() ? "" : "; ",
-                    series.refused.size(), series.refused.front().number, series.refused.front().problem);
+        fmt::format("{}{} could not run, first run {}: {}", broken.empty() ? "" : "; ", series.refused.size(),
+                    series.refused.front().number, series.refused.front().problem);
   JunitSuite suite{name, {whole_run(broken)}};
   for (const analysis::SpreadFigure& f : series.figures) {
     if (!f.column.required) continue;

@@ -92,7 +92,8 @@ std::string_view short_does_text(WiringDoes does) {
 std::string_view next_step_text(WiringDoes does) {
   if (does == WiringDoes::forward) return "Leave it.";
   if (does == WiringDoes::backward) return "Swap phases a and b, Hall lines H2 and H3.";
-  if (does == WiringDoes::hums || does == WiringDoes::unclear) return "Swap two phase wires; then the motor runs.";
+  if (does == WiringDoes::hums || does == WiringDoes::unclear)
+    return "Swap two phase wires; then the motor runs.";
   return "Shift all three phase wires, once or twice.";
 }
 

@@ -73,8 +73,8 @@ void read_rows(const Document& document, const std::string& path, sixstep::contr
     complaints.later(std::move(problem));
   };
   if (!r.times_s.empty() || !r.values.empty())
-    return complain(
-        {.limit = "contradicts times_s and values: give the rows only once", .cure = "keep file, or times_s and values"});
+    return complain({.limit = "contradicts times_s and values: give the rows only once",
+                     .cure = "keep file, or times_s and values"});
   const toml::node* node = document.find(key);
   if (!node) return;
   const base::Result<NamedText> file =
@@ -118,9 +118,10 @@ void load_controller(const Document& document, const Resolve& resolve, study::Ow
     own.loaded = file->controller;
     return;
   }
-  base::Problem problem = file ? base::Problem{.limit = "is a compiled controller, which is not loaded here",
-                                               .cure = "run the scenario with the sixstep program on this machine"}
-                               : file.problems().front();
+  base::Problem problem =
+      file ? base::Problem{.limit = "is a compiled controller, which is not loaded here",
+                           .cure = "run the scenario with the sixstep program on this machine"}
+           : file.problems().front();
   problem.where = key;
   complaints.later(std::move(problem));
   complaints.told_elsewhere(key);

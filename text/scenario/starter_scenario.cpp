@@ -242,8 +242,9 @@ std::string starter_note(const study::Scenario& scenario) { return torque_limit_
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
   return fmt::format("#:schema {}\n", scenario_schema_file) +
-         wrapped_comment(fmt::format("sixstep run {} simulates this scenario and checks its requirements; --html also writes the report. Lines after a # show the defaults: to change a value, remove the #. Where the value is nan there is no default: write a number. Details: sixstep help TABLE and sixstep help KEY.",
-                                     shell_word(options.file))) +
+         wrapped_comment(fmt::format(
+             "sixstep run {} simulates this scenario and checks its requirements; --html also writes the report. Lines after a # show the defaults: to change a value, remove the #. Where the value is nan there is no default: write a number. Details: sixstep help TABLE and sixstep help KEY.",
+             shell_word(options.file))) +
          Starter(scenario, options.full).text();
 }
 

@@ -197,8 +197,9 @@ void TableReader::read(std::string_view key, std::vector<std::string>& member, c
     return;
   }
   if (!items) {
-    complaints_.value(*node, at(key),
-                      {.limit = "must be a list of words", .cure = "write words in brackets: [\"a\", \"b\"]"});
+    complaints_.value(
+        *node, at(key),
+        {.limit = "must be a list of words", .cure = "write words in brackets: [\"a\", \"b\"]"});
     return;
   }
   member.clear();

@@ -55,10 +55,13 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
     problems.push_back({"control.mode", s.control.mode == Mode::off ? "off" : "duty",
-                        "has no loop to measure", "set control.mode = \"current\", \"speed\" or \"position\""});
+                        "has no loop to measure",
+                        "set control.mode = \"current\", \"speed\" or \"position\""});
   if (s.control.slew)
-    problems.push_back({"control.slew", "", "limits how fast the setpoint changes, so that the response of the loop cannot be measured",
-                        "remove it for this measurement"});
+    problems.push_back(
+        {"control.slew", "",
+         "limits how fast the setpoint changes, so that the response of the loop cannot be measured",
+         "remove it for this measurement"});
   if (s.control.position.profile.on && s.control.mode == Mode::position)
     problems.push_back({"control.position.profile", "",
                         "shapes the setpoint, so that the response of the loop cannot be measured",
@@ -182,12 +185,13 @@ base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& o
   const double way = (means.back() - means.front()) / static_cast<double>(periods - 1);
   if (!(std::fabs(way) > most_way * b.amplitude)) return {};
   const std::string unit = " " + std::string(study::reference_unit(b.mode));
-  return {{"duration_s", base::written(duration_s),
-           "ends while the drive still moves towards " + base::six_digits(b.stands_at) + unit +
-               ": during the measurement the controlled value went from " + base::three_digits(means.front()) + " to " +
-               base::three_digits(means.back()) + unit + ", by " + base::three_digits(std::fabs(way)) +
-               " in each period of a multisine of +-" + base::three_digits(b.amplitude) + unit,
-           "lengthen duration_s until the controlled value is constant, or set a final reference that the drive can reach"}};
+  return {
+      {"duration_s", base::written(duration_s),
+       "ends while the drive still moves towards " + base::six_digits(b.stands_at) + unit +
+           ": during the measurement the controlled value went from " + base::three_digits(means.front()) +
+           " to " + base::three_digits(means.back()) + unit + ", by " + base::three_digits(std::fabs(way)) +
+           " in each period of a multisine of +-" + base::three_digits(b.amplitude) + unit,
+       "lengthen duration_s until the controlled value is constant, or set a final reference that the drive can reach"}};
 }
 
 double amplitude_of(const BodeOrder& order, double stands_at) {

@@ -107,9 +107,10 @@ study::Scenario on_bench(const CommissionSubject& subject, double voltage_V, dou
 
 base::Problems unfit(const CommissionSubject& subject) {
   if (subject.sheet.kind == design::MotorKind::linear)
-    return {{"kind", "linear",
-             "cannot be commissioned: the test moves the field over many pole pitches each way, and a track is too short",
-             "measure R, L and back-EMF on a bench"}};
+    return {
+        {"kind", "linear",
+         "cannot be commissioned: the test moves the field over many pole pitches each way, and a track is too short",
+         "measure R, L and back-EMF on a bench"}};
   if (subject.sheet.connection == design::WindingConnection::delta)
     return {{"connection", "delta",
              "cannot be commissioned: the chip identifies the values of a star, and the loop current of a "
@@ -161,12 +162,13 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
   const double I = subject.current_A.value_or(
       base::shortened(std::min(2 * nominal.A, most_A / 2), 2, base::Towards::down));
   if (!(I > 0.0 && I <= most_A))
-    return base::Problem{"current_A", base::written(I),
-                         "must be above 0 and at most " + base::rounded(most_A, 4) +
-                             " A, which the bus can drive and at which the rotor stays aligned with the field",
-                         nominal.printed
-                             ? "remove it: the default is twice the sheet's nominal current, at most half of that bound"
-                             : "remove it: the default is at most half of that bound"};
+    return base::Problem{
+        "current_A", base::written(I),
+        "must be above 0 and at most " + base::rounded(most_A, 4) +
+            " A, which the bus can drive and at which the rotor stays aligned with the field",
+        nominal.printed
+            ? "remove it: the default is twice the sheet's nominal current, at most half of that bound"
+            : "remove it: the default is at most half of that bound"};
   return TestCurrentFrom{I, from};
 }
 

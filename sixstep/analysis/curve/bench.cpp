@@ -28,7 +28,8 @@ void check_pace(const Bench& b, base::Problems& problems) {
   if (plant::field_at(m, b.voltage_V) > plant::fastest_field_rad_s)
     refuse("voltage_V", b.voltage_V,
            "makes the field turn at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
-               " electrical rad/s, and no motor reaches more than " + base::rounded(plant::fastest_field_rad_s, 3),
+               " electrical rad/s, and no motor reaches more than " +
+               base::rounded(plant::fastest_field_rad_s, 3),
            "lower the voltage, or check the unit of the motor's torque constant");
   if (plant::winding_rate(m, b.devices) > plant::fastest_answer_1_s)
     refuse("on_resistance_ohm", b.devices.R_on_ohm,

@@ -25,8 +25,8 @@ base::Problems check_temperatures(const CurveRequest& r) {
                                                          {"housing_degC", r.motor_degC.housing_degC}};
   for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's limit
     if (!base::between(-200, 500).holds(degC))
-      problems.push_back(
-          {name, base::written(degC), "must be a temperature, -200 to 500 degC", "give the temperature in degC; data sheets refer to 25"});
+      problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
+                          "give the temperature in degC; data sheets refer to 25"});
   if (auto lost = design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC);
       problems.empty() && lost)
     problems.push_back(std::move(*lost));

@@ -27,11 +27,13 @@ base::Problems check_built_speed(double electrical_Hz, int pole_pairs) {
                       base::six_digits(most_built_Hz) + " Hz",
              .cure = "check the unit of time and the time from row to row"}};
   if (pole_pairs > 0 && rpm > built_shaft_rpm.high)
-    return {{.where = "time",
-             .limit = "gives the shaft " + base::six_digits(rpm) + " rpm" + pairs +
-                      ", and no brushless machine is built for more than " +
-                      base::six_digits(built_shaft_rpm.high) + " rpm",
-             .cure = "check the unit of time, the time from row to row, and whether the motor has more pole pairs"}};
+    return {
+        {.where = "time",
+         .limit = "gives the shaft " + base::six_digits(rpm) + " rpm" + pairs +
+                  ", and no brushless machine is built for more than " +
+                  base::six_digits(built_shaft_rpm.high) + " rpm",
+         .cure =
+             "check the unit of time, the time from row to row, and whether the motor has more pole pairs"}};
   if (rpm < built_shaft_rpm.low)
     return {{.where = "time",
              .limit = "gives the shaft " + base::three_digits(rpm) + " rpm" + pairs +

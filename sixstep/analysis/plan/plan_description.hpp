@@ -72,17 +72,18 @@ inline void describe(base::Visitor& v, PlanEntry& s) {
       {.meaning = "drives of the series that [[spread]] describes, at each point; 0: the drive as written",
        .range = base::between(0, 1e9)});
   v.value("seed", s.seed,
-          {.meaning = "seed of the drawn drives and points: another number gives another series", .range = base::from(0)});
+          {.meaning = "seed of the drawn drives and points: another number gives another series",
+           .range = base::from(0)});
   v.value("sheet_tolerances", s.sheet_tolerances,
           {.meaning =
                "whether drives also vary by the usual tolerances of resistance, inductance, torque constant "
                "and of the places of Hall edges, for values that [[spread]] does not have"});
   v.value(
       "minimise", s.minimise,
-      {.meaning =
-           "label of the figure that design --optimise minimises, while every drive holds every requirement"});
-  v.value("evaluations", s.evaluations,
-          {.meaning = "largest number of points that the optimisation tries", .range = base::between(1, 1e6)});
+      {.meaning = "label of the figure that a design minimises, while every drive holds every requirement"});
+  v.value(
+      "evaluations", s.evaluations,
+      {.meaning = "largest number of points that the optimisation tries", .range = base::between(1, 1e6)});
   v.list("vary", s.vary, {.meaning = "keys that differ from point to point"});
 }
 

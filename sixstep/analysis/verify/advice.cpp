@@ -168,8 +168,9 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   for (const auto& [spec, next] : dear)
     if (rescued(spec, next)) return {words_of_change(order.spec, spec), false};
   if (!nominal.empty())
-    return {nominal + ", tested with the sheet's nominal motor only: the tolerances take too long to simulate",
-            true};
+    return {
+        nominal + ", tested with the sheet's nominal motor only: the tolerances take too long to simulate",
+        true};
   return out;
 }
 
@@ -179,14 +180,14 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   DesignOrder next = order;
   next.subject.step = base::shortened(0.9 * (held - first), 2, base::Towards::down);
   TrialBudget budget{rescue_periods};
-  if (!holds(next, order.spec, budget))
-    return "give a smaller step, a higher voltage or less load";
+  if (!holds(next, order.spec, budget)) return "give a smaller step, a higher voltage or less load";
   return "usable with step = " + base::written(*next.subject.step);
 }
 
 /// Words for the changes that were all tried without success.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
-  std::string text = "none of the tried changes makes the design usable: another chopping, period or sensor, slower loops, less torque";
+  std::string text =
+      "none of the tried changes makes the design usable: another chopping, period or sensor, slower loops, less torque";
   if (too_long) text += "; changes that take longer to simulate were not tried";
   if (d.spec.settle_s && d.settle_by_torque_s > *d.spec.settle_s)
     text += "; this torque limit and inertia need settle_s = " +

@@ -53,14 +53,15 @@ void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
                     .cure = "measure the phase currents, or reduce " + hiding(s.scenario),
                     .of = design::Concern::shunt};
   if (s.design.spec.mode == control::Mode::current && std::fabs(s.scenario.reference.value) < unseen_A) {
-    w.what =
-        blind + "; the step commands only " + base::three_digits(std::fabs(s.scenario.reference.value)) + " A";
+    w.what = blind + "; the step commands only " + base::three_digits(std::fabs(s.scenario.reference.value)) +
+             " A";
     w.grave = true;
   }
   if (s.design.spec.mode == control::Mode::speed && s.allowed_swing_rad_s)
     if (const std::optional<double> swing = idle_swing(order, s); swing && *swing > *s.allowed_swing_rad_s) {
-      w.what = "without a load the speed swings by " + base::three_digits(*swing) + " rad/s, more than the allowed " +
-               base::three_digits(*s.allowed_swing_rad_s) + " rad/s: " + blind;
+      w.what = "without a load the speed swings by " + base::three_digits(*swing) +
+               " rad/s, more than the allowed " + base::three_digits(*s.allowed_swing_rad_s) +
+               " rad/s: " + blind;
       w.grave = true;
     }
   s.warnings.push_back(w);

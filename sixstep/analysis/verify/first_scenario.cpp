@@ -17,7 +17,6 @@
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/run/run.hpp"
-#include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::analysis {
 namespace {
@@ -167,8 +166,7 @@ bool runs_and_passes(const study::Scenario& s) {
 /// the motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
-  const std::string more = "sixstep design " + spec.motor + " --mode " +
-                           std::string(base::word(study::mode_choices, spec.mode)) + " shows the cause";
+  const std::string more = "a design of the motor shows the cause";
   DesignOrder order = order_of(spec);
   order.tolerances.clear();
   TrialBudget budget{trial_periods};
@@ -313,7 +311,7 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
       return base::Problem{"the motor", spec.motor,
                            "does not run as its sheet predicts: the " + v.figure + " is " +
                                base::three_digits(v.measured) + " " + v.unit,
-                           "start with another mode, or see the torque-speed curve: sixstep curve " + spec.motor};
+                           "start with another mode, or compare with the torque-speed curve of the motor"};
   return s;
 }
 

@@ -81,11 +81,10 @@ void look_at_settling(DesignStudy& s) {
     warn(s, design::Concern::settling, in_simulation(s) + " the loop never settles", true);
   else if (c->measured > 1.25 * c->value)
     warn(s, design::Concern::settling,
-         "in the simulation the loop settles in " + base::three_digits(1e3 * c->measured) + " ms instead of the designed " +
-             base::three_digits(1e3 * c->value) + " ms" +
-             (from_half_the_bus(s)
-                  ? ": with hard chopping the integral must first reach half the bus voltage"
-                  : ""),
+         "in the simulation the loop settles in " + base::three_digits(1e3 * c->measured) +
+             " ms instead of the designed " + base::three_digits(1e3 * c->value) + " ms" +
+             (from_half_the_bus(s) ? ": with hard chopping the integral must first reach half the bus voltage"
+                                   : ""),
          false);
 }
 
@@ -109,8 +108,8 @@ void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when
   const double step = std::fabs(levels[1] - levels[0]);
   if (!(overshoot > step)) return;
   warn(s, design::Concern::settling,
-       when + " a step of the speed overshoots by " + base::three_digits(100 * overshoot / step) +
-           " %" + where,
+       when + " a step of the speed overshoots by " + base::three_digits(100 * overshoot / step) + " %" +
+           where,
        true);
 }
 

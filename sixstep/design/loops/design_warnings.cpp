@@ -88,8 +88,7 @@ void look_at_steps(const DriveDesign& d, Collector& out) {
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
     out.add(Concern::rest, "within one Hall step (" + step +
                                ") of the target the drive measures its speed only every " +
-                               milliseconds(blind_s) + " (1/K_p), later than the " +
-                               milliseconds(*stands) +
+                               milliseconds(blind_s) + " (1/K_p), later than the " + milliseconds(*stands) +
                                " that the speed loop tolerates: the rotor never comes to rest");
 }
 
@@ -139,11 +138,12 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   const double top =
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
   if (d.spec.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
-    out.add(Concern::braking,
-            "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) +
-                " A" + (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") +
-                " above " + base::three_digits(d.braking_limit_rad_s) +
-                " rad/s, (i/K_t) R: above this speed the lower switches short the motor, and the current is larger");
+    out.add(
+        Concern::braking,
+        "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) + " A" +
+            (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
+            base::three_digits(d.braking_limit_rad_s) +
+            " rad/s, (i/K_t) R: above this speed the lower switches short the motor, and the current is larger");
 }
 
 /// Checks the voltage that a step needs: the first command after a step of the nominal current i is d1 i.
@@ -152,7 +152,8 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
   if (first_V > d.bus_V)
     out.add(Concern::voltage, "a step of " + std::string(nominal_current_words(d)) + " needs " +
                                   base::three_digits(first_V) + " V at once, but the bus has only " +
-                                  base::three_digits(d.bus_V) + " V: the current settles later than designed");
+                                  base::three_digits(d.bus_V) +
+                                  " V: the current settles later than designed");
   if (d.headroom_end_rad_s <= 0.0)
     out.add(Concern::voltage,
             "the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",

@@ -249,12 +249,14 @@ void add_speed_step(DriveDesign& d, double crossover) {
   if (!(d.speed_step_rad_s > 0.0)) return;
   d.sensing.push_back(
       {"w_high", "0.9 of the speed where \"voltage left\" ends, two digits", d.high_speed_rad_s, "rad/s"});
-  d.sensing.push_back({"dw_high", "one step of the measured speed at that speed", d.speed_step_rad_s, "rad/s"});
+  d.sensing.push_back(
+      {"dw_high", "one step of the measured speed at that speed", d.speed_step_rad_s, "rad/s"});
   d.sensing.push_back({"d1 dw", "change of the torque reference by that step, as a part of the torque limit",
                        d.speed_step_part, ""});
-  d.sensing.push_back({"du", "change of the voltage: d1 dw times T_max/K_t times the current loop's d1", d.speed_step_V, "V"});
-  d.sensing.push_back(
-      {"u_left", "voltage that the bus has left at w_high and half the nominal current", d.high_speed_left_V, "V"});
+  d.sensing.push_back({"du", "change of the voltage: d1 dw times T_max/K_t times the current loop's d1",
+                       d.speed_step_V, "V"});
+  d.sensing.push_back({"u_left", "voltage that the bus has left at w_high and half the nominal current",
+                       d.high_speed_left_V, "V"});
 }
 
 void add_sensing(DriveDesign& d) {
@@ -369,8 +371,9 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec
 
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg) {
   DriveDesign d = design;
-  d.loops.back() = position_loop(gain_rad_s_per_deg, "largest gain under the limits",
-                                 "largest gain whose overshoot is at most 1 % of the move or three sensor steps");
+  d.loops.back() =
+      position_loop(gain_rad_s_per_deg, "largest gain under the limits",
+                    "largest gain whose overshoot is at most 1 % of the move or three sensor steps");
   finish(d);
   return d;
 }

@@ -40,15 +40,17 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
                         double natural_rad_s, FieldEstimate& out) {
   control::EstimatorConfig<double>& c = out.config;
   if (m.L_d_H == m.L_q_H)
-    return {{"control.field.angle", "\"injection\"",
-             "finds the magnet's axis by the difference of L_d and L_q, and this rotor has none",
-             "give d_axis_inductance_mH and q_axis_inductance_mH in the motor file, or set angle = \"observer\""}};
+    return {
+        {"control.field.angle", "\"injection\"",
+         "finds the magnet's axis by the difference of L_d and L_q, and this rotor has none",
+         "give d_axis_inductance_mH and q_axis_inductance_mH in the motor file, or set angle = \"observer\""}};
   const double turns = m.L_d_H < m.L_q_H ? m.L_q_H / m.L_d_H - 1 : 1 - m.L_q_H / m.L_d_H;
   const double part = saturation_A > 0 ? std::min({0.2, turns / 2, s.current_A / saturation_A}) : 0.0;
   if (part < least_saturation)
     return {{"control.field.angle", "\"injection\"",
-             saturation_A > 0 ? "distinguishes north from south by less than 1 % of the current's response"
-                              : "distinguishes north from south by saturation, and the sheet has no saturation_current_A",
+             saturation_A > 0
+                 ? "distinguishes north from south by less than 1 % of the current's response"
+                 : "distinguishes north from south by saturation, and the sheet has no saturation_current_A",
              saturation_A > 0 ? "allow more current, or set angle = \"observer\""
                               : "give saturation_current_A in the motor file, or set angle = \"observer\""}};
   const double most_V = 0.25 * s.bus_V * by_root_3, gentle_V = 0.2 * s.current_A * m.L_d_H / s.period_s;
@@ -99,11 +101,12 @@ void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& ou
              std::max<std::int64_t>(1, static_cast<std::int64_t>(rad_s2 * s.period_s * per_rad_s)),
              static_cast<std::int64_t>(c.high_rad_s * per_rad_s),
              ticks_of(10 / pull_rad_s(m, c), s.period_s)};
-  out.steps.insert(out.steps.end(),
-                   {{"I", "current that aligns the rotor and then turns it", I, "A"},
-                    {"t_align", "time until the rotor is at rest", align_s, "s"},
-                    {"t_ramp", "time until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
-                    {"T_start", "greatest load against which the drive starts", start_load_part * most_Nm, "N m"}});
+  out.steps.insert(
+      out.steps.end(),
+      {{"I", "current that aligns the rotor and then turns it", I, "A"},
+       {"t_align", "time until the rotor is at rest", align_s, "s"},
+       {"t_ramp", "time until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
+       {"T_start", "greatest load against which the drive starts", start_load_part * most_Nm, "N m"}});
 }
 
 }  // namespace

@@ -142,14 +142,14 @@ base::Problem too_strong(const Basis& b, const PulseStart& s) {
                 " electrical degrees, or last longer than 2 L/R",
             "shorten the period, or start by alignment"};
   if (b.limit_A == spec.most_A)
-    return {"overload", "",
-            "allows " + base::rounded(b.limit_A, 3) + " A, and one control period " + makes,
+    return {"overload", "", "allows " + base::rounded(b.limit_A, 3) + " A, and one control period " + makes,
             "raise overload, shorten the period, or start by alignment"};
   if (spec.saturation_A > 0.0 && b.limit_A == base::root_3 / 2 * spec.saturation_A / 2)
     return {"period_s", base::rounded(spec.period_s, 4),
             makes + ", and the model of saturation holds up to " + base::rounded(b.limit_A, 3) + " A",
             "shorten the period, or start by alignment"};
-  return {"current_range_A", base::rounded(spec.current_range_A, 4), "is exceeded: one control period " + makes,
+  return {"current_range_A", base::rounded(spec.current_range_A, 4),
+          "is exceeded: one control period " + makes,
           "widen the range, shorten the period, or start by alignment"};
 }
 

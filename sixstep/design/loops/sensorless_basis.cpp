@@ -17,11 +17,12 @@ constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the 
 /// enough for the legs to reach their rails.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
-  return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
-          "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
-              " us (7 time constants), longer than the least on-time of " + base::rounded(1e6 * b.least_on_s(), 4) +
-              " us",
-          "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or raise lowest_part, the speed of the hand-over"};
+  return {
+      "terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
+      "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
+          " us (7 time constants), longer than the least on-time of " +
+          base::rounded(1e6 * b.least_on_s(), 4) + " us",
+      "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or raise lowest_part, the speed of the hand-over"};
 }
 
 /// Problem of the comparators' low-pass. Without one, comparators change at each edge of the pulse; with one
@@ -35,15 +36,17 @@ base::Problem badly_filtered(const SensorlessBasis& b) {
             "is missing: comparators without a low-pass switch at each edge of the pulse",
             "set it to " + least};
   return {"comparators.bandwidth_Hz", base::rounded(c.bandwidth_Hz, 4),
-          c.against_half_bus ? "is too low: the low-pass does not settle within half of the least on-time"
-                             : "is too low: at no-load speed the low-pass still shows the freewheel at the crossing",
+          c.against_half_bus
+              ? "is too low: the low-pass does not settle within half of the least on-time"
+              : "is too low: at no-load speed the low-pass still shows the freewheel at the crossing",
           c.against_half_bus ? "raise it to " + least + ", or raise lowest_part, the speed of the hand-over"
                              : "raise it to " + least};
 }
 
 base::Problem hidden_below(const SensorlessBasis& b) {
   const double comparators = b.comparators_V();
-  const std::string hides = "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) + " rad/s, more than half the no-load speed";
+  const std::string hides = "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) +
+                            " rad/s, more than half the no-load speed";
   if (comparators > b.threshold_V)
     return {"comparators", base::rounded(comparators, 4) + " V of error", hides,
             "use comparators with less offset and hysteresis"};

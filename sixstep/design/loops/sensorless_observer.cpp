@@ -30,7 +30,8 @@ double own_shape(const plant::Machine& machine, double deg) {
 base::Problems problems_of(const MotorModel& motor, const SensorlessSpec& spec) {
   base::Problems problems;
   if (spec.seen != control::NeutralSeen::on_time)
-    problems.push_back({"seen", "freewheel", "samples terminals that a diode may clamp, which an observer cannot use",
+    problems.push_back({"seen", "freewheel",
+                        "samples terminals that a diode may clamp, which an observer cannot use",
                         "sample in the on-time, or follow the crossings"});
   if (spec.adc_bits > 14)
     problems.push_back({"adc_bits", std::to_string(spec.adc_bits), "must be at most 14 for an observer",

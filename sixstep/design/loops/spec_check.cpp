@@ -49,7 +49,8 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   hold("settle_s", w.settle_s, above(0), "s", "give the settling time in seconds");
   hold("current_settle_s", w.current_settle_s, above(0), "s", "give the settling time in seconds");
   hold("damping", w.damping, {0, 1, false, true}, "", "give a damping up to 1; the thesis uses 0.9");
-  hold("current_damping", w.current_damping, {0, 1, false, true}, "", "give a damping up to 1; the thesis uses 0.9");
+  hold("current_damping", w.current_damping, {0, 1, false, true}, "",
+       "give a damping up to 1; the thesis uses 0.9");
   hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give it in N m");
   hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
   const double bus_V = w.voltage_V.value_or(motor.nominal_voltage_V);
@@ -67,7 +68,8 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
              base::three_digits(most) + " rad/s",
          "lower it, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
-    add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "give 1 to 6, or leave it out for an adaptive number");
+    add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6",
+        "give 1 to 6, or leave it out for an adaptive number");
   const bool encoder = w.rotor.shaft.kind == ShaftSensorKind::encoder;
   const double capture_Hz = encoder ? w.rotor.shaft.capture_Hz : w.rotor.capture_Hz;
   if (encoder || capture_Hz != 0.0)

@@ -132,9 +132,9 @@ std::optional<ShapeFactors> read_shape_table(SheetReader& reader) {
   }
   if (std::abs(mean) > most_shape_mean * range) {
     reader.problem("back_emf_shape", "",
-                   "has the mean " + rounded(mean, 6) +
-                       " over the turn; at most " + rounded(most_shape_mean, 1) +
-                       " times its peak-to-peak value of " + rounded(range) + " is allowed",
+                   "has the mean " + rounded(mean, 6) + " over the turn; at most " +
+                       rounded(most_shape_mean, 1) + " times its peak-to-peak value of " + rounded(range) +
+                       " is allowed",
                    "subtract " + rounded(mean, 6) + " from every value");
     return {};
   }

@@ -48,8 +48,7 @@ void read_table_keys(SheetReader& reader) {
                     : !s.back_emf_angle_deg.empty() ? "back_emf_angle_deg"
                     : !s.back_emf_shape.empty()     ? "back_emf_shape"
                                                     : nullptr;
-  if (key)
-    reader.problem(key, "", "applies to back_emf = \"table\" only", "write back_emf = \"table\"");
+  if (key) reader.problem(key, "", "applies to back_emf = \"table\" only", "write back_emf = \"table\"");
 }
 
 void read_deviations(SheetReader& reader) {
@@ -104,15 +103,16 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
                    "write cogging_orders = [48] and cogging_mNm = [8]");
   if (!s.cogging_phase_deg.empty() && s.cogging_phase_deg.size() != s.cogging_orders.size())
     reader.problem("cogging_phase_deg", std::to_string(s.cogging_phase_deg.size()) + " values",
-                   "needs one for each of the " + count + " cogging_orders", "give one phase for each order, or remove it: the default is 0");
+                   "needs one for each of the " + count + " cogging_orders",
+                   "give one phase for each order, or remove it: the default is 0");
   if (s.cogging_orders.size() > most_cogging)
     reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
                    "keep the largest");
   for (const double order : s.cogging_orders)
     if (s.kind == MotorKind::linear && (!is_whole(order) || std::fmod(order, 2.0) != 0.0)) {
-      reader.problem("cogging_orders", base::written(order),
-                     "must be an even number of periods per two pole pitches",
-                     "give an even number: the cogging force repeats at every pole, so two pole pitches hold an even number of periods");
+      reader.problem(
+          "cogging_orders", base::written(order), "must be an even number of periods per two pole pitches",
+          "give an even number: the cogging force repeats at every pole, so two pole pitches hold an even number of periods");
       return;
     } else if (!is_whole(order) || (pole_pairs && std::fmod(order, 2.0 * *pole_pairs) != 0.0)) {
       reader.problem("cogging_orders", base::written(order),

@@ -195,7 +195,7 @@ class Relations {
     if (!(part > worth_it)) return "";
     return "the line is ideal: in the model commutation lowers the speed by about " +
            rounded(100.0 * part / (1.0 + part), 2) +
-           " %; sixstep curve shows the speed that the model reaches";
+           " %; the torque-speed curve has the speed that the model reaches";
   }
 
   void as_fast_as_idle(const Term& idle, const Term& printed) {

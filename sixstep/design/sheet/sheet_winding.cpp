@@ -95,7 +95,8 @@ std::optional<double> read_pole_pitch(SheetReader& reader) {
                                    {"poles", s.poles.has_value()},
                                    {"winding", !s.winding.empty()}})
     if (given)
-      reader.problem(key, "", "applies to rotary motors only, and kind is \"linear\"", "give pole_pitch_mm instead");
+      reader.problem(key, "", "applies to rotary motors only, and kind is \"linear\"",
+                     "give pole_pitch_mm instead");
   if (!s.pole_pitch_mm) {
     reader.missing("pole_pitch_mm", "give the distance from one pole of the magnets to the next");
     return {};

@@ -53,7 +53,8 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
                    "raise it: below the supply voltage the drive could never brake"});
   if (s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V && !(*r.limit_V < bus_end_V(s.sensors)))
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
-                   "is never exceeded: the converter measures up to " + base::six_digits(bus_end_V(s.sensors)) +
+                   "is never exceeded: the converter measures up to " +
+                       base::six_digits(bus_end_V(s.sensors)) +
                        ", by sensors.bus_range_V = " + base::six_digits(*s.sensors.bus_range_V),
                    "lower it, or raise sensors.bus_range_V"});
   if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))

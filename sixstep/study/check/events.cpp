@@ -59,7 +59,8 @@ void check_mode(const Event& e) {
   std::string word(1, '"');  // not a literal, because GCC 12 warns of a literal in front of +
   word += base::word(mode_choices, e.mode);
   word += '"';
-  if (e.mode == e.before) return e.say(".control.mode", word, "is already the mode at this time", "remove it");
+  if (e.mode == e.before)
+    return e.say(".control.mode", word, "is already the mode at this time", "remove it");
   if (e.mode == control::Mode::off) return;
   if (!e.at.reference)
     e.say(".control.mode", word, "needs a new reference, because the present reference has another unit",

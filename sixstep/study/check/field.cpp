@@ -16,19 +16,18 @@ constexpr const char* other_drive = "remove it, or set control.drive = \"lean\""
 /// Requires centred pulses with all three legs complementary.
 void check_pwm(const Scenario& s, base::Problems& out) {
   if (s.pwm.alignment != Alignment::centre)
-    out.push_back({"pwm.alignment", "\"edge\"",
-                   "puts the pulses at the start of the period, and the field-oriented drive needs centred pulses",
-                   "set alignment = \"centre\""});
+    out.push_back(
+        {"pwm.alignment", "\"edge\"",
+         "puts the pulses at the start of the period, and the field-oriented drive needs centred pulses",
+         "set alignment = \"centre\""});
   if (s.pwm.chopping != control::Chopping::soft)
     out.push_back(
         {"pwm.chopping", std::string(base::word(chopping_choices, s.pwm.chopping)),
          "applies to six-step only: the field-oriented drive switches all three legs complementarily",
          other_drive});
   if (s.pwm.pattern != control::PwmPattern::upper)
-    out.push_back(
-        {"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
-         "applies to six-step only: the field-oriented drive chops all three legs",
-         other_drive});
+    out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
+                   "applies to six-step only: the field-oriented drive chops all three legs", other_drive});
   if (s.pwm.commutation != CommutationAt::hall_edge)
     out.push_back({"pwm.commutation", "\"sample\"",
                    "applies to six-step only: the field-oriented drive has no commutation", other_drive});
@@ -87,11 +86,13 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
                    "needs a sensor that counts turns, and an estimated angle does not count them",
                    "set control.mode = \"speed\" or \"current\", or control.field.angle = \"sensors\""});
   if (s.control.field.angle != FieldAngle::observer && s.pwm.sample == SampleAt::middle)
-    out.push_back({"pwm.sample", "\"middle\"",
-                   "samples where the current of the injected pulse crosses zero, so that it cannot be measured",
-                   "set sample = \"start\""});
+    out.push_back(
+        {"pwm.sample", "\"middle\"",
+         "samples where the current of the injected pulse crosses zero, so that it cannot be measured",
+         "set sample = \"start\""});
   if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"control.drive", "\"field-oriented\"", "applies to rotary motors only, and this motor is linear",
+    out.push_back({"control.drive", "\"field-oriented\"",
+                   "applies to rotary motors only, and this motor is linear",
                    "set drive = \"lean\" or \"product\""});
 }
 
@@ -99,9 +100,10 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
 void check_sensing(const Scenario& s, base::Problems& out) {
   const Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link)
-    out.push_back({"sensors.currents", "\"dc-link\"",
-                   "measures only the current of a driven pair, and the field-oriented drive needs all phase currents",
-                   "set currents = \"phases\", or \"ideal\""});
+    out.push_back(
+        {"sensors.currents", "\"dc-link\"",
+         "measures only the current of a driven pair, and the field-oriented drive needs all phase currents",
+         "set currents = \"phases\", or \"ideal\""});
   if (s.control.field.angle != FieldAngle::sensors) return check_unsensed(s, out);
   if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
     out.push_back({"sensors.hall_angle", "\"sectors\"", "gives no angle between two Hall edges",
@@ -113,7 +115,8 @@ void check_sensing(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"sensors.shaft", "\"load\"", "does not measure the magnet's angle", "set shaft = \"motor\""});
   if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"control.drive", "\"field-oriented\"", "applies to rotary motors only, and this motor is linear",
+    out.push_back({"control.drive", "\"field-oriented\"",
+                   "applies to rotary motors only, and this motor is linear",
                    "set drive = \"lean\" or \"product\""});
 }
 
@@ -132,7 +135,8 @@ void check_keys(const Scenario& s, base::Problems& out) {
   needs(f.angle_bandwidth_Hz.has_value(), injects || observes, "control.field.angle_bandwidth_Hz",
         "applies to an estimated angle only, and this drive measures the angle",
         "remove it, or set control.field.angle");
-  needs(f.injection_V.has_value(), injects, "control.field.injection_V", "has no effect, because control.field.angle has no injection",
+  needs(f.injection_V.has_value(), injects, "control.field.injection_V",
+        "has no effect, because control.field.angle has no injection",
         "remove it, or set control.field.angle = \"injection\"");
   needs(f.observer_from_rad_s.has_value(), observes, "control.field.observer_from_rad_s",
         "applies to an observer, and the drive has none",

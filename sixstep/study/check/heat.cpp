@@ -17,11 +17,12 @@ void check_energies(const Bridge& b, base::Problems& out) {
   const bool energies = b.turn_on_J > 0 || b.turn_off_J > 0 || b.recovery_J > 0;
   const bool point = b.energies_at_V > 0 && b.energies_at_A > 0;
   if (energies != point)
-    out.push_back({energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
-                   energies
-                       ? "and bridge.energies_at_A are missing: the switching energies belong to a voltage and a current"
-                       : "is missing: energies_at_V and energies_at_A alone have no effect",
-                   "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
+    out.push_back(
+        {energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
+         energies
+             ? "and bridge.energies_at_A are missing: the switching energies belong to a voltage and a current"
+             : "is missing: energies_at_V and energies_at_A alone have no effect",
+         "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   if (energies && point && !(b.turn_on_J > 0 && b.turn_off_J > 0))
     out.push_back({b.turn_on_J > 0 ? "bridge.turn_off_J" : "bridge.turn_on_J", "",
                    "is missing: each pulse turns a switch on and off",

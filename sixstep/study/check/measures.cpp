@@ -149,7 +149,8 @@ void check_level(const Asked& a) {
     a.refuse("tail", base::written(*a.m.tail), "has no effect: " + quoted(a.m.metric) + " does not use it",
              "remove it, or set from_s and to_s");
   if (a.m.tail && is_of_a_level(a.m.metric) && a.m.level)
-    a.refuse("tail", base::written(*a.m.tail), "applies to the levels of the reference only, and level is given",
+    a.refuse("tail", base::written(*a.m.tail),
+             "applies to the levels of the reference only, and level is given",
              "remove it, and set from_s and to_s");
 }
 

@@ -94,7 +94,10 @@ void check_around(const Scenario& s, base::Problems& out) {
 base::Problems check_controller(const sixstep_controller& is) {
   base::Problems out;
   const auto refuse = [&out](bool wrong, const char* where, const std::string& value, const char* limit) {
-    if (wrong) out.push_back({where, value, limit, "correct the controller's description; sixstep/control/own/own_controller.h explains it"});
+    if (wrong)
+      out.push_back(
+          {where, value, limit,
+           "correct the controller's description; sixstep/control/own/own_controller.h explains it"});
   };
   if (is.interface == in_float)
     return {{"interface", std::to_string(is.interface),
@@ -141,8 +144,8 @@ void check_own(const Scenario& s, base::Problems& out) {
   if (own.controller.empty())
     out.push_back({"control.own.controller", "", "is missing", "name the shared object of the controller"});
   else if (own.loaded == nullptr)
-    out.push_back(
-        {"control.own.controller", '"' + own.controller + '"', "is not loaded", "read the scenario from a file"});
+    out.push_back({"control.own.controller", '"' + own.controller + '"', "is not loaded",
+                   "read the scenario from a file"});
   else
     check_own_numbers(own, out);
   check_around(s, out);

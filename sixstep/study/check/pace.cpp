@@ -40,10 +40,11 @@ void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) 
   const double rate =
       plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
   if (rate > fastest_answer_1_s)
-    out.push_back({"supply.capacitance_F", written(from.capacitance_F),
-                   "makes the bus's time constant with supply.resistance_ohm = " +
-                       written(from.resistance_ohm) + " and the winding " + too_short(rate),
-                   "check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
+    out.push_back(
+        {"supply.capacitance_F", written(from.capacitance_F),
+         "makes the bus's time constant with supply.resistance_ohm = " + written(from.resistance_ohm) +
+             " and the winding " + too_short(rate),
+         "check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
 }
 
 void check_friction(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -197,19 +198,19 @@ void check_dead_time(const std::string& where, double dead_time_s, const Pwm& pw
   constexpr double worth_a_word = 0.9;
   // A leg that turns on and off within a period waits for two dead times.
   if (!(2 * dead_time_s < pwm.period_s)) {
-    out.push_back(
-        {where, written(dead_time_s), "must be shorter than half of pwm.period_s = " + written(pwm.period_s),
-         "give the gate driver's dead time, some microseconds: each period has two dead times"});
+    out.push_back({where, written(dead_time_s),
+                   "must be shorter than half of pwm.period_s = " + written(pwm.period_s),
+                   "give the gate driver's dead time, some microseconds: each period has two dead times"});
     return;
   }
   const double counted_s = dead_time_in_counts_s(dead_time_s, pwm);
   if (counted_s >= worth_a_word * dead_time_s) return;
-  out.push_back(
-      {where, written(dead_time_s),
-       (counted_s > 0 ? "becomes " + base::three_digits(1e6 * counted_s) + " us" : "is lost") +
-           " on a timer that counts " + base::three_digits(1e6 / pwm.timer_Hz) +
-           " us, pwm.timer_Hz = " + written(pwm.timer_Hz),
-       "give whole counts, for example " + base::six_digits(std::ceil(dead_time_s * pwm.timer_Hz) / pwm.timer_Hz)});
+  out.push_back({where, written(dead_time_s),
+                 (counted_s > 0 ? "becomes " + base::three_digits(1e6 * counted_s) + " us" : "is lost") +
+                     " on a timer that counts " + base::three_digits(1e6 / pwm.timer_Hz) +
+                     " us, pwm.timer_Hz = " + written(pwm.timer_Hz),
+                 "give whole counts, for example " +
+                     base::six_digits(std::ceil(dead_time_s * pwm.timer_Hz) / pwm.timer_Hz)});
 }
 
 void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {

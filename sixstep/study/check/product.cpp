@@ -22,7 +22,8 @@ using control::Mode;
 
 /// Requires measurements that a register shows, because the product drive reads registers only.
 void check_registers(const Scenario& s, base::Problems& out) {
-  const std::string asks = "has no converter, and control.drive = \"product\" reads the registers of converters and pins";
+  const std::string asks =
+      "has no converter, and control.drive = \"product\" reads the registers of converters and pins";
   if (s.sensors.currents == rig::CurrentMeasurement::ideal)
     out.push_back({"sensors.currents", "\"ideal\"", asks,
                    "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
@@ -52,9 +53,10 @@ void check_missing(const char* key, const std::optional<double>& threshold, cons
 void check_threshold(const char* key, const std::optional<double>& threshold, double end,
                      const std::string& range, base::Problems& out) {
   if (threshold && !(*threshold < end))
-    out.push_back({std::string("protection.") + key, written(*threshold),
-                   "is never exceeded: the converter measures up to " + base::rounded(end, 6) + ", by " + range,
-                   "lower it, or raise " + range.substr(0, range.find(' '))});
+    out.push_back(
+        {std::string("protection.") + key, written(*threshold),
+         "is never exceeded: the converter measures up to " + base::rounded(end, 6) + ", by " + range,
+         "lower it, or raise " + range.substr(0, range.find(' '))});
 }
 
 void check_thresholds(const Scenario& s, base::Problems& out) {
@@ -73,8 +75,7 @@ void check_thresholds(const Scenario& s, base::Problems& out) {
                     "sensors.bus_range_V = " + written(*s.sensors.bus_range_V), out);
   if (p.under_voltage_V && p.over_voltage_V && !(*p.under_voltage_V < *p.over_voltage_V))
     out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
-                   "must be below protection.over_voltage_V = " + written(*p.over_voltage_V),
-                   "lower it"});
+                   "must be below protection.over_voltage_V = " + written(*p.over_voltage_V), "lower it"});
   if (p.under_voltage_V && s.sensors.bus_offset_V >= *p.under_voltage_V)
     out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
                    "is never reached: with the bus at 0 V the converter reads sensors.bus_offset_V = " +
@@ -198,7 +199,8 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   refuse(loop.d1 || loop.d0, "d1", whole, "remove d1 and d0, or set type = \"pi\"");
   refuse(loop.kp || loop.ki || loop.ki_per_s, "kp", whole,
          "remove kp, ki and ki_per_s, or set type = \"pi\"");
-  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is already part of a deadbeat loop", "remove it");
+  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is already part of a deadbeat loop",
+         "remove it");
 }
 
 /// Refuses loops that compute no duty of their own, and chopping that leaves no switch on to hold the
@@ -210,8 +212,8 @@ void check_commutation_step(const Scenario& s, base::Problems& out) {
     if (given) out.push_back({"control.current.commutation", '"' + word + '"', limit, cure});
   };
   const char* const leave = "remove it, or set type = \"pi\"";
-  refuse(s.control.current.type == CurrentLoopType::hysteresis, "sets a duty during a commutation, and a hysteresis has no duty",
-         leave);
+  refuse(s.control.current.type == CurrentLoopType::hysteresis,
+         "sets a duty during a commutation, and a hysteresis has no duty", leave);
   refuse(s.control.current.type == CurrentLoopType::deadbeat,
          "sets a duty during a commutation, which the deadbeat loop's prediction does not include", leave);
   refuse(s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on,
@@ -244,15 +246,17 @@ void check_extras(const Scenario& s, base::Problems& out) {
                    "has no effect in a hysteresis, which sets no voltage",
                    "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.feedback != CurrentFeedback::mean)
-    out.push_back({"control.current.feedback", "\"staying-phase\"",
-                   "applies to a PI or deadbeat loop; a hysteresis reads the current that control.current.on names",
-                   "remove it, or set type = \"pi\""});
+    out.push_back(
+        {"control.current.feedback", "\"staying-phase\"",
+         "applies to a PI or deadbeat loop; a hysteresis reads the current that control.current.on names",
+         "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
     out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
                    "has no effect in a hysteresis, which has no duty", "remove it, or set type = \"pi\""});
   if (s.control.limits.gain_A_s_per_rad && !s.control.limits.speed_rad_s)
     out.push_back({"control.limits.gain_A_s_per_rad", written(*s.control.limits.gain_A_s_per_rad),
-                   "has no effect without control.limits.speed_rad_s", "add control.limits.speed_rad_s, or remove it"});
+                   "has no effect without control.limits.speed_rad_s",
+                   "add control.limits.speed_rad_s, or remove it"});
   const SmoothChopping& smooth = s.control.smooth_chopping;
   if (smooth.soft_above_A && smooth.complementary_below_A &&
       !(*smooth.soft_above_A > *smooth.complementary_below_A))

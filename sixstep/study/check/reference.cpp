@@ -83,7 +83,8 @@ void check_sine(const Place& p) {
 
 void check_trapezoid(const Place& p) {
   if (!p.r.slope) p.missing("slope", "give the largest rate, in the unit of control.mode per s");
-  if (!p.r.acceleration) p.missing("acceleration", "give the largest change of the rate, in the unit of control.mode per s2");
+  if (!p.r.acceleration)
+    p.missing("acceleration", "give the largest change of the rate, in the unit of control.mode per s2");
 }
 
 void check_square(const Place& p) {
@@ -177,8 +178,8 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
                                         // each entry
   for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {
     if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
-      out.push_back({table + "." + times_key, written(times[n]), "must be at least 0 and above the entry before",
-                     "sort the times"});
+      out.push_back({table + "." + times_key, written(times[n]),
+                     "must be at least 0 and above the entry before", "sort the times"});
     else if (!(times[n] < duration_s))
       out.push_back({table + "." + times_key, written(times[n]),
                      "is not before the end of the run (duration_s = " + written(duration_s) + ")",

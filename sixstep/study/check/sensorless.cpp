@@ -23,9 +23,9 @@ void check_sample(const Scenario& s, base::Problems& out) {
 
 void check_sensorless_loops(const Scenario& s, base::Problems& out) {
   if (s.control.mode == control::Mode::position)
-    out.push_back({"control.mode", "\"position\"",
-                   "needs the rotor's angle at rest, where there is no back-EMF",
-                   "set control.mode = \"speed\", \"current\" or \"duty\", or control.drive = \"lean\" with a sensor in sensors.rotor"});
+    out.push_back(
+        {"control.mode", "\"position\"", "needs the rotor's angle at rest, where there is no back-EMF",
+         "set control.mode = \"speed\", \"current\" or \"duty\", or control.drive = \"lean\" with a sensor in sensors.rotor"});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"control.current.type", "\"hysteresis\"",
                    "switches at any instant, so that no sample of the terminals is sure to lie in an on-time",
@@ -53,8 +53,8 @@ void check_source(const Scenario& s, base::Problems& out) {
                    "remove it, set rotor = \"hall\", or control.drive = \"lean\""});
   const bool asked = s.control.sensorless.commutates == Commutates::hall;
   if (asked && rotor != RotorSensing::hall)
-    out.push_back({"control.sensorless.commutates", "\"hall\"", "needs Hall probes, and sensors.rotor is not \"hall\"",
-                   "set sensors.rotor = \"hall\""});
+    out.push_back({"control.sensorless.commutates", "\"hall\"",
+                   "needs Hall probes, and sensors.rotor is not \"hall\"", "set sensors.rotor = \"hall\""});
 }
 
 /// Pulses need a converter per phase, because each pulse is judged by the currents into and out of its pair.
@@ -74,7 +74,8 @@ void check_others(const Scenario& s, base::Problems& out) {
          "also filters the terminal voltages. After a diode turns off, their sample is wrong by up to half the bus voltage, and an observer keeps this error for some periods",
          "remove it, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"control.drive", "\"sensorless\"", "applies to rotary motors only, and this motor is linear",
+    out.push_back({"control.drive", "\"sensorless\"",
+                   "applies to rotary motors only, and this motor is linear",
                    "set drive = \"lean\" or \"product\""});
 }
 
@@ -82,13 +83,14 @@ void check_others(const Scenario& s, base::Problems& out) {
 void check_terminals(const Scenario& s, base::Problems& out) {
   const auto three = [&](const char* key, const std::vector<double>& values) {
     if (!values.empty() && values.size() != 3)
-      out.push_back({key, std::to_string(values.size()) + " values", "must be 3, one for each terminal a, b, c",
-                     "give 3 values, or remove it"});
+      out.push_back({key, std::to_string(values.size()) + " values",
+                     "must be 3, one for each terminal a, b, c", "give 3 values, or remove it"});
   };
   three("sensors.terminal_gain_error", s.sensors.terminal_gain_error);
   three("sensors.comparators.offset_V", s.sensors.comparators.offset_V);
   if (s.sensors.comparators != Comparators{} && s.control.sensorless.follows != control::Follow::comparators)
-    out.push_back({"sensors.comparators", "", "has no effect, because control.sensorless.follows is not \"comparators\"",
+    out.push_back({"sensors.comparators", "",
+                   "has no effect, because control.sensorless.follows is not \"comparators\"",
                    "set control.sensorless.follows = \"comparators\", or remove it"});
 }
 

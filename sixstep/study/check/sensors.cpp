@@ -24,8 +24,10 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "lower it, or raise current_range_A"});
   const bool samples_in_middle = s.pwm.sample == SampleAt::middle;
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
-    out.push_back({"sensors.currents", "\"dc-link\"", "shows the current only in the on-time, and samples at the start of the period come before it",
-                   "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
+    out.push_back(
+        {"sensors.currents", "\"dc-link\"",
+         "shows the current only in the on-time, and samples at the start of the period come before it",
+         "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
 /// The converter samples the current at one instant of the preceding period, so that the delay must be
@@ -68,10 +70,10 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
   const std::vector<double>& own = x.hall_edges_deg;
   const std::size_t all = motor ? 6 * static_cast<std::size_t>(motor->machine.pole_pairs) : own.size();
   if (!own.empty() && own.size() != 6 && own.size() != all)
-    return out.push_back(
-        {"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
-         "must be 6, the edges of an electrical turn, or " + std::to_string(all) + ", those of a mechanical turn",
-         "give 6 or " + std::to_string(all) + " values"});
+    return out.push_back({"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
+                          "must be 6, the edges of an electrical turn, or " + std::to_string(all) +
+                              ", those of a mechanical turn",
+                          "give 6 or " + std::to_string(all) + " values"});
   for (std::size_t n = 0; n < own.size(); ++n) {
     const std::size_t next = (n + 1) % own.size();
     const double gap = 60 + own[next] - own[n] - x.hall_hysteresis_deg;

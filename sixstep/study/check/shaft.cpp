@@ -56,7 +56,8 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
               "dynamometer_times_s");
   if (!l.dynamometer_times_s.empty() && l.dynamometer_times_s.front() != 0)
     out.push_back({"load.dynamometer_times_s", base::six_digits(l.dynamometer_times_s.front()),
-                   "must begin at 0, because a dynamometer turns the shaft from the start", "write 0 as the first time"});
+                   "must begin at 0, because a dynamometer turns the shaft from the start",
+                   "write 0 as the first time"});
   const auto refuse = [&out](const std::string& key, double value) {
     if (value != 0)
       out.push_back({key, base::six_digits(value), "has no effect where a dynamometer imposes the speed",

@@ -31,10 +31,11 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
           "give 1, or a divisor of the motor's pole pairs");
   const double step_s = tracking_period_s(s);
   if (sampled && std::fabs(2 * step_s * r.excitation_Hz - 1) > 1e-9)
-    wrong("excitation_Hz", base::written(r.excitation_Hz),
-          "has a half period of " + base::written(0.5 / r.excitation_Hz) +
-              " s, which is not a whole number of control periods: the samples would miss the excitation's peaks",
-          "take " + base::written(0.5 / step_s) + " Hz, or change pwm.period_s");
+    wrong(
+        "excitation_Hz", base::written(r.excitation_Hz),
+        "has a half period of " + base::written(0.5 / r.excitation_Hz) +
+            " s, which is not a whole number of control periods: the samples would miss the excitation's peaks",
+        "take " + base::written(0.5 / step_s) + " Hz, or change pwm.period_s");
   if (!(r.bandwidth_Hz * step_s < 0.5))
     wrong("bandwidth_Hz", base::written(r.bandwidth_Hz),
           std::string("must be below half the rate of ") + (sampled ? "the peaks, " : "the chip's clock, ") +
@@ -119,10 +120,11 @@ void check_lines(const Scenario& s, base::Problems& out) {
   const double lines = lines_to_period(s), whole = std::floor(lines + 0.5);
   if (whole >= 1 && whole <= 1e6 && std::fabs(lines - whole) <= 1e-9 * whole) return;
   const double nearest = std::fmin(std::fmax(whole, 1.0), 1e6);
-  out.push_back({"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
-                 "goes " + base::rounded(lines, 6) +
-                     " times into two pole pitches; it must go into them a whole number of times, at most 1000000",
-                 "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
+  out.push_back(
+      {"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
+       "goes " + base::rounded(lines, 6) +
+           " times into two pole pitches; it must go into them a whole number of times, at most 1000000",
+       "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
 }
 
 void check_encoder(const Scenario& s, base::Problems& out) {
@@ -140,8 +142,7 @@ void check_linear(const Scenario& s, const std::string& word, base::Problems& ou
     out.push_back({"sensors.rotor", word, "needs a turning shaft, and this motor is linear",
                    "set rotor = \"encoder\" with sensors.encoder.pitch_mm, \"hall\" or \"ideal\""});
   else if (s.sensors.shaft == SensorShaft::load)
-    out.push_back({"sensors.shaft", "\"load\"",
-                   "applies to rotary motors only, and this motor is linear",
+    out.push_back({"sensors.shaft", "\"load\"", "applies to rotary motors only, and this motor is linear",
                    "set shaft = \"motor\""});
 }
 

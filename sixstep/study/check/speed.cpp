@@ -25,7 +25,8 @@ void check_positional(const Scenario& s, base::Problems& out) {
   refuse("setpoint_weight", loop.setpoint_weight);
   if (loop.derivative_filter_s && !loop.derivative_s && loop.form == SpeedForm::positional)
     out.push_back({"control.speed.derivative_filter_s", base::six_digits(*loop.derivative_filter_s),
-                   "has no effect without control.speed.derivative_s", "add control.speed.derivative_s, or remove it"});
+                   "has no effect without control.speed.derivative_s",
+                   "add control.speed.derivative_s, or remove it"});
   if (loop.observer_ratio)
     out.push_back({"control.speed.observer_ratio", base::six_digits(*loop.observer_ratio),
                    "applies to an observer only, and law = \"pi\" has none",

@@ -17,7 +17,8 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
     if (s.brake_on_V > 0 || s.brake_off_V > 0)
       out.push_back({s.brake_on_V > 0 ? "supply.brake_on_V" : "supply.brake_off_V",
                      base::six_digits(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
-                     "has no effect without supply.brake_resistance_ohm", "give supply.brake_resistance_ohm, or remove it"});
+                     "has no effect without supply.brake_resistance_ohm",
+                     "give supply.brake_resistance_ohm, or remove it"});
     return;
   }
   if (!has_capacitor)
@@ -48,7 +49,8 @@ void check_nominal(const Supply& s, base::Problems& out) {
   if (!(open_V > 0) || (s.voltage_V > open_V / 2 && s.voltage_V < open_V * 2)) return;
   out.push_back(
       {"supply.voltage_V", base::six_digits(s.voltage_V),
-       "is the voltage of the design, and differs too much from the source's open-circuit voltage, " + base::six_digits(open_V) + " V",
+       "is the voltage of the design, and differs too much from the source's open-circuit voltage, " +
+           base::six_digits(open_V) + " V",
        "write voltage_V = " + base::rounded(open_V, 3)});
 }
 

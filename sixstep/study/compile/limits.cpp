@@ -113,7 +113,8 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   const double from = highest_start_V(s);
   if (!(*wanted > from)) {  // check.cpp checks the supply at the start
     out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
-                   "must be above the highest voltage of the supply or at the start, " + base::three_digits(from) + " V",
+                   "must be above the highest voltage of the supply or at the start, " +
+                       base::three_digits(from) + " V",
                    "raise it: below that voltage the drive could never brake"});
     return;
   }
@@ -143,10 +144,11 @@ void check_saliency(const Scenario& s, base::Problems& out) {
   const double ratio = s.sheet.q_axis_inductance_mH->value / s.sheet.d_axis_inductance_mH->value;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, base::three_digits(*value),
-                     "is guaranteed only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
-                         base::three_digits(ratio) + " times its L_d",
-                     "remove it, and limit the references: control.current.limit_A, control.speed.torque_limit_Nm"});
+      out.push_back(
+          {key, base::three_digits(*value),
+           "is guaranteed only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
+               base::three_digits(ratio) + " times its L_d",
+           "remove it, and limit the references: control.current.limit_A, control.speed.torque_limit_Nm"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);
   refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);

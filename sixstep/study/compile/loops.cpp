@@ -195,8 +195,7 @@ GivenGains given_gains(const Loop& loop, double period_s, const std::string& whe
             : "contradicts settle_s and damping, which compute the gains",
           keep);
   else if (k && rule)
-    wrong(loop.kp ? "kp" : integral, "contradicts settle_s and damping, which compute the gains",
-          keep);
+    wrong(loop.kp ? "kp" : integral, "contradicts settle_s and damping, which compute the gains", keep);
   else if (d && !(loop.d1 && loop.d0))
     wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "add d0" : "add d1");
   else if (loop.ki && loop.ki_per_s)

@@ -47,8 +47,8 @@ LossWords words_of(control::LockLoss loss) {
 void note_unseen(const rig::Diagnosis& found, Outcome& out) {
   const std::string times = found.unseen == 1 ? "" : " in " + std::to_string(found.unseen) + " starts";
   out.notes.push_back(
-      "the pulses did not show which end of the magnet is north" + times + ": " + base::rounded(found.north, 2) +
-      " times their noise, of at least " + base::rounded(found.certain, 2) +
+      "the pulses did not show which end of the magnet is north" + times + ": " +
+      base::rounded(found.north, 2) + " times their noise, of at least " + base::rounded(found.certain, 2) +
       " times. So the drive aligned the rotor. Pulses show north only on a motor that saturates "
       "(saturation_current_A of its sheet)");
 }
@@ -122,13 +122,14 @@ base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
                   (found.field == std::string("overlap") ? "-1" : "0") + " to 1",
               "limit this value in the controller, and check for a division by 0"};
     case OwnWrong::leg:
-      return {
-          at(t_s), "",
-          answered(found) + (found.value > static_cast<double>(SIXSTEP_LEG_C) ? ", which is no leg"
-                                                                              : ", which is the same leg as source"),
-          "answer source and sink as two of the legs a, b, c"};
+      return {at(t_s), "",
+              answered(found) + (found.value > static_cast<double>(SIXSTEP_LEG_C)
+                                     ? ", which is no leg"
+                                     : ", which is the same leg as source"),
+              "answer source and sink as two of the legs a, b, c"};
     case OwnWrong::choice:
-      return {at(t_s), "", answered(found) + ", which is no value of own_controller.h", "use the constants of own_controller.h"};
+      return {at(t_s), "", answered(found) + ", which is no value of own_controller.h",
+              "use the constants of own_controller.h"};
     case OwnWrong::gave_up:
     case OwnWrong::none:
       break;
@@ -167,20 +168,23 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   if (fault == rig::Fault::core) return lost_core(found.core, t_s);
   if (fault == rig::Fault::own_controller) return refused_answer(found.own, t_s);
   if (fault == rig::Fault::north_unseen)
-    return {at(t_s), "",
-            "the injected pulses did not show which end of the magnet is north: " +
-                base::rounded(100 * found.north, 2) + " % of their current, of at least " +
-                base::rounded(100 * found.certain, 2) + " %",
-            "check that the rotor is at rest and that the motor's wires are intact; raise control.field.injection_V, or check the sheet's saturation_current_A"};
+    return {
+        at(t_s), "",
+        "the injected pulses did not show which end of the magnet is north: " +
+            base::rounded(100 * found.north, 2) + " % of their current, of at least " +
+            base::rounded(100 * found.certain, 2) + " %",
+        "check that the rotor is at rest and that the motor's wires are intact; raise control.field.injection_V, or check the sheet's saturation_current_A"};
   if (fault == rig::Fault::not_started)
-    return {at(t_s), "",
-            "the rotor did not follow the turning current in " +
-                std::to_string(found.losses) + " starts, so the drive stopped",
-            "check that the rotor can turn and that the load is at most T_start of the design; raise control.field.start_current_A, or give the drive a sensor"};
+    return {
+        at(t_s), "",
+        "the rotor did not follow the turning current in " + std::to_string(found.losses) +
+            " starts, so the drive stopped",
+        "check that the rotor can turn and that the load is at most T_start of the design; raise control.field.start_current_A, or give the drive a sensor"};
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "check the probes and their wires"};
-  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "check the probe and the wire of this line"};
+  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line),
+          "check the probe and the wire of this line"};
 }
 
 base::Problem ran_away(const plant::State<double>& s, double t_s) {

@@ -67,11 +67,10 @@ std::string on_long_overlap(const Scenario& s, const design::MotorModel& motor, 
   const double left_V = bus_V - emf_share(motor) * m.K_e_V_s * w.held_rad_s - 1.5 * m.R_ohm * w.held_A;
   const double sector_s = base::pi / 3 / (m.pole_pairs * w.held_rad_s);
   std::string text =
-      named(s) +
-      " lowers the torque when the leaving phase's current lasts about a sector or longer: at " +
+      named(s) + " lowers the torque when the leaving phase's current lasts about a sector or longer: at " +
       few_digits(w.held_rad_s) + " rad/s and a reference of " + few_digits(w.held_A) + " A this current ";
-  text += left_V > 0.0 ? "lasts " + few_digits(1e3 * m.L_H * w.held_A / left_V) +
-                             " ms, and a sector lasts " + few_digits(1e3 * sector_s) + " ms"
+  text += left_V > 0.0 ? "lasts " + few_digits(1e3 * m.L_H * w.held_A / left_V) + " ms, and a sector lasts " +
+                             few_digits(1e3 * sector_s) + " ms"
                        : "does not end within a sector";
   if (limit_rad_s > 0.0)
     text += "; at this current and bus the limit is " + few_digits(limit_rad_s / near_it) + " rad/s";

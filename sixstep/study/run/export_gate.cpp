@@ -106,8 +106,9 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
   };
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor",
-          in_the_field(s) ? "the exact angle and speed at every instant, and a board has only those of a decoder"
-                          : "the exact speed and position at every instant, and a board has only Hall edges",
+          in_the_field(s)
+              ? "the exact angle and speed at every instant, and a board has only those of a decoder"
+              : "the exact speed and position at every instant, and a board has only Hall edges",
           in_the_field(s)
               ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"
               : cure_by_hall(s));
@@ -160,10 +161,10 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
   if (!(s.bridge.dead_time_s > 0))
     refuse("turns one switch of a leg on while the other turns off, and real switches then short the bus");
   else if (counted_s < std::fmax(shortest_s, own_s))
-    refuse(own_s > shortest_s ? "ends before the other switch is off: the driver needs " +
-                                    base::three_digits(1e9 * own_s) +
-                                    " ns for gate_source_charge_C + gate_drain_charge_C at gate_current_A"
-                              : "is below 20e-9, in which no switch turns off");
+    refuse(own_s > shortest_s
+               ? "ends before the other switch is off: the driver needs " + base::three_digits(1e9 * own_s) +
+                     " ns for gate_source_charge_C + gate_drain_charge_C at gate_current_A"
+               : "is below 20e-9, in which no switch turns off");
 }
 
 /// Notes that a chip keeps its configured constants, and the bridge its dead time, while the scenario changes
@@ -171,9 +172,10 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
 void look_at_changes(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const auto changes = [&](const char* what) {
-      out.push_back({"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
-                     std::string("changes ") + what + ", and the header has only the configuration at the start",
-                     "remove the change, or export a scenario that begins with it"});
+      out.push_back(
+          {"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
+           std::string("changes ") + what + ", and the header has only the configuration at the start",
+           "remove the change, or export a scenario that begins with it"});
     };
     if (retunes(s.at[n])) changes("the drive's settings");
     if (s.at[n].bridge.dead_time_s) changes("the dead time");
@@ -213,7 +215,7 @@ base::Problems never_measured(const Scenario& s) {
     look_at_protection(s, *motor, out);
   if (s.require.empty())
     out.push_back({"require", "", "is missing: a run without requirements proves nothing",
-                   "give the drive's requirements in [[require]]; see sixstep help require"});
+                   "give the drive's requirements in [[require]]; the help on require explains its keys"});
   return out;
 }
 

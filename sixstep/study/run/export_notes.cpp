@@ -32,9 +32,10 @@ std::string withstood(const design::WithstandTimes& times, double ambient_degC) 
   const auto duration = [](const std::optional<double>& t) {
     return t ? "for " + few_digits(*t) + " s" : std::string("without end");
   };
-  return ": by the sheet's thermal values the winding withstands this current " + duration(times.by_values) + " from " +
-         few_digits(ambient_degC) + " degC" +
-         (times.differ() ? ", and by the worse ends of the thermal ranges " + duration(times.by_worse_ends) : "");
+  return ": by the sheet's thermal values the winding withstands this current " + duration(times.by_values) +
+         " from " + few_digits(ambient_degC) + " degC" +
+         (times.differ() ? ", and by the worse ends of the thermal ranges " + duration(times.by_worse_ends)
+                         : "");
 }
 
 /// The first reason why the drive does not hold on such a supply.
@@ -57,8 +58,9 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   if (times && !times->by_values && !times->by_worse_ends) return {};
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   const std::string stands =
-      times ? withstood(*times, s.heat.ambient_degC)
-            : "; without thermal values in the sheet it is not known how long the winding withstands this current";
+      times
+          ? withstood(*times, s.heat.ambient_degC)
+          : "; without thermal values in the sheet it is not known how long the winding withstands this current";
   const std::string multiple = nominal_A > 0.0
                                    ? ", " + few_digits(most->ampere / nominal_A) +
                                          " times the nominal current of " + few_digits(nominal_A) + " A"
@@ -125,7 +127,8 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
     if (found.empty()) look_at_stop(other, motor, listeners, found);
   }
   w.holds = found.empty();
-  if (!w.holds) w.note = std::string(condition) + "; with a supply that takes no current back, " + first_of(found);
+  if (!w.holds)
+    w.note = std::string(condition) + "; with a supply that takes no current back, " + first_of(found);
   return w;
 }
 
@@ -141,9 +144,7 @@ std::string short_dead_time(const Scenario& s) {
 
 std::string without_protection(const Scenario& s) {
   if (s.control.drive == FirmwareKind::product)
-    return s.protection.stall_s
-               ? ""
-               : "no stall is detected: give protection.stall_current_A and stall_s";
+    return s.protection.stall_s ? "" : "no stall is detected: give protection.stall_current_A and stall_s";
   return "control.drive = \"" + std::string(base::word(drive_choices, s.control.drive)) +
          "\" has no protection: the bridge stays on at over-current, over-voltage and a stall; add a protection to your firmware, or export control.drive = \"product\" with [protection]";
 }

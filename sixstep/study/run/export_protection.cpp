@@ -63,14 +63,16 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
   const double surely_A = 0.98 * most.ampere - 2 * count_A;
   if (!p.stall_current_A || *p.stall_current_A <= surely_A) return;
   const bool coarse = 2 * count_A > 0.1 * most.ampere;
-  const std::string limited =
-      "may never be exceeded: the current is limited to " + base::three_digits(most.ampere) + " A, " + most.by;
-  const std::string counted = ", and the converter resolves it to two counts of " + base::three_digits(count_A) + " A";
+  const std::string limited = "may never be exceeded: the current is limited to " +
+                              base::three_digits(most.ampere) + " A, " + most.by;
+  const std::string counted =
+      ", and the converter resolves it to two counts of " + base::three_digits(count_A) + " A";
   const std::string finer = "raise sensors.adc_bits, or lower sensors.current_range_A";
   const double lower_A = std::min(0.8 * most.ampere, surely_A);
   out.push_back(
       {"protection.stall_current_A", written(*p.stall_current_A), coarse ? limited + counted : limited,
-       lower_A > 0 ? "lower it, for example to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "") : finer});
+       lower_A > 0 ? "lower it, for example to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "")
+                   : finer});
 }
 
 /// Refuses a threshold that would stop a drive in normal operation.
@@ -95,9 +97,9 @@ void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, cons
               (times->by_values ? "within " + base::three_digits(*times->by_values) + " s" : "never") +
               " by the values themselves";
   out.push_back({"protection.stall_s", written(*s.protection.stall_s),
-                 "is longer than the winding withstands a stall: " +
-                     base::three_digits(most.ampere) + " A, " + most.by + ", heats it to " +
-                     base::three_digits(times->worse_limit_degC) + " degC within " + within,
+                 "is longer than the winding withstands a stall: " + base::three_digits(most.ampere) +
+                     " A, " + most.by + ", heats it to " + base::three_digits(times->worse_limit_degC) +
+                     " degC within " + within,
                  "shorten it, for example to " + rounded_down(0.5 * *times->by_worse_ends)});
 }
 

@@ -125,8 +125,7 @@ void look_at_current_range(const Scenario& s, const SeenPeaks& peaks, base::Prob
   if (peaks.phase_A < end) return;
   out.push_back({"sensors.current_range_A", written(*s.sensors.current_range_A),
                  "was exceeded in the run: " + base::three_digits(peaks.phase_A) +
-                     " A flowed, and the converter measures only up to " + base::three_digits(end) +
-                     " A",
+                     " A flowed, and the converter measures only up to " + base::three_digits(end) + " A",
                  "raise it, or lower the drive's current limit"});
 }
 
@@ -137,8 +136,8 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const 
     const double end = bus_end_V(s.sensors);
     if (!(peaks.bus_V < end))
       out.push_back({"sensors.bus_range_V", written(*s.sensors.bus_range_V),
-                     "was exceeded in the run: the bus reached " + bus + " V, and the converter measures only up to " +
-                         base::three_digits(end) + " V",
+                     "was exceeded in the run: the bus reached " + bus +
+                         " V, and the converter measures only up to " + base::three_digits(end) + " V",
                      "raise it, or limit the bus voltage"});
   }
   if (peaks.bus_V <= allowed_bus_V(s)) return;
@@ -146,7 +145,8 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const 
     return out.push_back(raised_after(s, *peaks.trip, bus));
   out.push_back(
       {"the bus", bus + " V",
-       "was raised by braking, from " + base::three_digits(highest_open_V(s)) + " V, and nothing limits the bus voltage",
+       "was raised by braking, from " + base::three_digits(highest_open_V(s)) +
+           " V, and nothing limits the bus voltage",
        "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, or allow this maximum of bus_voltage in [[require]]"});
 }
 

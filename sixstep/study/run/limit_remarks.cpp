@@ -91,9 +91,8 @@ std::string on_chopping(const Scenario& s, const Outcome& out) {
   return "the comparators chop at " + few_digits(1e-3 * Hz) +
          " kHz on average, independent of pwm.period_s, and few "
          "bridges for motors switch above " +
-         few_digits(1e-3 * fast_chopping_Hz) +
-         " kHz; control.current.band_A = " +
-         base::six_digits(wider_A) + " gives about that frequency";
+         few_digits(1e-3 * fast_chopping_Hz) + " kHz; control.current.band_A = " + base::six_digits(wider_A) +
+         " gives about that frequency";
 }
 
 }  // namespace

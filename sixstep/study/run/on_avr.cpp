@@ -53,7 +53,8 @@ void need_timer(const Scenario& s, base::Problems& out) {
   const double counts = s.pwm.period_s * clock_Hz / 2;
   const double whole = std::floor(counts + 0.5);
   need(counts >= 2 && counts <= most_counts && counts - whole < 1e-6 && whole - counts < 1e-6, out,
-       "pwm.period_s", "is not a multiple of 125 ns, the step of timer 1", "set a multiple of 125 ns, at most 8 ms");
+       "pwm.period_s", "is not a multiple of 125 ns, the step of timer 1",
+       "set a multiple of 125 ns, at most 8 ms");
 }
 
 /// Whether an event changes a transducer: other boards simulate this, the AVR's board does not.

@@ -19,7 +19,7 @@ base::Problems not_on_a_core(const Scenario& s) {
     out.push_back({"control.mode", "\"off\"", "leaves nothing for a core to run", "set control.mode"});
   if (std::any_of(s.at.begin(), s.at.end(), retunes))
     out.push_back({"at.control", "", "changes settings of the chip, which are fixed in the core's program",
-                   "remove such events, or run without --on"});
+                   "remove such events, or run the scenario on the host alone"});
   return out;
 }
 

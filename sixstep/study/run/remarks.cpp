@@ -60,7 +60,8 @@ std::string on_late_values(const Scenario& s) {
   if (unreached < 1) return {};
   return std::to_string(unreached) + " of the " + std::to_string(r.times_s.size()) +
          " values of the reference are after the end of the run, duration_s = " + few_digits(s.duration_s) +
-         ": the run does not use them" + (r.file.empty() ? "" : "; check the unit of the times: without a unit they are in s");
+         ": the run does not use them" +
+         (r.file.empty() ? "" : "; check the unit of the times: without a unit they are in s");
 }
 
 /// Time between two sector edges.

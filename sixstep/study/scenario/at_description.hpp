@@ -141,11 +141,12 @@ inline void describe(base::Visitor& v, AtBridge& s) {
            "a switch that stays on from then on: turning on the other switch of its leg causes shoot-through"});
   v.choice("phases", s.phases, at_phase_order_choices,
            {.meaning = "phases of the motor at legs a, b, c of the bridge from then on"});
-  v.value("dead_time_s", s.dead_time_s,
-          {.meaning =
-               "pause between turning one switch of a leg off and the other on, for all switching from then on",
-           .unit = "s",
-           .range = from(0)});
+  v.value(
+      "dead_time_s", s.dead_time_s,
+      {.meaning =
+           "pause between turning one switch of a leg off and the other on, for all switching from then on",
+       .unit = "s",
+       .range = from(0)});
 }
 
 inline constexpr base::Choice<Wire> wire_choices[] = {

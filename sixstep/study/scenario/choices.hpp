@@ -9,7 +9,8 @@ namespace sixstep::study {
 using base::Choice;
 
 inline constexpr Choice<Device> device_choices[] = {
-    {"mosfet", Device::mosfet, "a channel that is on conducts in both directions; its diode carries no current"},
+    {"mosfet", Device::mosfet,
+     "a channel that is on conducts in both directions; its diode carries no current"},
     {"igbt", Device::igbt, "a transistor that is on conducts in one direction, its diode in the other"},
 };
 inline constexpr Choice<SourceKind> source_choices[] = {

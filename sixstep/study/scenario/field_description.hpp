@@ -88,11 +88,12 @@ inline void describe(base::Visitor& v, Field& s) {
       {.meaning =
            "whether the current follows the shape of a non-sinusoidal back-EMF, so that its torque is the "
            "same at every angle. It is the least such current, along the magnet and across it"});
-  v.value("switching_weight_A", s.switching_weight_A,
-          {.meaning =
-               "finite-set: weight of one switching of a leg, as a current; its square is added to the squared distance of the current from its reference",
-           .unit = "A",
-           .range = base::from(0)});
+  v.value(
+      "switching_weight_A", s.switching_weight_A,
+      {.meaning =
+           "finite-set: weight of one switching of a leg, as a current; its square is added to the squared distance of the current from its reference",
+       .unit = "A",
+       .range = base::from(0)});
   v.value("peak_A", s.peak_A,
           {.meaning = "finite-set: limit of the current amplitude; a state that exceeds it is chosen only if "
                       "all states do",

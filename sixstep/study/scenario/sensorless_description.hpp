@@ -15,7 +15,8 @@ inline constexpr base::Choice<control::Follow> follow_choices[] = {
     {"crossings", control::Follow::crossings, "the floating terminal's own zero crossing"},
     {"luenberger", control::Follow::luenberger, "the crossing of a Luenberger observer's back-EMF"},
     {"sliding-mode", control::Follow::sliding_mode, "the crossing of a sliding-mode observer's back-EMF"},
-    {"flux-linkage", control::Follow::flux, "the flux linkage since the crossing, which determines the commutation instant"},
+    {"flux-linkage", control::Follow::flux,
+     "the flux linkage since the crossing, which determines the commutation instant"},
     {"comparators", control::Follow::comparators,
      "the terminal's crossing by the captured edges of sensors.comparators"},
 };

@@ -150,7 +150,7 @@ struct Checker {
       return add(
           where + ".key", "\"" + spread.key + "\"",
           "is not a number that may differ from drive to drive: one of motor_override, supply, bridge, load or initial, or a Hall edge",
-          "write it as table.key, for example \"supply.voltage_V\"; sixstep help spread.key lists the motor's keys");
+          "write it as table.key, for example \"supply.voltage_V\"; the help on spread.key lists the motor's keys");
     if (!at.number)
       return add(where + ".key", "\"" + spread.key + "\"", "has no value that could differ",
                  spread.key == torque_key     ? "spread back_emf_mV_s, which the sheet gives"
@@ -171,10 +171,11 @@ struct Checker {
         width(spread, *at.number) * (spread.distribution == Distribution::uniform ? 1.0 : spread.cut_sigma);
     for (const double end : {*at.number - reach, *at.number + reach})
       if (!at.range.holds(end))
-        return add(where + (spread.relative ? ".relative" : ".absolute"),
-                   base::written(spread.relative ? *spread.relative : *spread.absolute),
-                   "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
-                   spread.distribution == Distribution::uniform ? "lower it" : "lower it, or lower cut_sigma");
+        return add(
+            where + (spread.relative ? ".relative" : ".absolute"),
+            base::written(spread.relative ? *spread.relative : *spread.absolute),
+            "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
+            spread.distribution == Distribution::uniform ? "lower it" : "lower it, or lower cut_sigma");
   }
 
   void add(std::string where, std::string value, std::string limit, std::string cure) {

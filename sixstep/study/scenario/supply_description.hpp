@@ -54,8 +54,9 @@ inline void describe(base::Visitor& v, Supply& s) {
            .range = from(0)});
   v.value("brake_on_V", s.brake_on_V,
           {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
-  v.value("brake_off_V", s.brake_off_V,
-          {.meaning = "bus voltage below which the brake resistor is off again", .unit = "V", .range = from(0)});
+  v.value(
+      "brake_off_V", s.brake_off_V,
+      {.meaning = "bus voltage below which the brake resistor is off again", .unit = "V", .range = from(0)});
   v.value("sink_limit_A", s.sink_limit_A,
           {.meaning = "largest current that a source with sinks = false still takes back",
            .unit = "A",

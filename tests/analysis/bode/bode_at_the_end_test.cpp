@@ -84,7 +84,9 @@ TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   study::Scenario slewed = both_ways();
   slewed.at.push_back(change(0.01, slewed.reference.value));
   slewed.at[0].control.slew = 1000.0;
-  EXPECT_EQ(problem_of(slewed), "control.slew: limits how fast the setpoint changes, so that the response of the loop cannot be measured");
+  EXPECT_EQ(
+      problem_of(slewed),
+      "control.slew: limits how fast the setpoint changes, so that the response of the loop cannot be measured");
   study::Scenario off = both_ways();
   off.at.push_back({});
   off.at[0].time_s = 0.05;

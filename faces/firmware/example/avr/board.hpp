@@ -20,11 +20,12 @@ using exported::drive, exported::Scalar, exported::units;
 static_assert((drive.mode == Mode::current || drive.mode == Mode::duty) && drive.chopping == Chopping::soft &&
                   drive.extras.pwm.pattern == PwmPattern::upper,
               "this board supports only current or duty mode, soft chopping and PWM of the upper switch");
-static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
-              "this board has no own pulse for the third leg: set another control.current.commutation than overlap");
-static_assert(exported::pwm_centre_aligned,
-              "timer 1 counts up and down: set pwm.alignment = centre");
-static_assert(exported::sampled_in_middle, "timer 1 starts the conversion in the middle of the on-time: set pwm.sample = middle");
+static_assert(
+    !(Scalar{} < drive.extras.commutation.overlap_bus_V),
+    "this board has no own pulse for the third leg: set another control.current.commutation than overlap");
+static_assert(exported::pwm_centre_aligned, "timer 1 counts up and down: set pwm.alignment = centre");
+static_assert(exported::sampled_in_middle,
+              "timer 1 starts the conversion in the middle of the on-time: set pwm.sample = middle");
 static_assert(exported::adc_bits == 10, "the ATmega2560's converter has 10 bits: set sensors.adc_bits = 10");
 static_assert(sizeof(Scalar) == 2, "the signals must have 16 bits: set control.arithmetic = q15 or q14");
 #ifndef SIXSTEP_DESPITE  // defined by tools/firmware_image.sh --despite, and for an emulated chip
@@ -42,7 +43,8 @@ static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
 // Dead time in cycles, rounded up. change_over() waits for at least four.
 constexpr std::uint64_t dead_cycles =
     exported::dead_time_ps <= 250'000 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
-static_assert(dead_cycles <= 80, "an interrupt waits for the dead time: set bridge.dead_time_s to 5 us or less");
+static_assert(dead_cycles <= 80,
+              "an interrupt waits for the dead time: set bridge.dead_time_s to 5 us or less");
 
 // Readings in counts that no intact board has:
 constexpr std::uint16_t middle = 512;

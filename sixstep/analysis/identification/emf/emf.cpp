@@ -247,8 +247,8 @@ base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit
        .limit = "with " + base::rounded(fit.phase.rate[0] / base::turn_rad, 5) + " Hz makes " +
                 base::rounded(pairs, 4) + " pole pairs" +
                 (request.pole_pairs ? ", not " + std::to_string(*request.pole_pairs) : ", no whole number"),
-       .cure =
-           request.pole_pairs ? "leave out the less certain one: the speed or the pole pairs" : "give the pole pairs instead of the speed"}};
+       .cure = request.pole_pairs ? "leave out the less certain one: the speed or the pole pairs"
+                                  : "give the pole pairs instead of the speed"}};
 }
 
 }  // namespace

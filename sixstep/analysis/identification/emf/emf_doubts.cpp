@@ -128,12 +128,15 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
             .cure = "use a part of the recording without a gap, at least one and a half periods long"};
   }
   if (!regular)
-    return {.where = channel,
-            .value = "",
-            .limit = "has half waves of very different lengths: it is noise, or the motor's speed changes all the time",
-            .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"};
+    return {
+        .where = channel,
+        .value = "",
+        .limit =
+            "has half waves of very different lengths: it is noise, or the motor's speed changes all the time",
+        .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"};
   return {.where = channel,
-          .limit = "crosses its mean only " + std::to_string(passed) + " times; one and a half periods are needed",
+          .limit =
+              "crosses its mean only " + std::to_string(passed) + " times; one and a half periods are needed",
           .cure = "record for longer, or turn the motor faster"};
 }
 
@@ -144,12 +147,14 @@ base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
     for (const Harmonic& h : channel.harmonics) squares += 0.5 * (h.a_V * h.a_V + h.b_V * h.b_V);
     const double rms = std::sqrt(squares);
     if (channel.residual_rms_V < rms) continue;
-    return {{.where = record.channels[c].name,
-             .value = "",
-             .limit = "is noise: " + base::three_digits(rms) + " V rms repeat at " +
-                      base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
-                      base::three_digits(channel.residual_rms_V) + " V rms do not repeat",
-             .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"}};
+    return {
+        {.where = record.channels[c].name,
+         .value = "",
+         .limit = "is noise: " + base::three_digits(rms) + " V rms repeat at " +
+                  base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
+                  base::three_digits(channel.residual_rms_V) + " V rms do not repeat",
+         .cure =
+             "check the probe's connection, and turn the motor at a constant speed during the recording"}};
   }
   return {};
 }

@@ -119,9 +119,11 @@ class Fitter {
 };
 
 base::Problem not_periodic(const std::string& where) {
-  return {.where = where,
-          .limit = "is not a voltage that repeats from period to period",
-          .cure = "turn the shaft from outside during the recording, with only the probes connected to the motor"};
+  return {
+      .where = where,
+      .limit = "is not a voltage that repeats from period to period",
+      .cure =
+          "turn the shaft from outside during the recording, with only the probes connected to the motor"};
 }
 
 double least_step(const std::vector<double>& u) {

@@ -139,7 +139,8 @@ base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector
         .limit = "do not follow the Hall lines: the best fit leaves " +
                  base::rounded(100.0 * least / std::max(out.voltages.still_V2, 1e-300), 3) +
                  " % of the voltages' power unexplained",
-        .cure = "measure the three terminals of the same motor with the bridge off, and turn the motor faster"};
+        .cure =
+            "measure the three terminals of the same motor with the bridge off, and turn the motor faster"};
   out.mirrored_probability = 1.0 / (1.0 + base::exp(-odds(models[out.mirrored ? 0 : 1]->residual_V2)));
   const double off_deg = turned_into_place(out.voltages);
   out.rotation = static_cast<int>(std::floor((off_deg + 30.0) / 60.0));

@@ -104,12 +104,13 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
   for (const HallEdge& e : edges.edges) ++seen[repeating(e.boundary, own)];
   const std::size_t least = *std::min_element(seen.begin(), seen.end());
   if (least >= 2) return {};
-  return base::Problem{.where = "pole_pairs",
-                       .value = std::to_string(own / 6),
-                       .limit = "has " + std::to_string(own) +
-                                " edges on a turn of the shaft, and the log passes one of them " +
-                                (least == 0 ? "never" : "once"),
-                       .cure = "turn the shaft by at least two turns without reversing, or leave the pole pairs out"};
+  return base::Problem{
+      .where = "pole_pairs",
+      .value = std::to_string(own / 6),
+      .limit = "has " + std::to_string(own) +
+               " edges on a turn of the shaft, and the log passes one of them " +
+               (least == 0 ? "never" : "once"),
+      .cure = "turn the shaft by at least two turns without reversing, or leave the pole pairs out"};
 }
 
 /// Counts sightings that contradict all others: edges, without those at reversals of the rotor, and voltage
