@@ -75,7 +75,7 @@ void declare_own(CLI::App& verb, OwnArguments& own) {
       ->allow_extra_args(false);
   verb.add_option(
           "--own-cost", own.counts,
-          "file that tools/own_cost.sh --json wrote for one of them, for the columns tick and flash; may be repeated")
+          "file that tools/own_cost.sh --json wrote for one of these controllers, for the columns tick and flash; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
 }

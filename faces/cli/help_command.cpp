@@ -114,7 +114,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   const CLI::App* const verb = command_of(app, key);
   const KeyEntry* const same = text::find_key(scenario, key);
   if (verb && same)
-    print(fmt::format("{0} is a command, and a key of a scenario, which stands below the command.\n\n", key));
+    print(fmt::format("{0} is a command and also a key of a scenario; the key follows below.\n\n", key));
   if (verb) print(verb->help(app.get_name()));
   if (const KeyEntry* entry = same) {
     if (verb) print(fmt::format("The key {} of a scenario:\n", key));

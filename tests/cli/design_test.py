@@ -103,7 +103,7 @@ class Design(ProgramTest):
             for when, angle in re.findall(r"phase margin, (.*?) {2,}([\d.]+) deg", told):
                 margins[when] = float(angle)
             crossover = float(re.search(r"crossover +([\d.]+) kHz", told).group(1)) * 1e3
-        self.assertIn("a command counts 1.5 periods late, sampled in the middle of a period", told)
+        self.assertIn("a command acts 1.5 periods late, sampled in the middle of a period", told)
         half = 360 * crossover * 15e-6
         for sooner, later in (("no computation delay", "command half a period late"), ("command half a period late", "one period late"),
                               ("one period late", "1.5 periods late")):

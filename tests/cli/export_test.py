@@ -151,8 +151,8 @@ class Gate(ProgramTest):
         """All that is told at once, and the design that it names: no second refusal comes behind the first."""
         encoder = SOURCE / "data/scenarios/gallery/encoder.toml"
         said = self.run_program("export", "header", str(encoder), "--out", "d.hpp", code=2).stderr
-        self.assertIn('sensors.rotor = "encoder" has no decoder in the header\'s drive, which reads Hall probes; set rotor = "hall", '
-                      "and design gains and [[require]] for edges that come 7.5 deg apart\n", said)
+        self.assertIn('sensors.rotor = "encoder" is not supported by the header\'s drive, which reads Hall probes; set rotor = "hall", '
+                      "and design gains and [[require]] for Hall edges that are 7.5 deg apart\n", said)
         for cure in ("currents = \"phases\"", "delay_periods = 1", "500e-9", "sixstep design --scenario"):
             self.assertIn(cure, said)
         text = encoder.read_text().replace('rotor = "encoder"\n', 'rotor = "hall"\ncurrents = "phases"\ncurrent_range_A = 40\n')

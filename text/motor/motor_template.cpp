@@ -43,7 +43,7 @@ std::string line(const MotorStyle& style, const KeyEntry& given, std::string_vie
   return text + template_line(entry, {.key = key,
                                       .value = empty_value(entry),
                                       .open = needed,
-                                      .more = choice ? "frame: keep the one that the sheet means" : ""});
+                                      .more = choice ? "frame: keep the word that fits the sheet" : ""});
 }
 
 }  // namespace

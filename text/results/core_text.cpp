@@ -48,7 +48,7 @@ std::string_view last_remark(std::string_view sent) {
 
 std::vector<std::string> chip_texts(const study::ChipReport& c) {
   std::vector<std::string> out;
-  out.push_back(fmt::format("on the {} at {:g} MHz: the control interrupt runs {}; a period has {}", c.chip,
+  out.push_back(fmt::format("on the {} at {:g} MHz: the control interrupt runs {}; a period lasts {}", c.chip,
                             c.clock_Hz / 1e6, taken(c.times.control, c.clock_Hz),
                             cycles_text(c.period_s * c.clock_Hz, c.clock_Hz)));
   out.push_back(fmt::format("the Hall interrupt runs {}; edges at the pins are at most {:.2g} us late",

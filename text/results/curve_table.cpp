@@ -235,7 +235,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  if (!n.torque_Nm) return text + "; without a torque it cannot be compared with the curve.\n";
+  if (!n.torque_Nm) return text + "; without a torque this point cannot be compared with the curve.\n";
   if (!n.at_torque) return text + "; the curve does not reach that torque.\n";
   const analysis::OperatingPoint& p = *n.at_torque;
   text += fmt::format("; at that torque the curve has {}", speed_text(p.speed_rad_s, u));

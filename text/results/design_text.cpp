@@ -50,13 +50,12 @@ std::string motor_words(const sixstep::design::MotorModel& m) {
 
 std::string designed_motor_line(const DriveDesign& d, const study::Scenario& s) {
   const std::string chopping(sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping));
-  return fmt::format(
-      "{} on {} V: {}\n"
-      "control and PWM period {}, {} chopping, a command counts {}\n",
-      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(d.bus_V),
-      motor_words(d.motor), quantity_text(d.spec.period_s, "s"), chopping,
-      sixstep::design::late_words(d.spec.late_periods()) +
-          (d.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
+  return fmt::format("{} on {} V: {}\ncontrol and PWM period {}, {} chopping, a command acts {}\n",
+                     visible(s.sheet.name.empty() ? s.motor : s.sheet.name),
+                     sixstep::base::six_digits(d.bus_V), motor_words(d.motor),
+                     quantity_text(d.spec.period_s, "s"), chopping,
+                     sixstep::design::late_words(d.spec.late_periods()) +
+                         (d.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
 }
 
 std::string simulated_text(const analysis::DesignStudy& s) {

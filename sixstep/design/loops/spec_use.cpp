@@ -44,7 +44,7 @@ constexpr Idle idles[] = {
     {"load_inertia_kg_m2", current_alone, "has no effect, because mode = current holds the rotor",
      with_speed},
     {"edges", current_alone, "applies to a speed loop only, and mode = current has none", with_speed},
-    {"edges", no_probes, "applies to Hall probes only, and the rotor has none",
+    {"edges", no_probes, "applies to Hall probes only, and rotor is not hall",
      "take rotor = hall, or leave it out"},
     {"capture_Hz", current_alone, "applies to a speed loop only, and mode = current has none", with_speed},
     {"capture_Hz", no_edges, "applies to a timer that captures edges, and this rotor sensor has none",

@@ -90,7 +90,7 @@ class Lines final : public base::Visitor {
       if (reason.key == key) return std::string(reason.why);
     if (constants_.K_e_V_s)
       return "a second value of the torque constant, which the model takes from " + constants_.K_e_V_s->from;
-    return "the values that it needs beside it are missing";
+    return "the other values that this line needs are missing";
   }
   /// A no-load point gives the friction only if the point is complete and no other line gives the friction.
   std::string why_no_point(std::string_view key) const {

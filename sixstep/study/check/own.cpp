@@ -126,7 +126,7 @@ base::Problems check_controller(const sixstep_controller& is) {
     refuse(!is_name(p.name), (where + ".name").c_str(), p.name ? p.name : "",
            "must be letters, digits and '_'");
     refuse(p.unit == nullptr || p.meaning == nullptr, (where + ".meaning").c_str(), "",
-           "and unit must be texts, \"\" where there is none");
+           "and unit must be texts; write \"\" for none");
     refuse(!(p.preset >= p.least && p.preset <= p.most), (where + ".preset").c_str(), base::written(p.preset),
            "must be in least..most");
   }

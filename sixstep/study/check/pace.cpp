@@ -125,7 +125,7 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
       out.push_back({key, written(torque_Nm),
                      "is too large for a moment of inertia of " + base::three_digits(J) + " kg m2: at most " +
                          base::three_digits(most_Nm) + " N m are simulated",
-                     "check its unit and that of the inertia"});
+                     "check the units of the torque and of the inertia"});
   };
   look("load.torque_Nm", s.load.torque_Nm);
   look("load.gravity_Nm", s.load.gravity_Nm);

@@ -37,7 +37,7 @@ void check_registers(const Scenario& s, base::Problems& out) {
                    "set rotor = \"hall\", or control.drive = \"lean\""});
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-                   "gives the product drive the duty of another period than that of the shunt sample",
+                   "gives the product drive a duty that belongs to another period than the shunt sample",
                    "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
                    "anyway"});
 }

@@ -121,7 +121,7 @@ inline void describe(base::Visitor& v, AtSensors& s) {
   v.choice("broken_winding", s.broken_winding, winding_choices,
            {.meaning = "a winding of the resolver without a voltage from then on"});
   v.value("excitation", s.excitation,
-          {.meaning = "the resolver's excitation from then on, as a part of the full one",
+          {.meaning = "the resolver's excitation from then on, as a fraction of the full excitation",
            .range = base::between(0, 2)});
   v.choice("broken_divider", s.broken_divider, divider_choices,
            {.meaning = "a terminal's divider whose upper resistor opens then: it shows 0"});

@@ -65,7 +65,7 @@ inline void describe(base::Visitor& v, Supply& s) {
           {.meaning = "series resistance (ESR) of the bus capacitor", .unit = "ohm", .range = from(0)});
   describe_battery(v, s);
   v.value("mains_rms_V", s.mains_rms_V,
-          {.meaning = "mains, rms: of the line where single-phase, between two lines where three-phase",
+          {.meaning = "rms voltage of the mains: of a single phase, or between two lines of three phases",
            .unit = "V",
            .range = from(0)});
   v.value("mains_Hz", s.mains_Hz, {.meaning = "frequency of the mains", .unit = "Hz", .range = above(0)});

@@ -218,7 +218,7 @@ base::Problems check_alike(const EmfResult& result) {
     each += (each.empty() ? "" : ", ") + channel.name + " " + base::three_digits(channel.peak_V.value) + " V";
   return {{.where = "voltage",
            .value = each,
-           .limit = "have fundamentals that differ more than those of one motor",
+           .limit = "have fundamentals that differ too much for the phases of one motor",
            .cure = "check the dividers of the probes and the units of the columns"}};
 }
 
