@@ -140,7 +140,7 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
     notes.push_back(fmt::format(
-        "NOTHING WAS MEASURED: no line has a coherence of {:g}, so that commutation, ripple or noise exceeds the response. Give a larger --amplitude, or lock the rotor, which then does not commutate. If the drive stopped, a run without --bode shows the reason",
+        "NOTHING WAS MEASURED: no line has a coherence of {:g}: commutation, ripple or noise exceeds the response. Give a larger --amplitude, or lock the rotor (it then has no commutation). If the drive stopped, a run without --bode shows the reason",
         analysis::little_coherence));
   else if (few > 0)
     notes.push_back(fmt::format(

@@ -112,8 +112,8 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
       few_digits(w.shunt_least_duty) + " (" + hidden_by + ")";
   const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
   if (unseen_A > 0.0)
-    text += "; with the rotor at rest this duty is " + few_digits(unseen_A) +
-            " A: smaller currents are not measured";
+    text +=
+        "; at standstill this duty gives " + few_digits(unseen_A) + " A: smaller currents are not measured";
   return text + on_samples_taken_too_soon(s, w.shunt_least_duty);
 }
 

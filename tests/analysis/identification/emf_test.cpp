@@ -100,7 +100,8 @@ TEST(Emf, ChannelsThatContradictEachOtherAreRefused) {
     for (double& u : request.record.channels[1].u_V) u *= factor;
     const auto found = analysis::measure_emf(request);
     ASSERT_FALSE(found) << factor;
-    EXPECT_THAT(found.problems()[0].limit, HasSubstr("differ too much for the phases of one motor")) << factor;
+    EXPECT_THAT(found.problems()[0].limit, HasSubstr("differ too much for the phases of one motor"))
+        << factor;
   }
 }
 

@@ -15,15 +15,15 @@
 //   mean of the samples at 3 A: 2.85 .. 3.15 A required, 2.99076 A measured
 //   mean of the samples at 5 A: 4.75 .. 5.25 A required, 4.96589 A measured
 //   greatest current: <= 9 A required, 6.83261 A measured
-// Note: control.drive = "lean" has no protection: it leaves the bridge on at over-current, over-voltage and a stall; give your firmware one, or export control.drive = "product" with [protection]
-// Note: cleared for a supply that takes current back (supply.sinks = true): this stiff bus cannot rise; state supply.resistance_ohm, supply.capacitance_F and sinks = false if yours takes none
+// Note: control.drive = "lean" has no protection: the bridge stays on at over-current, over-voltage and a stall; add a protection to your firmware, or export control.drive = "product" with [protection]
+// Note: cleared for a supply that takes current back (supply.sinks = true). This stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and sinks = false
 // Assumptions of that run:
 //   supply    24 V, stiff, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
 //   timing    sampled in the middle of a period, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets constant at 25 degC

@@ -135,8 +135,8 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
             "has half waves of very different lengths: it is noise, or the motor's speed changes all the time",
         .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"};
   return {.where = channel,
-          .limit =
-              "crosses its mean only " + std::to_string(passed) + " times; one and a half periods are needed",
+          .limit = "crosses its mean only " + std::to_string(passed) + (passed == 1 ? " time" : " times") +
+                   "; one and a half periods are needed",
           .cure = "record for longer, or turn the motor faster"};
 }
 
