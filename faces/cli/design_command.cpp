@@ -328,7 +328,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option(
       "--toml", a.toml,
-      "write the simulated scenario, for sixstep run and export. Without --scenario its dead time is 0.5 us");
+      "write the simulated scenario, for sixstep run and export; without --scenario the dead time is 0.5 us");
   design.add_option("--html", a.html, "write the design as a page");
   CLI::Option* models =
       design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");

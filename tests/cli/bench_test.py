@@ -124,7 +124,7 @@ class Bench(Started):
             self.assertEqual(told["sheet"]["checks"][0]["holds"], code == 0)
         self.assertEqual(self.told("emf", "scope.csv", "--motor", "s.toml", "--pole-pairs", "4", code=1)["pole_pairs"], 4)
         line = self.refused("emf", "scope.csv", "--motor", "s.toml", "--pole-pairs", "3", "--write", "w.toml")
-        self.assertIn("--pole-pairs = 3 contradicts the 4 of s", line)
+        self.assertIn("--pole-pairs = 3 contradicts the 4 pole pairs of s", line)
         self.assertFalse((self.path / "w.toml").exists())
         self.run_program("motor", "emf", "scope.csv", "--motor", "s.toml", "--tolerance", "50")
 
@@ -143,7 +143,7 @@ class Bench(Started):
     def test_an_interval_does_not_overrule_a_column_of_time(self):
         of_file = self.told("emf", "scope.csv")
         self.assertEqual(self.told("emf", "scope.csv", "--interval", "2e-5"), of_file)
-        self.assertIn("scope.csv: contradicts the given interval of 4e-05 s: time steps by 2e-05 s",
+        self.assertIn("scope.csv: contradicts the given interval of 4e-05 s: time rises by 2e-05 s from row to row",
                       self.refused("emf", "scope.csv", "--interval", "4e-5"))
         self.assertIn("contradicts the given interval", self.refused("identify", "log.csv", "--interval", "1e-4"))
 
@@ -153,7 +153,7 @@ class Bench(Started):
         dead = "\n".join(",".join([*cells[:3], "0", *cells[4:]]) if n else ",".join(cells)
                          for n, cells in enumerate(line.split(",") for line in whole.splitlines()))
         for text, told in (("", "is empty; export the recording again"),
-                           ("".join(whole.splitlines(True)[:400]), "; turn the shaft by 3 electrical turns"),
+                           ("".join(whole.splitlines(True)[:400]), "; turn the shaft by at least 3 electrical turns"),
                            (standing, "hall1, hall2, hall3 never change: the rotor was at rest"),
                            (dead, "hall3 = 0 in every row, while another line changes"),
                            (whole.replace("hall", "pin"), "has no columns of Hall lines: it has time, pin1"),
@@ -181,7 +181,7 @@ class Bench(Started):
                            (head, "holds no row of numbers"),
                            (head + "".join(rows.splitlines(True)[:900]), "period"),
                            (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor was at rest"),
-                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing, and the headings do not tell between which points the voltages were measured; lines is"),
+                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing, and the headings do not tell between which points the voltages were measured; give lines"),
                            (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; write the heading time [s], or give"),
                            (whole + "1,inf\n", 'u_ab "inf" is not a number')):
             (self.path / "scope.csv").write_text(text)
@@ -202,7 +202,7 @@ class Bench(Started):
     def test_a_preamble_that_contradicts_the_rows_is_refused(self):
         (self.path / "scope.csv").write_text("# Sample interval: 20 ms\n" + (self.path / "scope.csv").read_text())
         line = self.refused("emf", "scope.csv")
-        self.assertIn('scope.csv: contradicts itself: time steps by 2e-05 s, and "Sample interval: 20 ms" says 0.02 s', line)
+        self.assertIn('scope.csv: contradicts itself: time rises by 2e-05 s from row to row, but "Sample interval: 20 ms" says 0.02 s', line)
         self.run_program("motor", "emf", "scope.csv", "--interval", "2e-5", "--quiet")
 
     def test_options_that_cannot_be(self):

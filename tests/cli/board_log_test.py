@@ -50,14 +50,14 @@ class BoardLog(LogTest):
         self.write_log()
         self.run_program("run", SCENARIO, "--compare", "log.csv", "--html", "over.html", "--quiet", code=0)
         page = (self.path / "over.html").read_text(encoding="utf-8")
-        for word in ("A board's log over its simulation", "what a board sent", "Log of the board, less the simulation", "log.csv"):
+        for word in ("A board's log over its simulation", "recorded on a board", "Log of the board, less the simulation", "log.csv"):
             self.assertIn(word, page)
 
     def test_refuses_with_a_way_out(self):
         self.write_log()
         (self.path / "bad.csv").write_text("t [us],i_m [V]\n1,2\n2,3\n")
         for words, said in (((SCENARIO, "--compare", "none.csv"), "none.csv"),
-                            ((SCENARIO, "--compare", "bad.csv"), "where A belongs"),
+                            ((SCENARIO, "--compare", "bad.csv"), "but A is expected"),
                             ((SCENARIO, SCENARIO, "--compare", "log.csv"), "name one scenario"),
                             ((SCENARIO, "--compare", "log.csv", "--csv", "x.csv"), "--html FILE as the only output"),
                             ((SCENARIO, "--compare", "log.csv", "--out", "d"), "--html FILE as the only output"),
@@ -191,9 +191,9 @@ class LogsOfOthers(LogTest):
     def test_what_cannot_be_compared_exits_2(self):
         good = [f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f}\n" for r in self.rows]
         for head, rows, words, said in (
-                ("t [ms],speed [counts]\n", good, (), 'heads speed in "counts", which is not a unit; rad/s belongs there; units that fit: rad/s, '),
-                ("t [ms],speed [Hz]\n", good, (), 'heads speed as Hz, where rad/s belongs; name another column; write rev/s for turns of the shaft'),
-                ("t [foo],speed [rpm]\n", good, (), 'heads t in "foo", which is not a unit; s belongs there'),
+                ("t [ms],speed [counts]\n", good, (), 'has the heading speed in "counts", which is not a unit; rad/s is expected; units that fit: rad/s, '),
+                ("t [ms],speed [Hz]\n", good, (), 'has the heading speed in Hz, but rad/s is expected; name another column; write rev/s for turns of the shaft'),
+                ("t [foo],speed [rpm]\n", good, (), 'has the heading t in "foo", which is not a unit; s is expected'),
                 ("t [s],speed [rpm]\n", good, (), "has 1 of 100 rows in the simulated time, 0 to 0.3 s; the log covers 0 to 297 s, and 5 are needed"),
                 ("t [ms],speed [rpm]\n", good[:4], (), "has 4 of 4 rows"),
                 ("t [ms],speed [rpm]\n", [*good[:5], "15.0,OL\n", *good[6:]], (), 'log.csv:7: speed "OL" is not a number'),

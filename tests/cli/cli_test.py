@@ -46,7 +46,7 @@ class CommandLine(ProgramTest):
         files = [self.write(f"{name}.toml", 1000) for name in ("a", "b")]
         self.run_program("run", *files, "--html", "both.html")
         page = (self.path / "both.html").read_text()
-        self.assertIn("Nothing that changes a run.", page)
+        self.assertIn("No difference that changes a run.", page)
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))
         differences = [curve for chart in data["charts"] if chart["id"].endswith("-difference") for curve in chart["curves"]]
         self.assertTrue(differences)
@@ -165,8 +165,8 @@ class CommandLine(ProgramTest):
         told = self.run_program("run", self.write("a.toml", 1000), "--tolerances", code=2).stderr
         self.assertTrue(told.startswith("--tolerances needs several drives"), told)
         self.assertNotIn("--vary", told)
-        self.assertIn("describes no series", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
-        self.assertIn("describes no series", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
+        self.assertIn("has no [[spread]]", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
+        self.assertIn("has no [[spread]]", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
         file = self.write_series(1000)
         self.assertIn("--only", self.run_program("run", file, "--runs", "3", "--vcd", "a.vcd", code=2).stderr)
         self.run_program("run", file, "--runs", "3", "--drive", "1", code=2)
@@ -193,18 +193,18 @@ class CommandLine(ProgramTest):
                 ("run", "sixstep run needs FILE: scenario or plan files; sixstep run --help lists all"),
                 ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help lists all"),
                 ("motor lst", "lst is not a command of sixstep motor; did you mean list?"),
-                ("run a.toml --htlm x", "--htlm is no argument of sixstep run; did you mean --html?"),
-                ("run a.toml --duraton 3", "--duraton is no argument of sixstep run; did you mean --set duration_s=..?"),
-                ("run a.toml --supply-voltage=3", "--supply-voltage=3 is no argument of sixstep run; did you mean --set supply.voltage_V=..?"),
+                ("run a.toml --htlm x", "--htlm is not an argument of sixstep run; did you mean --html?"),
+                ("run a.toml --duraton 3", "--duraton is not an argument of sixstep run; did you mean --set duration_s=..?"),
+                ("run a.toml --supply-voltage=3", "--supply-voltage=3 is not an argument of sixstep run; did you mean --set supply.voltage_V=..?"),
                 ("run a.toml --csv", "--csv needs a value after it; it means: write the recorded trace"),
                 ("run a.toml --html x --html y", "--html is given more than once; keep one"),
                 ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave out one of the two"),
                 ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help lists all"),
                 ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help lists all"),
                 ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number; it means: number of points from standstill to no load. Default: 41"),
-                ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number without a unit; it means: bus voltage, V; "
+                ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number without a unit; it means: bus voltage, V. "
                                                      "Default: the sheet's nominal voltage"),
-                ("--verson", "--verson is no argument of sixstep; did you mean --version?"),
+                ("--verson", "--verson is not an argument of sixstep; did you mean --version?"),
                 ("run -", "-: is not a file; to read from a pipe, name /dev/stdin"),
                 ("run /dev/zero", "/dev/zero: cannot be read: it is larger than 128 MiB; name a smaller file")):
             with self.subTest(words):

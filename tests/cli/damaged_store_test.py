@@ -94,7 +94,7 @@ class DamagedStore(ProgramTest):
 
     def test_rows_beyond_the_plan_are_told(self):
         told = self.run_program("run", "a.toml", "--runs", "50", "--store", "s.sqlite", "--resume", code=1)
-        self.assertIn(f"s.sqlite: holds {MORE - 50} runs beyond the 50 of this plan", told.stderr)
+        self.assertIn(f"s.sqlite: holds {MORE - 50} more runs than the 50 of this plan", told.stderr)
         self.assertIn("50 drives", told.stdout)
 
     def test_another_version_or_format_is_named(self):

@@ -235,7 +235,7 @@ class Plan(ProgramTest):
                             (["--resume"], "--resume continues the runs of a store"),
                             (["--tolerances"], "--tolerances needs several drives"),
                             ([*varied, "--tolerances"], "--tolerances needs several drives"),
-                            ([*varied, "--watch"], "--watch reruns scenarios"),
+                            ([*varied, "--watch"], "--watch repeats one scenario"),
                             ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
                             ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V has no effect, because the plan varies this key"),
                             ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies to drawn points")):
@@ -313,7 +313,7 @@ class Plan(ProgramTest):
                            ("supply.voltage_V=1:2:x", "is not a number of points"),
                            ("supply.voltage_V=1:2:3:cubic", "write log or linear"),
                            ("supply.voltage_V=1:2", "give at least 2 points"),
-                           ("supply.voltage_V=-1:2:3:log", "has no logarithm"),
+                           ("supply.voltage_V=-1:2:3:log", "must be above 0, like both ends of a logarithmic range"),
                            ("supply.voltage_V=1m:2m:3", "m"),
                            ("pwm.chopping=soft,hrad", "hrad"),
                            ("require[0].max=1,2", "is the same in all runs"),

@@ -152,7 +152,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   EXPECT_NE(first(s).find("back_emf_shape = 3 values needs one for each of the 4"), std::string::npos)
       << first(s);
   s = sheet_of({{0, 120, 120.001, 300}, {1, 1, -1, -1}});
-  EXPECT_NE(first(s).find("at least 0.01 behind it"), std::string::npos) << first(s);
+  EXPECT_NE(first(s).find("at least 0.01 deg before the next angle"), std::string::npos) << first(s);
   s = sheet_of({{0, 120, 180, 360}, {1, 1, -1, -1}});
   EXPECT_NE(first(s).find("must lie in [0, 360)"), std::string::npos) << first(s);
   s = sheet_of({{0, 180}, {2, 2}});

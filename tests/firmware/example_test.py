@@ -92,7 +92,7 @@ class Examples(unittest.TestCase):
         held = re.search(r"double timer_Hz = (\S+);", text)[1]
         scenario = tomllib.loads((REPOSITORY / "data/scenarios/firmware/cortex-m.toml").read_text())
         self.assertEqual(float.fromhex(held), scenario["sensors"]["capture_Hz"])
-        for old, new, words in ((held, (1e6).hex(), "set sensors.capture_Hz to it"), ("in_middle = false", "in_middle = true", "at a period's start")):
+        for old, new, words in ((held, (1e6).hex(), "set sensors.capture_Hz to clock_Hz"), ("in_middle = false", "in_middle = true", "at the start of a period")):
             with self.subTest(new), tempfile.TemporaryDirectory() as folder:
                 (pathlib.Path(folder) / "drive_config.hpp").write_text(text.replace(old, new))
                 done, _ = self.compiled("cortex_m", folder)

@@ -133,7 +133,7 @@ TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
       html,
       HasSubstr(
           "<td class=\"num bad\">10.83\u00a0A <b>✗ not met</b><small class=\"aside\">+100\u00a0%</small>"));
-  EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
+  EXPECT_THAT(html, HasSubstr("No difference that changes a run."));
 }
 
 sixstep::study::Scenario shipped(const std::string& name) {

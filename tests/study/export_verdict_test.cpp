@@ -134,7 +134,7 @@ TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
     ASSERT_NE(cure, "") << bits;
     constexpr std::string_view lower = "lower it, for example to ";
     if (!cure.starts_with(lower)) {
-      EXPECT_THAT(cure, HasSubstr("more bits")) << bits;
+      EXPECT_THAT(cure, HasSubstr("raise sensors.adc_bits")) << bits;
       continue;
     }
     s.protection.stall_current_A = std::stod(cure.substr(lower.size()));

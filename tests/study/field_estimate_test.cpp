@@ -301,14 +301,14 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
     change(other);
     return other;
   };
-  expect_refused(with([](Scenario& x) { x.pwm.sample = SampleAt::middle; }), "pwm.sample", "zero crossing");
+  expect_refused(with([](Scenario& x) { x.pwm.sample = SampleAt::middle; }), "pwm.sample", "crosses zero");
   expect_refused(with([](Scenario& x) { x.control.mode = Mode::position; }), "control.mode", "counts turns");
   expect_refused(with([](Scenario& x) { x.sensors.rotor = RotorSensing::encoder; }), "sensors.rotor",
                  "has no effect");
   expect_refused(with([](Scenario& x) { x.control.field.law = FieldLaw::finite_set; }), "control.field.law",
-                 "no pulses");
+                 "makes no PWM pulses");
   expect_refused(with([](Scenario& x) { x.sheet.saturation_current_A.reset(); }), "control.field.angle",
-                 "the sheet gives none");
+                 "the sheet has no saturation_current_A");
   expect_refused(with([](Scenario& x) { x.control.field.start_current_A = 1.0; }),
                  "control.field.start_current_A", "unknown at rest");
   expect_refused(with([](Scenario& x) {

@@ -189,7 +189,7 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   EXPECT_EQ(fault(pair_puppet, wrong), answered("overlap = -1.5 in step 1, which must lie in -1 to 1"));
   wrong = pair;
   wrong.sink = 0;
-  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 0 in step 1, the same leg as source"));
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 0 in step 1, which is the same leg as source"));
   wrong.sink = 3;
   EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 3 in step 1, which is no leg"));
   wrong = pair;

@@ -89,11 +89,11 @@ TEST(Remarks, AShuntThatSeesNoPulse) {
   Scenario s = on_one_shunt();
   // The current is visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
   EXPECT_THAT(remarks_on(s),
-              Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("that is 1.55 A"))));
+              Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("this duty gives 1.55 A"))));
   s.pwm.chopping = control::Chopping::complementary;
-  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("that is 1.55 A")));
+  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("this duty gives 1.55 A")));
   s.pwm.chopping = control::Chopping::hard;  // no current at a duty of one half, where each pulse is seen
-  EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("at rest"))));
+  EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("at standstill"))));
   s.pwm.chopping = control::Chopping::soft;
   s.reference.value = 5.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
@@ -113,8 +113,9 @@ TEST(Remarks, AShuntBehindARealBridge) {
   s.bridge.on_resistance_ohm = 0.0;
   s.sensors.current_delay_s = 3e-6;
   EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 8e-6 / 30e-6 / 1.03, 1e-12);
-  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("above a duty of 0.267"), HasSubstr("that is 6.21 A"),
-                                            HasSubstr("sensors.current_delay_s = 3 us"))));
+  EXPECT_THAT(remarks_on(s),
+              Contains(AllOf(HasSubstr("above a duty of 0.267"), HasSubstr("this duty gives 6.21 A"),
+                             HasSubstr("sensors.current_delay_s = 3 us"))));
   s.sensors.current_delay_s = 0.0;
   s.pwm.minimum_pulse_s = 3e-6;
   EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 0.1 / 1.03, 1e-12);
@@ -141,7 +142,7 @@ TEST(Remarks, AShuntBehindADeadTime) {
   s.reference.value = 0.5 * hidden_A;
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.133"), HasSubstr("bridge.dead_time_s = 1 us"),
-                             HasSubstr("that is 2.33 A"))));
+                             HasSubstr("this duty gives 2.33 A"))));
   s.pwm.chopping = control::Chopping::soft;  // no other switch of the leg to wait for
   EXPECT_NEAR(study::least_visible_duty(s), 2.0 / 30, 1e-15);
 }
@@ -164,7 +165,7 @@ TEST(Remarks, HallEdgesRarerThanTheTimeout) {
   s.sensors.rotor = study::RotorSensing::hall;
   // Eight pole pairs have an edge each (pi/3)/(8 x 2) = 65.4 ms; the slowest speed is (pi/3)/8/50 ms = 2.618
   // rad/s.
-  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("each 65.4 ms"), HasSubstr("timeout_s = 50 ms"),
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("every 65.4 ms"), HasSubstr("timeout_s = 50 ms"),
                                             HasSubstr("slowest measurable speed is 2.62 rad/s"))));
   s.reference.value = 5.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());

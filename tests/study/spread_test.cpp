@@ -253,7 +253,7 @@ TEST(Spread, RefusesWhatCannotStray) {
   EXPECT_THAT(refusal(relative("motor_override.back_emf_mV_s", 0.1)),
               HasSubstr("spread torque_constant_mNm_A, which the sheet gives"));
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 1.5)),
-              HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside of the key's range"));
+              HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside the key's range"));
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 0.4, Distribution::normal)),
               HasSubstr("lower it, or lower cut_sigma"));
   Spread none;

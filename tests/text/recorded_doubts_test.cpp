@@ -25,14 +25,15 @@ TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
         << head;
   }
   EXPECT_THAT(seen(plain("time [s],u_ab [A],u_bc [A]\n")).problem,
-              HasSubstr("heads u_ab as A, where V belongs"));
+              HasSubstr("has the heading u_ab in A, but V is expected"));
 }
 
 /// The heading's unit contradicts the one in the row below it, or above it in Tektronix' files.
 TEST(RecordedDoubts, UnitsThatContradictEachOtherAreRefused) {
   for (const char* head :
        {"time [s],u_ab (mV),u_bc (mV)\ns,V,V\n", "Vertical Units,V,V\ntime [s],u_ab (mV),u_bc (mV)\n"})
-    EXPECT_THAT(seen(plain(head), between_lines).problem, HasSubstr("heads u_ab in \"mV and V\"")) << head;
+    EXPECT_THAT(seen(plain(head), between_lines).problem, HasSubstr("has the heading u_ab in \"mV and V\""))
+        << head;
 }
 
 TEST(RecordedDoubts, UnitsAboveTheHeadingsCount) {
@@ -229,7 +230,7 @@ TEST(RecordedDoubts, ARateInThePreamble) {
     expect_right(std::string(said) + "\n" + plain("Time,u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6));
   for (const char* head : {"Time [s],u_ab,u_bc\n", "Time (ms),u_ab,u_bc\n"})
     EXPECT_THAT(seen(rate + plain(head, "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
-                HasSubstr("contradicts itself: Time steps by"))
+                HasSubstr("contradicts itself: Time rises by"))
         << head;
   EXPECT_THAT(seen("Samplerate: 1 kHz\n" + plain("Time [s],u_ab,u_bc\n")).problem,
               HasSubstr("contradicts itself"));
@@ -240,9 +241,9 @@ TEST(RecordedDoubts, ARateInThePreamble) {
 
 TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
   // The column of microseconds has a heading in seconds: 117 Hz become 117 uHz.
-  EXPECT_THAT(
-      seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
-      AllOf(HasSubstr("time makes 0.001 rpm with 7 pole pairs"), HasSubstr("check the unit of time")));
+  EXPECT_THAT(seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
+              AllOf(HasSubstr("time gives the shaft 0.001 rpm with 7 pole pairs"),
+                    HasSubstr("check the unit of time")));
   // The columns of millivolts have a heading in kilovolts.
   EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.6f},{:.5f},{:.5f}\n", 1.0, 1e3)).problem,
               AllOf(HasSubstr("no brushless machine is built with more than 1e+06"),
@@ -262,9 +263,9 @@ TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
               })).problem,
               HasSubstr("is clipped"));
   EXPECT_THAT(seen(of([](int n, double) { return std::sin(7919.0 * n * n); })).problem,
-              HasSubstr("u_ab is noise"));
+              HasSubstr("u_ab has half waves of very different lengths"));
   EXPECT_THAT(seen(of([](int n, double u) { return 0.1 * u + std::sin(7919.0 * n * n); })).problem,
-              HasSubstr("u_ab is noise"));
+              HasSubstr("u_ab has half waves of very different lengths"));
   const std::string torn = table("time [s],u_ab\n", [](int n, double t, double, double) {
     const double at = n < 43 ? t : t + 1.0;
     return fmt::format("{:.6f},{:.5f}\n", at, u_ab(at));

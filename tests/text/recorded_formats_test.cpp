@@ -127,7 +127,7 @@ TEST(RecordedFormats, TektronixTds) {
   expect_right(file(1e-4, "V"), 1e-5, between_lines, 1);
   EXPECT_THAT(seen(file(1e-4, "V"), between_lines).channels, ElementsAre("CH1"));
   EXPECT_THAT(seen(file(1e-7, "V"), between_lines).problem, HasSubstr("contradicts itself"));
-  EXPECT_THAT(seen(file(1e-4, "dBV"), between_lines).problem, HasSubstr("heads CH1 in \"dBV\""));
+  EXPECT_THAT(seen(file(1e-4, "dBV"), between_lines).problem, HasSubstr("has the heading CH1 in \"dBV\""));
 }
 
 TEST(RecordedFormats, LabViewWithAndWithoutItsColumnOfX) {

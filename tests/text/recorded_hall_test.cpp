@@ -76,7 +76,7 @@ TEST(RecordedHall, SigrokWithAColumnOfTime) {
   expect_right(found, rows);
   ASSERT_FALSE(found.log.t_s.empty());
   EXPECT_NEAR(found.log.t_s.back(), 0.2, 1e-4);
-  EXPECT_THAT(found.notes, Contains("Time is in us, as \"Samplerate: 20 kHz\" says"));
+  EXPECT_THAT(found.notes, Contains("Time is in us by \"Samplerate: 20 kHz\""));
   const auto identity = analysis::identify(found.log, 1, [] { return true; });
   ASSERT_TRUE(identity);
   // Rows at changes alone are whole numbers of samples apart.
@@ -186,7 +186,7 @@ TEST(RecordedHall, WhatVoltagesAreOfIsNeverGuessedByTheirNumber) {
   const std::vector<std::string> two = {"CH4", "CH5"}, three = {"CH4", "CH5", "CH6"};
   for (const Seen& found : {with("u_a,u_b"), with("u_a,u_b", {"u_a", "u_b"}),
                             with("u_a,u_b", {}, EmfBetween::star), with("CH4,CH5", two, EmfBetween::star)})
-    EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; u_a, u_b and u_c are needed"));
+    EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; give u_a, u_b and u_c"));
   for (const Seen& found :
        {with("CH4,CH5", two), with("CH4,CH5,CH6", three), with("u_ab,u_b", {"u_ab", "u_b"})})
     EXPECT_THAT(found.problem,

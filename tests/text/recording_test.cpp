@@ -170,7 +170,7 @@ TEST(Recording, TimesThatDoNotTell) {
   EXPECT_THAT(told_of_emf(scope(2) + "0.001,1\n"),
               StartsWith("r.csv: time 0.001 in row 201 does not rise; give the rows in the order"));
   EXPECT_THAT(told_of_emf("time [V],u_ab [V]\n0,1\n1,2\n"),
-              StartsWith("r.csv: heads time as V, where s belongs; name another column"));
+              StartsWith("r.csv: has the heading time in V, but s is expected; name another column"));
 }
 
 /// An interval replaces a missing time; it does not override the file's.
@@ -219,13 +219,13 @@ TEST(Recording, WrongColumns) {
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n1e-3,4.5\n"),
               StartsWith("r.csv: hall 4.5 in row 2 is not a Hall code, 0 to 7"));
   EXPECT_THAT(told_of_hall(hall_log(36, "time [s],hall1 [s],hall2,hall3\n")),
-              StartsWith("r.csv: heads hall1 as s, where V belongs"));
+              StartsWith("r.csv: has the heading hall1 in s, but V is expected"));
   EXPECT_THAT(told_of_emf("time [s]\n0\n1\n3\n"),
               StartsWith("r.csv: has no column of voltages: it has time"));
   EXPECT_THAT(told_of_emf(scope(4, 3.0, "time [s],CH1 [V]\n")),
               StartsWith("between is missing, and the headings do not tell between which points"));
   EXPECT_THAT(told_of_hall("time [s],hall,u_ab\n0,4,1\n1e-3,4,1\n"),
-              StartsWith("r.csv: has 1 voltage of lines; u_ab and u_bc are needed"));
+              StartsWith("r.csv: has 1 voltage of lines; give u_ab and u_bc"));
 }
 
 /// With the wrong character between the cells there is one column.

@@ -41,9 +41,9 @@ TEST(ReferenceFile, IsReadWhateverPartsItsCells) {
 }
 
 TEST(ReferenceFile, WhichOfManyColumnsIsMeantIsNotGuessed) {
-  EXPECT_THAT(
-      told("t [s],x [A],i [A]\n0,0,0\n0.1,3,100\n"),
-      ElementsAre(AllOf(HasSubstr("r.csv:2: has 3 columns: \"x\", \"i\""), HasSubstr("name the column"))));
+  EXPECT_THAT(told("t [s],x [A],i [A]\n0,0,0\n0.1,3,100\n"),
+              ElementsAre(AllOf(HasSubstr("r.csv:2: has 3 columns: \"x\", \"i\""),
+                                HasSubstr("name the wanted column"))));
   EXPECT_THAT(told("0,0,0\n0.1,3,100\n"), ElementsAre(HasSubstr("keep two columns")));
   const base::Result<ShapeRows> shape = shape_rows("s.csv", "angle [deg],e,f\n0,0,0\n360,0,0\n");
   ASSERT_FALSE(shape);
@@ -65,7 +65,8 @@ TEST(ReferenceFile, AHeadingMayBringAUnit) {
   EXPECT_THAT(read("t,what I saw\n0,30\n", "A").values, ElementsAre(30.0)) << "no unit: as wanted";
   EXPECT_THAT(
       told("t_s,u_V\n0,1\n"),
-      ElementsAre(HasSubstr("r.csv: heads u as V, where A belongs; name another column; units that fit: A")));
+      ElementsAre(HasSubstr(
+          "r.csv: has the heading u in V, but A is expected; name another column; units that fit: A")));
   for (const char* odd : {"t_s,i [counts]\n0,1\n", "Time (foo),i\n0,1\n"})
     EXPECT_THAT(told(odd), ElementsAre(HasSubstr("which is not a unit"))) << odd;
   // The micro sign is one byte in the encoding of older instruments.

@@ -64,7 +64,7 @@ base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked,
   const RecordedColumn& column = *picked.column;
   if (!column.odd_unit.empty())
     return of_recording(r,
-                        fmt::format("has the heading {} in \"{}\", which is not a unit; expected is {}",
+                        fmt::format("has the heading {} in \"{}\", which is not a unit; {} is expected",
                                     column.name, column.odd_unit, belongs),
                         wanted.unit.empty() ? "write the heading without a unit"
                                             : "units that fit: " + units_that_fit(wanted.unit));
@@ -72,7 +72,7 @@ base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked,
   base::Result<Conversion> found = conversion(picked.unit, wanted);
   if (!found)
     return of_recording(
-        r, fmt::format("has the heading {} in {}; expected is {}", column.name, picked.unit, belongs),
+        r, fmt::format("has the heading {} in {}, but {} is expected", column.name, picked.unit, belongs),
         wanted.unit.empty() ? "name another column" : "name another column; " + found.problems()[0].cure);
   found->ten -= unit_of(picked.unit)->ten;
   return found;

@@ -102,7 +102,7 @@ class Checker {
                  "give two finite numbers");
     if (a.spacing == Spacing::logarithmic && !(a.from > 0.0 && a.to > 0.0))
       return add(where + "from", base::written(std::min(a.from, a.to)),
-                 "must be above 0: both ends of a logarithmic range have a logarithm",
+                 "must be above 0, like both ends of a logarithmic range",
                  "give ends above 0, or set spacing = \"linear\"");
     if (plan_.sampling == Sampling::grid && a.points < 2)
       return add(where + "points", std::to_string(a.points), "must be at least 2, for both ends of the range",

@@ -42,7 +42,7 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   if (m.L_d_H == m.L_q_H)
     return {
         {"control.field.angle", "\"injection\"",
-         "finds the magnet's axis by the difference of L_d and L_q, and this rotor has none",
+         "finds the magnet's axis by the difference of L_d and L_q, and both inductances are equal",
          "give d_axis_inductance_mH and q_axis_inductance_mH in the motor file, or set angle = \"observer\""}};
   const double turns = m.L_d_H < m.L_q_H ? m.L_q_H / m.L_d_H - 1 : 1 - m.L_q_H / m.L_d_H;
   const double part = saturation_A > 0 ? std::min({0.2, turns / 2, s.current_A / saturation_A}) : 0.0;

@@ -88,7 +88,7 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
   if (s.control.field.angle != FieldAngle::observer && s.pwm.sample == SampleAt::middle)
     out.push_back(
         {"pwm.sample", "\"middle\"",
-         "samples where the current of the injected pulse crosses zero, so that it cannot be measured",
+         "samples where the current of the injected pulse crosses zero; this current cannot be measured then",
          "set sample = \"start\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"field-oriented\"",

@@ -95,9 +95,8 @@ base::Problems check_controller(const sixstep_controller& is) {
   base::Problems out;
   const auto refuse = [&out](bool wrong, const char* where, const std::string& value, const char* limit) {
     if (wrong)
-      out.push_back(
-          {where, value, limit,
-           "correct the controller's description; sixstep/control/own/own_controller.h explains it"});
+      out.push_back({where, value, limit,
+                     "compare the controller's description with sixstep/control/own/own_controller.h"});
   };
   if (is.interface == in_float)
     return {{"interface", std::to_string(is.interface),

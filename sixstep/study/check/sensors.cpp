@@ -78,10 +78,11 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
     const std::size_t next = (n + 1) % own.size();
     const double gap = 60 + own[next] - own[n] - x.hall_hysteresis_deg;
     if (gap < least_gap_deg)
-      return out.push_back({"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
-                            "is " + base::written(gap) +
-                                " deg after the edge before, less the hysteresis; at least 1 deg is needed",
-                            "give angles that keep the order of the edges"});
+      return out.push_back(
+          {"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
+           "is " + base::written(gap) +
+               " deg after the previous edge, with the hysteresis subtracted; at least 1 deg is needed",
+           "give angles that keep the order of the edges"});
   }
 }
 

@@ -290,7 +290,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   Draw draw(3);
   for (double& u : request.record.channels[0].u_V) u = normal(draw);
   EXPECT_THAT(told(request),
-              ::testing::AnyOf(HasSubstr("is not a voltage that repeats"), HasSubstr("ch1 is noise")));
+              ::testing::AnyOf(HasSubstr("half waves of very different lengths"), HasSubstr("ch1 is noise")));
   EmfTruth brief = clean(false);
   brief.periods = 1.2;
   EXPECT_THAT(told(drawn_record(brief)),
