@@ -36,7 +36,8 @@ constexpr double most_ahead = 4096;
 letters::Letter letter_of(const Mail& mail) {
   std::optional<letters::Letter> letter = letters::read(mail.bytes);
   if (!letter)
-    throw std::runtime_error("another build of sixstep leads: install the same build on all nodes");
+    throw std::runtime_error(
+        "the first process runs another build of sixstep; install the same build on all nodes");
   return std::move(*letter);
 }
 

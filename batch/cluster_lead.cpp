@@ -147,7 +147,8 @@ class Leader {
 
  private:
   static std::runtime_error another_build() {
-    return std::runtime_error("another build of sixstep runs on other nodes: install the same build on all");
+    return std::runtime_error(
+        "other nodes run another build of sixstep; install the same build on all nodes");
   }
   void tell_all(const letters::Letter& letter) {
     const std::string bytes = letters::bytes_of(letter);

@@ -9,7 +9,7 @@ base::Result<Cluster> join_ranks() {
   return base::Problem{
       "mpirun:", "",
       "started " + std::to_string(s.size) +
-          " processes, and this build has no MPI: each process would make all the runs",
+          " processes, but this build has no MPI, so that each process would make all runs",
       "build with MPI (cmake --preset mpi && cmake --build build/mpi), or start one process"};
 }
 

@@ -71,7 +71,7 @@ std::string random_name() {
 base::Problems refused(const Destination& to, const std::string& partial) {
   if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
-             .limit = "is an input of this command, and the output would replace it",
+             .limit = "is an input of this command, which the output would replace",
              .cure = "name another file"}};
   for (const std::string& path : {to.path, partial})
     if (!to.force && is_foreign(path))
@@ -96,9 +96,9 @@ void sync_folder(const fs::path& folder) {
 
 base::Problem unwritable(const std::string& path, int reason) {
   const char* cure = "check that the folder exists and may be written, and that the disk has room";
-  if (reason == EISDIR) cure = "name a file in it";
+  if (reason == EISDIR) cure = "name a file in this folder";
   if (reason == ENAMETOOLONG) cure = "choose a shorter name: an interrupted run adds .partial to it";
-  if (reason == ELOOP) cure = "name the file itself, not a link that leads to itself";
+  if (reason == ELOOP) cure = "name the file itself, not a link that points to itself";
   return {
       .where = path + ":", .limit = std::string("cannot be written: ") + std::strerror(reason), .cure = cure};
 }
@@ -156,8 +156,8 @@ int AtomicFile::open_beside(const struct stat* old) {
 base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (to.path == "-")  // only the caller knows which text may go to standard output
     return base::Problem{.where = "-",
-                         .limit = "means standard output elsewhere, and this output must be a file",
-                         .cure = "name a file; ./- is a file that is called -"};
+                         .limit = "means standard output, but this output must be a file",
+                         .cure = "name a file; for a file with the name - write ./-"};
   AtomicFile file;
   file.path_ = to.path;
   struct stat there {};
@@ -165,7 +165,8 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (!exists && errno != ENOENT) return unwritable(to.path, errno);
   if (exists && S_ISDIR(there.st_mode)) return unwritable(to.path, EISDIR);
   if (exists && S_ISBLK(there.st_mode))
-    return base::Problem{.where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on it"};
+    return base::Problem{
+        .where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on this disk"};
   int descriptor = -1;
   if (exists && !S_ISREG(there.st_mode)) {
     descriptor = file.open_device();

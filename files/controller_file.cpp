@@ -19,9 +19,11 @@ constexpr std::string_view elf_magic =
 
 base::Problem unloaded(const std::string& path, std::string why) {
   if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
-  return {.where = path,
-          .limit = "cannot be loaded: " + why,
-          .cure = "compile it with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
+  return {
+      .where = path,
+      .limit = "cannot be loaded: " + why,
+      .cure =
+          "compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
 }
 
 /// Loads a shared object. Loading already runs the object's code: the constructors of its libraries.
@@ -64,8 +66,8 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
   }
   if (!bytes->starts_with(elf_magic))
     return base::Problem{.where = path,
-                         .limit = "is not a compiled library: it may be the source",
-                         .cure = "compile it and name the result: " + compile_command(path) +
+                         .limit = "is not a compiled library; it may be the source",
+                         .cure = "compile it, and name the compiled file: " + compile_command(path) +
                                  ", where FOLDER has sixstep/control/own/own_controller.h"};
   // An absolute path contains a slash. The loader would search a name without a slash among the system's
   // libraries.

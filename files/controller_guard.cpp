@@ -207,7 +207,7 @@ base::Result<const sixstep_controller*> guarded_controller(const std::string& pa
     return base::Problem{
         .where = path,
         .limit = fmt::format("exceeds the {} controllers that a program may load", loaded_controllers),
-        .cure = "run it in another one"};
+        .cure = "run it in another process"};
   take(controllers[loaded_controllers], path, real);
   show(loaded_controllers, controllers[loaded_controllers].shown,
        std::make_index_sequence<most_controllers>());

@@ -79,11 +79,11 @@ void note_run(const ControllerThread& at, const char* what) {
 const char* crash_of(int signal) {
   switch (signal) {
     case SIGSEGV:
-      return "crashed (SIGSEGV: memory that is not its own)";
+      return "crashed (SIGSEGV: access to memory outside its own)";
     case SIGBUS:
       return "crashed (SIGBUS: access to memory that does not exist)";
     case SIGFPE:
-      return "crashed (SIGFPE: a division by zero, or an exception that it enabled)";
+      return "crashed (SIGFPE: a division by zero, or an enabled floating-point exception)";
     case SIGILL:
       return "crashed (SIGILL: an instruction that this processor lacks)";
     case SIGTRAP:
@@ -103,7 +103,7 @@ extern "C" void on_crash(int signal, siginfo_t*, void*) {
   // message, the previous handler is called.
   SignalLine words;
   words << "sixstep crashed; " << (last_loaded.load() ? last_loaded.load() : "a controller")
-        << " runs in this program and may have written over its memory";
+        << " runs in this program and may have overwritten its memory";
   write_out(STDERR_FILENO, words.line());
   remove_temporary_files();
   ::sigaction(signal, &before_us[signal], nullptr);
@@ -264,11 +264,11 @@ void mark_controller_calls() {
 }
 
 void tell_controllers_that_do_not_come_back() {
-  constexpr char what[] = "does not come back";
+  constexpr char what[] = "does not return";
   for (const ControllerThread& t : threads) {
     if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
-    note_run(t, what);  // noted before the message: the user may interrupt again after the message
-    tell(t, what, "; press Ctrl-C again to end (or send a second SIGTERM)");
+    note_run(t, what);  // noted before the message, because the user may interrupt again after the message
+    tell(t, what, "; press Ctrl-C again to end the program (or send a second SIGTERM)");
   }
 }
 

@@ -31,12 +31,11 @@ std::string meant(const std::string& path) {
 }
 
 base::Problem unreadable(const std::string& path, int reason) {
-  if (path == "-")
-    return {"-:", "", "is no file", "/dev/stdin is the one that holds what is piped into the program"};
+  if (path == "-") return {"-:", "", "is not a file", "to read from a pipe, name /dev/stdin"};
   const std::string near = reason == ENOENT ? meant(path) : "";
   return {.where = path + ":",
           .limit = std::string("cannot be read: ") + std::strerror(reason),
-          .cure = reason == EISDIR ? "name a file in it"
+          .cure = reason == EISDIR ? "name a file in this folder"
                   : near.empty()   ? "check the path and the permission to read it"
                                    : "did you mean " + near + "?"};
 }
@@ -96,7 +95,7 @@ base::Result<std::string> read_text(const std::string& path) {
     if (text.size() > most_bytes)
       return base::Problem{.where = path + ":",
                            .limit = "cannot be read: it is larger than 128 MiB",
-                           .cure = "name a file that ends"};
+                           .cure = "name a smaller file"};
   }
   if (std::ferror(file.get())) return unreadable(path, errno);
   if (log_in_use) log_in_use->note(path, text);

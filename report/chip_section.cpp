@@ -49,9 +49,7 @@ std::string histogram(const InterruptTimes& t, double clock_Hz) {
         text::cycles_text(to, clock_Hz), t.bin[n]);
   }
   return fmt::format(
-      "<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"how often it took how long\">{2}"
-      "<text x=\"0\" y=\"{3}\" font-size=\"12\" fill=\"currentColor\">{4}</text>"
-      "<text x=\"{0}\" y=\"{3}\" font-size=\"12\" fill=\"currentColor\" text-anchor=\"end\">{5}</text></svg>",
+      "<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"histogram of the durations\">{2}<text x=\"0\" y=\"{3}\" font-size=\"12\" fill=\"currentColor\">{4}</text><text x=\"{0}\" y=\"{3}\" font-size=\"12\" fill=\"currentColor\" text-anchor=\"end\">{5}</text></svg>",
       wide, picture_high + axis_high, bars, picture_high + axis_high - 6,
       text::cycles_text(b.first * double(t.bin_cycles), clock_Hz),
       text::cycles_text((b.last + 1) * double(t.bin_cycles), clock_Hz));
@@ -67,7 +65,7 @@ std::string card(const char* title, const InterruptTimes& t, double clock_Hz) {
 
 std::string chip_section(const sixstep::study::Outcome& outcome) {
   if (!outcome.chip) return "";
-  std::string html = "<h2>What the chip's interrupts took</h2>\n";
+  std::string html = "<h2>How long the chip's interrupts took</h2>\n";
   for (const std::string& told : text::core_texts(outcome))
     html += fmt::format("<p>{}.</p>\n", escaped(told));
   return html + card("Control interrupt", outcome.chip->times.control, outcome.chip->clock_Hz) +

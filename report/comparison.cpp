@@ -43,8 +43,7 @@ std::string run_rows(const std::vector<ComparedRun>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (runs[k].outcome == nullptr) {
       html += fmt::format(
-          "<tr><td>{}</td><th scope=\"row\">{}<small class=\"aside\">what a board "
-          "sent</small></th><td></td><td>{} rows</td></tr>\n",
+          "<tr><td>{}</td><th scope=\"row\">{}<small class=\"aside\">recorded on a board</small></th><td></td><td>{} rows</td></tr>\n",
           number(k), escaped(runs[k].name), runs[k].events.values.front().size());
       continue;
     }
@@ -68,7 +67,7 @@ std::string difference_table(const std::vector<ComparedRun>& runs) {
     for (const std::string& v : d.values) rows += fmt::format("<td class=\"num\">{}</td>", escaped(v));
     rows += "</tr>\n";
   }
-  return rows.empty() ? "<p class=\"quiet\">Nothing that changes a run.</p>\n"
+  return rows.empty() ? "<p class=\"quiet\">No difference that changes a run.</p>\n"
                       : table("Key", runs.size(), rows);
 }
 
@@ -234,10 +233,7 @@ std::string trace_comparison_table(const ComparisonInput& in) {
         escaped(computed(one.span, unit)));
   }
   return fmt::format(
-      "<h2>What the board sent, less the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n"
-      "<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" "
-      "class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At"
-      "</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
+      "<h2>Log of the board, less the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
       in.shift_s == 0.0 ? "" : ", moved by " + escaped(computed(in.shift_s, "s")), rows);
 }
 
@@ -258,14 +254,14 @@ std::string render_comparison(const ComparisonInput& in) {
              {{"title", title},
               {"subtitle", escaped(names) + "; differences are relative to the first"},
               {"runs", run_rows(in.runs)},
-              {"differences", with_log ? "<p class=\"quiet\">The log's drive is taken for the one of this "
-                                         "scenario.</p>\n"
-                                       : difference_table(in.runs)},
+              {"differences",
+               with_log ? "<p class=\"quiet\">The log is assumed to be of this scenario's drive.</p>\n"
+                        : difference_table(in.runs)},
               {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs)) +
                               chips(in.runs) + trace_comparison_table(in)},
               {"plots", assets::plots_html()},
               {"grid", escaped(given(common_grid_s(scenarios), "s"))},
-              {"between", with_log ? ", the log straight between its rows" : ""},
+              {"between", with_log ? ", with straight lines between the rows of the log" : ""},
               {"gains", gain_table(in.runs)}});
   return in_shell(
       {.title = title + " · " + escaped(names), .body = body, .command = in.command, .version = in.version},

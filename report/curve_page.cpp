@@ -74,7 +74,7 @@ std::string drop_fact(const analysis::SpeedDrop& d, const CurveUnits& u) {
   if (d.sheet) text += ", the two points as printed " + per_torque(*d.sheet);
   text += fmt::format("; R/Kₜ² = {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(", printed {},", per_torque(*d.printed));
-  return text + " leaves out the time that commutation takes";
+  return text + " neglects the commutation time";
 }
 
 std::string locked_fact(const analysis::OperatingPoint& turning, const CurveUnits& u) {
@@ -114,11 +114,11 @@ std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
       fact("Locked rotor", locked_fact(curve.points.front(), u)) +
       fact("No load",
            fmt::format("{}, {}", u.speed_text(n.point.speed_rad_s), amperes(n.point.winding_current_A))) +
-      fact("A rotor let free runs at", u.speed_text(n.free_speed_rad_s)) +
+      fact("A free rotor reaches", u.speed_text(n.free_speed_rad_s)) +
       fact("Ideal line", fmt::format("{} … {}", u.torque_text(analysis::ideal_torque_Nm(r.bench, 0.0)),
                                      u.speed_text(analysis::ideal_no_load_rad_s(r.bench))));
   if (!r.bench.motor.left_to_a_run.empty())
-    html += fact("Not in this curve, and in a run", r.bench.motor.left_to_a_run);
+    html += fact("Neglected here, simulated by a run", r.bench.motor.left_to_a_run);
   if (sixstep::design::on_R(r.motor_degC) != 1 || sixstep::design::on_K_e(r.sheet, r.motor_degC) != 1)
     html += fact("Winding and magnets at",
                  fmt::format("{} and {}\u00a0°C", plain(r.motor_degC.winding_degC, 3, true),

@@ -128,8 +128,7 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
         "branch of the delta.</p>\n";
   if (b.brake_resistor > 0.0)
     html += fmt::format(
-        "<p class=\"closing\">the brake resistor took <b>{}</b> from the bus: beside the accounts, which begin at "
-        "the bridge</p>\n",
+        "<p class=\"closing\">the brake resistor took <b>{}</b> from the bus; it is not part of the account above, which begins at the bridge</p>\n",
         computed(b.brake_resistor, "J"));
   return told_in(motion, std::move(html));
 }

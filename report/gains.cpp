@@ -90,7 +90,7 @@ std::string gains_section(const sixstep::study::Outcome& outcome) {
         derivation_table(outcome.field_steps, linear) + "</div>\n";
   if (!outcome.estimator_steps.empty())
     html +=
-        "<div class=\"loop\"><h3>Where the magnet points</h3><p class=\"origin\">designed from the sheet</p>\n" +
+        "<div class=\"loop\"><h3>Angle of the magnet</h3><p class=\"origin\">designed from the sheet</p>\n" +
         derivation_table(outcome.estimator_steps, linear) + "</div>\n";
   return html.empty() ? "<p class=\"quiet\">No controller: nothing to tune.</p>\n" : html;
 }

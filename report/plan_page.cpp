@@ -216,7 +216,7 @@ std::string left_out(const PlanPageInput& in) {
   for (const PagePlan& plan : in.plans)
     if (plan.story.series.runs > most_rows_on_a_page / in.plans.size())
       return fmt::format(
-          "<p class=\"quiet hint\">Drawn are at most {} runs, evenly chosen; tables are of all.</p>\n",
+          "<p class=\"quiet hint\">The charts show at most {} runs, evenly chosen; the tables include all runs.</p>\n",
           count(most_rows_on_a_page / in.plans.size()));
   return "";
 }

@@ -136,7 +136,7 @@ std::string index_bar(const analysis::Estimated& e) {
 std::string index_table(const text::PlanStory& story, std::size_t figure) {
   const auto found = text::indices_of(story, figure);
   const std::string head = fmt::format("<h3>{}</h3>\n", escaped(story.columns.figures[figure].name));
-  if (!found) return head + "<p class=\"quiet\">It does not vary, or too few runs have it.</p>\n";
+  if (!found) return head + "<p class=\"quiet\">The figure does not vary, or too few runs have it.</p>\n";
   std::string rows;
   for (std::size_t k = 0; k < found->size(); ++k)
     rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(story.columns.keys[k].key),

@@ -70,13 +70,14 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
     text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
                                                     : least_of_bus(held->largest_duty, legs));
     if (held->limit_A)
-      text += answer("Current limit", held->limit_s > 0.0
-                                          ? fmt::format("{} asked for during {}",
-                                                        computed(*held->limit_A, "A"), lasted(held->limit_s))
-                                          : computed(*held->limit_A, "A") + ", never asked for");
+      text += answer(
+          "Current limit",
+          held->limit_s > 0.0
+              ? fmt::format("reference at {} during {}", computed(*held->limit_A, "A"), lasted(held->limit_s))
+              : computed(*held->limit_A, "A") + ", never reached by the reference");
   }
   if (text.empty()) text = answer("Limits", "nothing was required, and no duty was commanded");
-  return card("limits", "What limits it", list(text));
+  return card("limits", "What limits the drive", list(text));
 }
 
 std::string loop(const LoopGains& g, bool linear) {
@@ -92,7 +93,7 @@ std::string loop(const LoopGains& g, bool linear) {
   const auto& design = *g.derivation;
   const bool as_designed = std::abs(g.d1 - design.gains.d1) <= 1e-12 * std::abs(g.d1);
   text += as_designed ? fmt::format(": {}, ξ {}", given(design.settle_s, "s"), plain(design.damping, 3, true))
-                      : fmt::format("; pole placement says {}, {}", plain(design.gains.d1, 5, true),
+                      : fmt::format("; pole placement gives {}, {}", plain(design.gains.d1, 5, true),
                                     plain(design.gains.d0, 5, true));
   return text;
 }
@@ -174,7 +175,7 @@ std::string step_sentences(const Step& step, const StepCurrent& current, double 
                                  asked ? "after the step" : "of the run", computed(current.peak_A, "A"),
                                  computed(current.peak_after_s, "s"));
   if (current.asked_A && step.of != "current")
-    text += fmt::format(" ({} asked for then)", computed(*current.asked_A, "A"));
+    text += fmt::format(" (reference then: {})", computed(*current.asked_A, "A"));
   text += fmt::format(", {} rms.", computed(current.rms_A, "A"));
   if (current.then_mean_A)
     text += fmt::format(" From then until the {}: {} on average, between {} and {}.",

@@ -51,7 +51,7 @@ Standing standing(const Outcome& outcome) {
     return {"fail", "FAIL",
             outcome.trip ? fmt::format("a fault stopped the drive at {}", given(outcome.trip->at_s, "s"))
                          : fmt::format("a fault stopped the run at {}", given(outcome.simulated_s, "s"))};
-  if (count == 0) return {"none", "NO REQUIREMENT", "the run ended as planned; nothing was required of it"};
+  if (count == 0) return {"none", "NO REQUIREMENT", "the run ended as planned; it has no requirements"};
   const std::string line = count == 1
                                ? (held == 1 ? "the requirement holds" : "the requirement does not hold")
                                : fmt::format("{} of {} requirements hold", held, count);

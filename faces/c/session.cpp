@@ -86,8 +86,11 @@ sixstep_status Session::misuse(const char* function, const char* limit, const ch
 
 sixstep_status Session::usable(const char* function) {
   problems.clear();
-  if (!run_) return misuse(function, "needs a session that was opened", "see the problems of its opening");
-  if (outcome_) return misuse(function, "needs a run that goes on, and this one is finished", "open another");
+  if (!run_)
+    return misuse(function, "needs an open session",
+                  "correct the problems that the opening reported, and open the session again");
+  if (outcome_)
+    return misuse(function, "needs a running session, and this session is finished", "open another session");
   return SIXSTEP_OK;
 }
 
@@ -175,7 +178,8 @@ template <class Side>
 sixstep_status Session::advance_to_edge(const char* function, double to_s, const Side& side) {
   if (const sixstep_status status = usable(function); status != SIXSTEP_OK) return status;
   if (!ahead_)
-    return misuse(function, "needs a session whose gates the caller sets", "open it with SIXSTEP_CHIP_GATES");
+    return misuse(function, "needs a session whose gates the caller sets",
+                  "open the session with SIXSTEP_CHIP_GATES");
   if (std::isnan(to_s)) return advance(to_s);
   const auto seconds = [](std::int64_t ps) { return static_cast<double>(ps) / sim::ticks_per_second; };
   const auto before = side(ahead_->present().signals);
@@ -235,7 +239,7 @@ sixstep_status Session::change(std::string_view toml, double* at_s) {
       read(change_head + base::written(time_s()) + "\n" + std::string(toml) + "\n");
   if (!with) return refused(in_change(with.problems(), source_));
   if (with->at.empty())
-    return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
+    return refused({{"toml", std::string(toml), "has no change", "give at least one key of [[at]]"}});
   const std::int64_t now = now_ps();
   Session tried(*this);  // a refused change leaves this session as it is
   if (tried.ahead_)      // run_ must reach this instant too

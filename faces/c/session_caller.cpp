@@ -15,8 +15,10 @@ base::Problems lagging(const study::Scenario& s) {
   base::Problems out;
   const auto refuse = [&](bool lags, const char* key) {
     if (lags)
-      out.push_back({key, "", "is not in the counts that a caller reads: they are of the present instant",
-                     "remove it, or let a controller measure: sixstep_measure()"});
+      out.push_back(
+          {key, "",
+           "has no effect on the counts of sixstep_convert(), which are those of the present instant",
+           "remove it, or read measurements with sixstep_measure()"});
   };
   refuse(s.sensors.current_bandwidth_Hz.has_value(), "sensors.current_bandwidth_Hz");
   refuse(s.sensors.current_delay_s > 0.0, "sensors.current_delay_s");
@@ -30,7 +32,7 @@ sixstep_status Session::measure(sixstep_measured& measured, double* setpoint) {
   if (const sixstep_status status = usable("sixstep_measure"); status != SIXSTEP_OK) return status;
   if (source_.chip != SIXSTEP_CHIP_PAIR && source_.chip != SIXSTEP_CHIP_LEGS)
     return misuse("sixstep_measure", "needs a session whose controller is the caller",
-                  "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
+                  "open the session with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
   if (!run_->at_tick())
     return misuse("sixstep_measure", "needs a control tick", "call sixstep_advance_to_tick() before");
   const Exchanging here(exchange_);
@@ -44,7 +46,7 @@ sixstep_status Session::command(const sixstep_answer& answer) {
   if (const sixstep_status status = usable("sixstep_command"); status != SIXSTEP_OK) return status;
   if (source_.chip != SIXSTEP_CHIP_PAIR && source_.chip != SIXSTEP_CHIP_LEGS)
     return misuse("sixstep_command", "needs a session whose controller is the caller",
-                  "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
+                  "open the session with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
   exchange_.answer = answer;
   commands_.add(now_ps(), answer);
   return SIXSTEP_OK;
@@ -54,10 +56,10 @@ sixstep_status Session::set_gates(std::uint32_t gates) {
   if (const sixstep_status status = usable("sixstep_set_gates"); status != SIXSTEP_OK) return status;
   if (!ahead_)
     return misuse("sixstep_set_gates", "needs a session whose gates the caller sets",
-                  "open it with SIXSTEP_CHIP_GATES");
+                  "open the session with SIXSTEP_CHIP_GATES");
   if (gates > 0x3f)
     return refused(
-        {{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
+        {{"gates", std::to_string(gates), "must be 0 to 63: one bit per switch", "clear all other bits"}});
   if (ahead_->over()) return SIXSTEP_OVER;
   const double at_s = time_s();
   const Exchanging here(exchange_);

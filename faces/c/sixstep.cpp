@@ -91,7 +91,7 @@ sixstep_status opened(Session& session, Source source, const sixstep_options* op
   if (options != nullptr) {
     if (options->bytes == 0 || options->bytes > sizeof is)
       return misplaced(session, "options.bytes", "must be sizeof(sixstep_options)",
-                       "begin with sixstep_options options = SIXSTEP_OPTIONS");
+                       "initialise the struct: sixstep_options options = SIXSTEP_OPTIONS");
     std::memcpy(&is, options, options->bytes);
   }
   if (is.chip < SIXSTEP_CHIP_OF_SCENARIO || is.chip > SIXSTEP_CHIP_GATES)

@@ -61,12 +61,12 @@ base::Problems check(BenchArguments& a) {
        "give the time from one row to the next in seconds");
   if (a.pole_pairs)
     hold(problems, "--pole-pairs", *a.pole_pairs, base::between(1, design::most_pole_pairs),
-         "half the number of magnet poles");
+         "give half the number of magnet poles");
   if (a.between == "lines") a.columns.between = analysis::EmfBetween::lines;
   if (a.between == "star") a.columns.between = analysis::EmfBetween::star;
   if (!a.between.empty() && !a.columns.between)
     problems.push_back({"--between", text::visible(a.between), "must be lines or star",
-                        "lines: two terminals; star: a terminal and one point common to all"});
+                        "give lines for two terminals, or star for a terminal and one common point"});
   a.columns.interval_s = a.interval_s;
   return problems;
 }
@@ -158,9 +158,10 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (!sheet) return sheet.problems();
   const std::optional<int> of_sheet = design::sheet_constants(*sheet).pole_pairs;
   if (a.pole_pairs && of_sheet && *a.pole_pairs != *of_sheet)
-    return base::Problem{"--pole-pairs", std::to_string(*a.pole_pairs),
-                         fmt::format("contradicts the {} of {}", *of_sheet, text::visible(sheet->name)),
-                         "leave out the less certain one: --pole-pairs or --motor"};
+    return base::Problem{
+        "--pole-pairs", std::to_string(*a.pole_pairs),
+        fmt::format("contradicts the {} pole pairs of {}", *of_sheet, text::visible(sheet->name)),
+        "leave out the less certain one: --pole-pairs or --motor"};
   if (of_sheet) a.pole_pairs = of_sheet;
   return std::optional(*sheet);
 }
@@ -191,9 +192,9 @@ Exit emf_command(const EmfArguments& arguments) {
   EmfArguments a = arguments;
   base::Problems problems = check(a);
   hold(problems, "--speed", a.speed_rpm, analysis::built_shaft_rpm,
-       "give the shaft's speed in rpm, not the electrical speed, which is the shaft's times the pole pairs");
+       "give the speed of the shaft in rpm, not the electrical speed");
   hold(problems, "--tolerance", a.tolerance_percent, base::strictly_between(0, 100),
-       "5 is usual, because magnets differ by a few percent");
+       "give a tolerance in percent; 5 is usual, because magnets differ by a few percent");
   if (!problems.empty()) return refused(problems);
   const base::Result<std::optional<design::Sheet>> sheet = sheet_of(a);
   if (!sheet) return refused(sheet.problems());
@@ -273,7 +274,7 @@ Verb declare_emf(CLI::App& motor) {
                  "speed of the shaft, rpm; with the frequency it gives the pole pairs");
   emf.add_option("--motor", a->motor, "compare with this motor's sheet, which also gives the pole pairs");
   emf.add_option("--tolerance", a->tolerance_percent,
-                 "tolerance of the sheet's constants, percent; without it 5");
+                 "tolerance of the sheet's constants, percent. Default: 5");
   take_data(emf, a->data_dir);
   emf.add_option("--write", a->write, "write the lines of a motor's file");
   emf.add_option("--shape", a->shape, "write the shape as a table that back_emf_file reads");

@@ -34,7 +34,7 @@ base::Problems strangers(const RunArguments& a) {
     if (given)
       problems.push_back({.where = option,
                           .limit = "has no effect with --bode",
-                          .cure = "leave it out; --bode has --html, --json and --csv"});
+                          .cure = "leave it out; the outputs of --bode are --html, --json and --csv"});
   };
   refuse("--out", !a.out.empty());
   refuse("--junit", !a.junit.empty());
@@ -87,7 +87,7 @@ base::Problems told(base::Problems problems, const std::string& name) {
   for (base::Problem& p : problems) {
     p.where = name + ": " + p.where;
     if (p.cure.starts_with("give an amplitude"))
-      p.cure = "give one by --amplitude, in the mode's unit, or set a final reference other than zero";
+      p.cure = "give --amplitude in the mode's unit, or set a final reference other than zero";
   }
   return problems;
 }
@@ -106,7 +106,9 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
   // A quiet run prints its notes only if no line of the spectrum has a coherence of 0.9.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)
-    print(text::visible(job.name()) + ": nothing was measured: no line has a coherence of 0.9\n", stderr);
+    print(text::visible(job.name()) +
+              ": NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n",
+          stderr);
   return answered ? Exit::ok : Exit::failed;
 }
 

@@ -121,7 +121,7 @@ Verb declare_commission(CLI::App& motor) {
       "commission", "simulate how the drive measures its motor, and compare the results with the motor");
   const auto a = std::make_shared<CommissionArguments>();
   verb.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
-  verb.add_option("--voltage", a->voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
+  verb.add_option("--voltage", a->voltage_V, "bus voltage, V. Default: the sheet's nominal voltage");
   verb.add_option(
       "--current", a->current_A,
       "test current, A; the motor must withstand it for seconds. At most 0.41 U/R_s, R_s of a phase, which the "

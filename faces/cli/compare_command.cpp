@@ -139,7 +139,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
   study::Trace& trace = log.read.trace;
   if (const double start_s = analysis::start_shift_s(simulated, trace); start_s != 0.0) {
     log.read.notes.push_back(
-        fmt::format("its clock starts at {:.10g} s: times count from its first row", -start_s));
+        fmt::format("its clock starts at {:.10g} s, so that times are counted from its first row", -start_s));
     for (double& t : trace.values.front()) t += start_s;
   }
   const double period_s = run.scenario.pwm.period_s;
@@ -150,7 +150,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
   for (const auto& [column, reason] : overlay->left_out) log.read.not_used.push_back({column, reason});
   text::note_not_used(log.read.not_used, log.read.notes);
   if (overlay->inside < overlay->rows)
-    log.read.notes.push_back(fmt::format("{} of {} rows lie outside of the simulated time",
+    log.read.notes.push_back(fmt::format("{} of {} rows are outside the simulated time",
                                          overlay->rows - overlay->inside, overlay->rows));
   log.found.columns = std::move(overlay->columns);
   log.grid = analysis::at_instants(trace, log.found.shift_s, run.grid.values.front());
@@ -204,13 +204,12 @@ base::Problems check_comparison(const RunArguments& arguments) {
   if (with_log && (arguments.files.size() > 1 || !arguments.out.empty() || !page_alone))
     return {{.where = "--compare",
              .value = arguments.log.path,
-             .limit = "is compared with one run only",
-             .cure = "name one scenario, and no output but --html FILE"}};
+             .limit = "can be compared with one run only",
+             .cure = "name one scenario, and --html FILE as the only output"}};
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",
            .value = fmt::format("{} files", arguments.files.size()),
-           .limit =
-               fmt::format("must be at most {}, because one page has no more colours", report::most_compared),
+           .limit = fmt::format("must be at most {}, the number of colours of a page", report::most_compared),
            .cure = "compare fewer, or write one report each with --out DIR"}};
 }
 

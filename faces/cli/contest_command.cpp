@@ -150,8 +150,9 @@ Exit own_without_run(const analysis::Contest& contest) {
   for (std::size_t n = 0; n < contest.entries.size(); ++n) {
     const analysis::ContestEntry& entry = contest.entries[n];
     if (n < analysis::contestants().size() || entry.scenario) continue;
-    complain({{"--own " + std::string(entry.who->name), "", "took no part, and its row has no figure",
-               "correct the faults that the next lines name"}});
+    complain(
+        {{"--own " + std::string(entry.who->name), "", "was not compared, so that its row has no figures",
+          "correct the problems in the next lines"}});
     complain(entry.scenario.problems());
     exit = Exit::failed;
   }
@@ -196,12 +197,12 @@ base::Problems contest_contradictions(const ContestArguments& a) {
   base::Problems problems;
   if (a.resume && a.store.empty())
     problems.push_back({.where = "--resume",
-                        .limit = "continues the drives of a store, and none is named",
+                        .limit = "continues the drives of a store, but no store is named",
                         .cure = "add --store FILE.sqlite"});
   if (!a.store.empty() && a.drives == 0)
     problems.push_back({.where = "--store",
-                        .limit = "stores drives of the tolerances, and --runs 0 makes none",
-                        .cure = "leave one of them out"});
+                        .limit = "stores drives within the tolerances, but --runs 0 makes none",
+                        .cure = "leave out --store or --runs 0"});
   return problems;
 }
 
@@ -233,14 +234,13 @@ Exit contest_command(const ContestArguments& a) {
 
 void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
-  verb.add_option("--voltage", a.voltage_V, "bus voltage in V; without it the sheet's nominal voltage");
+  verb.add_option("--voltage", a.voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
   verb.add_option("--settle", a.settle_s,
-                  "settling time of all speed loops in s; without it the fastest that Hall probes allow");
+                  "settling time of all speed loops in s. Default: the shortest that Hall probes allow");
   verb.add_option("--current-settle", a.current_settle_s,
-                  "settling time of all current loops in s; without it the design's");
-  verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
-  verb.add_option("--board", a.board,
-                  "a scenario whose supply, bridge, PWM and sensors all controllers have");
+                  "settling time of all current loops in s. Default: that of the design");
+  verb.add_option("--period", a.period_s, "control and PWM period in s. Default: 30e-6");
+  verb.add_option("--board", a.board, "scenario whose supply, bridge, PWM and sensors all controllers share");
   for (const auto& [option, unit] : {std::pair{"--voltage", "V"}, std::pair{"--settle", "s"},
                                      std::pair{"--current-settle", "s"}, std::pair{"--period", "s"}})
     take_unit(verb.get_option(option), unit);

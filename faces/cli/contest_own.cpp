@@ -30,8 +30,8 @@ void take_controller(const std::string& file, Contestants& out, base::Problems& 
   const sixstep_controller& is = *loaded->controller;
   const std::string_view name = is.name;
   if (std::any_of(out.all.begin(), out.all.end(), [&](const auto& other) { return other.name == name; }))
-    found.push_back({"--own " + file, '"' + std::string(name) + '"', "is already another controller's name",
-                     "give it a different name"});
+    found.push_back({"--own " + file, '"' + std::string(name) + '"', "is the name of another controller",
+                     "give this controller a different name"});
   const std::string& keys = out.texts.emplace_back(
       fmt::format("control.drive = own; control.own.controller = {}", text::toml_text(path)));
   out.all.push_back({name, keys, is.sentence});
@@ -75,7 +75,7 @@ void declare_own(CLI::App& verb, OwnArguments& own) {
       ->allow_extra_args(false);
   verb.add_option(
           "--own-cost", own.counts,
-          "file that tools/own_cost.sh --json wrote for one of them, for the columns tick and flash; may be repeated")
+          "file that tools/own_cost.sh --json wrote for one of these controllers, for the columns tick and flash; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
 }

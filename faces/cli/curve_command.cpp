@@ -110,7 +110,7 @@ void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Pro
   for (const auto& [option, given] :
        {std::pair{"--chopping", !a.chopping.empty()}, std::pair{"--pwm-period", a.pwm_period_s.has_value()}})
     if (given)
-      problems.push_back({option, "", "has no effect at full duty, where nothing is chopped",
+      problems.push_back({option, "", "has no effect at full duty, which needs no chopping",
                           "give a --duty below 1, or leave it out"});
 }
 
@@ -178,19 +178,17 @@ Exit curve_command(const CurveArguments& a) {
 
 void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
-  curve.add_option("--voltage", a.voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
-  curve.add_option("--duty", a.duty, "duty in (0, 1]; without it 1, full voltage");
+  curve.add_option("--voltage", a.voltage_V, "bus voltage, V. Default: the sheet's nominal voltage");
+  curve.add_option("--duty", a.duty, "duty in (0, 1]. Default: 1, full voltage");
   curve.add_option("--chopping", a.chopping, "chopping for a duty below 1: soft, hard or complementary");
-  curve.add_option("--pwm-period", a.pwm_period_s, "PWM period in s, for a duty below 1; without it 30e-6");
-  curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm; without it 0");
+  curve.add_option("--pwm-period", a.pwm_period_s, "PWM period in s, for a duty below 1. Default: 30e-6");
+  curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm. Default: 0");
   curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
-  curve.add_option("--points", a.points, "number of points from standstill to no load; without it 41");
-  curve.add_option("--ambient", a.ambient_degC,
-                   "temperature of the air around the motor, degC; without it 25");
-  curve.add_option("--winding", a.winding_degC,
-                   "temperature of the winding on the curve, degC; without it 25");
+  curve.add_option("--points", a.points, "number of points from standstill to no load. Default: 41");
+  curve.add_option("--ambient", a.ambient_degC, "temperature of the air around the motor, degC. Default: 25");
+  curve.add_option("--winding", a.winding_degC, "temperature of the winding on the curve, degC. Default: 25");
   curve.add_option("--housing", a.housing_degC,
-                   "temperature of housing and magnets on the curve, degC; without it 25");
+                   "temperature of housing and magnets on the curve, degC. Default: 25");
   curve.add_option("--csv", a.csv, "write all points with all columns");
   curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
   curve.add_option("--html", a.html, "write a page with charts");

@@ -106,7 +106,7 @@ struct DesignFiles {
     if (!found.empty()) return found;
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")
-      return {{"--models", a.models, "must end in .json or .mat", "name the file so"}};
+      return {{"--models", a.models, "must end in .json or .mat", "give the file one of these extensions"}};
     const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
       if (path.empty() || path == "-") return;
       base::Result<files::AtomicFile> file = files::AtomicFile::create({path, a.force});
@@ -145,22 +145,21 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   // drive.
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
-      if (w.cure.starts_with("usable with"))
-        w.cure += ", in a simplified run without the limits of the board's drive";
+      if (w.cure.starts_with("usable with")) w.cure += ", tried without the limits of the board's drive";
   // A sensorless drive keeps its loops' verdict although the written file lacks the drive's commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
-    warn("the designed file keeps " + carried.kept + " of the board's scenario, so its run shows " +
+    warn("the designed file keeps " + carried.kept + " of the board's scenario, so that its run shows " +
              carried.differs,
          false);
   if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())
-    warn("this design leaves out these keys of the board's scenario: " + keys, false);
+    warn("the design does not use these keys of the board's scenario: " + keys, false);
   if (const std::string course = analysis::replaced(*board, carried.scenario);
       writes_scenario && !course.empty()) {
     const std::string what = " the design's own test in place of the board's " + course;
     carried.scenario.notes = "Run with" + what;
     warn("the designed file has" + what +
-             "; for a header put the gains into the board's scenario and export that",
+             "; to export a header, write the gains into the board's scenario and export it",
          false);
   }
   return carried;
@@ -288,48 +287,48 @@ Exit design_command(const DesignArguments& a) {
 
 void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("MOTOR", a.motor, "motor's name or file; with --scenario the scenario's motor");
-  design.add_option("--scenario", a.scenario, "a scenario whose board, motor and task are designed for");
-  design.add_option("--mode", a.mode, "current, speed or position; current");
+  design.add_option("--scenario", a.scenario, "scenario whose motor, board and task the design uses");
+  design.add_option("--mode", a.mode, "current, speed or position. Default: current");
   design.add_option(
       "--settle", a.settle_s,
-      "settling time of the mode's PI loop in s; 1e-3 or 8 L/R if shorter, speed 10e-3 or what sensor and torque allow");
-  design.add_option("--damping", a.damping, "damping of the placed poles, above 0 to 1; 0.9");
+      "settling time of the mode's PI loop in s. Default: current 1e-3, or 8 L/R if shorter; speed 10e-3, or what sensor and torque allow");
+  design.add_option("--damping", a.damping, "damping of the placed poles, above 0 to 1. Default: 0.9");
   design.add_option(
       "--current-settle", a.current_settle_s,
-      "speed, position: settling time of the current loop in s; 1e-3, 8 L/R or a tenth of the speed loop's, the shortest");
+      "speed, position: settling time of the current loop in s. Default: the shortest of 1e-3, 8 L/R and a tenth of the speed loop's");
   design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
       ->capture_default_str();
   design.add_option("--bandwidth", a.bandwidth_rad_s,
                     "cancellation, symmetrical-optimum: bandwidth of the loop, in rad/s");
-  design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
-  design.add_option("--voltage", a.voltage_V, "bus voltage in V; the sheet's nominal voltage");
-  design.add_option("--torque-limit", a.torque_limit_Nm,
-                    "speed, position: torque limit in N m; the torque of 2.5 times the nominal current");
+  design.add_option("--period", a.period_s, "control and PWM period in s. Default: 30e-6");
+  design.add_option("--voltage", a.voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
+  design.add_option(
+      "--torque-limit", a.torque_limit_Nm,
+      "speed, position: torque limit in N m. Default: the torque of 2.5 times the nominal current");
   design.add_option("--force-limit", a.force_limit_N,
                     "linear motor, instead of --torque-limit: force limit in N");
-  design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver, or ideal; hall");
+  design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver or ideal. Default: hall");
   design.add_option(
       "--edges", a.edges,
-      "speed, position: number of Hall edges over which a speed is averaged, 1 to 6; else 6 or 1, adaptive");
-  design.add_option("--capture", a.capture_Hz,
-                    "speed, position: clock of the timer that captures the edges of Hall probes or an "
-                    "encoder, in Hz; 1e6, for an encoder 16e6");
+      "speed, position: number of Hall edges over which a speed is averaged, 1 to 6. Default: 6 or 1, adaptive");
+  design.add_option(
+      "--capture", a.capture_Hz,
+      "speed, position: clock of the timer that captures the edges of Hall probes or an encoder, in Hz. Default: 1e6, for an encoder 16e6");
   design.add_option(
       "--lowest-speed", a.lowest_speed_rad_s,
-      "speed, position: lowest speed that the loop must hold, in rad/s or m/s; a tenth of the speed that the bus allows");
-  design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");
+      "speed, position: lowest speed that the loop must hold, in rad/s or m/s. Default: a tenth of the speed that the bus allows");
+  design.add_option("--currents", a.currents, "phases, dc-link or ideal. Default: phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2,
-                    "speed, position: inertia on the shaft besides the rotor's, in kg m2; 0");
+                    "speed, position: inertia on the shaft besides the rotor's, in kg m2. Default: 0");
   design.add_option("--load-mass", a.load_mass_kg,
-                    "linear motor, instead of --load-inertia: mass on the slide, in kg; 0");
-  design.add_option("--delay", a.delay_periods, "periods until a command takes effect, 0 or 1; 1");
-  design.add_option("--chopping", a.chopping, "soft, hard or complementary; soft");
+                    "linear motor, instead of --load-inertia: mass on the slide, in kg. Default: 0");
+  design.add_option("--delay", a.delay_periods, "periods until a command takes effect, 0 or 1. Default: 1");
+  design.add_option("--chopping", a.chopping, "soft, hard or complementary. Default: soft");
   design.add_option("--step", a.step, "simulated step, in the mode's unit: A, rad/s (m/s) or deg (mm)");
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option(
       "--toml", a.toml,
-      "write the simulated scenario, for sixstep run and export; without --scenario, design and file have a dead time of "
-      "0.5 us");
+      "write the simulated scenario, for sixstep run and export; without --scenario the dead time is 0.5 us");
   design.add_option("--html", a.html, "write the design as a page");
   CLI::Option* models =
       design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
@@ -338,7 +337,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
       ->needs(models);
   CLI::Option* optimise = design.add_option(
       "--optimise", a.optimise,
-      "plan with the figure to minimise; the design is the best point of the plan's ranges, and the output names the limits");
+      "plan with ranges and the figure to minimise; the design is the best point, and the output names what limits it");
   take_store(design, a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
   design.add_flag("--resume", a.resume, "continue the runs of --store")->needs("--store");
   take_force(design, a.force);

@@ -12,8 +12,9 @@
 namespace cli {
 namespace {
 
-constexpr const char* in_scenario = "set it in the scenario, in control, pwm, supply, sensors or load";
-constexpr const char* by_bandwidth = "see control.field.bandwidth_Hz";
+constexpr const char* in_scenario =
+    "set the value in the scenario, in [control], [pwm], [supply], [sensors] or [load]";
+constexpr const char* by_bandwidth = "set control.field.bandwidth_Hz in the scenario";
 constexpr const char* not_written = "leave it out: --json has all numbers";
 
 struct Use {
@@ -57,11 +58,11 @@ constexpr Use uses[] = {
     {"--load-mass", [](const A& a) { return a.load_mass_kg.has_value(); }, "load_inertia_kg_m2", in_scenario,
      false},
     {"--lowest-speed", [](const A& a) { return a.lowest_speed_rad_s.has_value(); }, "lowest_speed_rad_s",
-     "it is the lowest speed of the reference", false},
+     "leave it out: the lowest speed of the reference is used", false},
     {"--step", [](const A& a) { return a.step.has_value(); }, "",
-     "this design simulates nothing; use sixstep run", false},
+     "leave it out: this design simulates nothing; use sixstep run", false},
     {"--quick", [](const A& a) { return a.quick; }, "",
-     "leave it out: it is computed in closed form, without tolerances", false},
+     "leave it out: this design is computed in closed form, without tolerances", false},
     {"--json", [](const A& a) { return !a.json.empty(); }, "", nullptr, true},
     {"--toml", [](const A& a) { return !a.toml.empty(); }, "", not_written, true},
     {"--html", [](const A& a) { return !a.html.empty(); }, "", not_written, false},
@@ -87,8 +88,8 @@ base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments
   const auto refuse = [&](const std::optional<double>& given, const char* option, const char* instead) {
     if (given)
       found.push_back({option, fmt::format("{}", *given),
-                       linear ? "is for turning motors, and this motor is linear"
-                              : "is for linear motors, and this motor turns",
+                       linear ? "applies to rotary motors only, and this motor is linear"
+                              : "applies to linear motors only, and this motor is rotary",
                        fmt::format("write {}", instead)});
   };
   refuse(linear ? a.torque_limit_Nm : a.force_limit_N, linear ? "--torque-limit" : "--force-limit",
@@ -113,8 +114,9 @@ base::Problems unread_by_optimise(const DesignArguments& a) {
   base::Problems found;
   for (const Use& use : uses)
     if (!use.in_optimise && use.given(a))
-      found.push_back({use.option, "", "applies to a single design; with --optimise the plan gives it",
-                       "leave it out, or set it in the plan or its scenario"});
+      found.push_back({use.option, "",
+                       "applies to a single design, and --optimise reads this value from the plan",
+                       "leave it out, or set the value in the plan or its scenario"});
   return found;
 }
 
@@ -123,7 +125,7 @@ void warn_of_sheet(const design::Sheet& sheet, const std::string& motor,
   const base::Result<design::SheetCheck> check = design::check_sheet(sheet);
   if (!check || check->consistent) return;
   warnings.push_back({.what = design::contradiction_words(*check),
-                      .cure = fmt::format("sixstep motor check {} shows where", motor),
+                      .cure = fmt::format("see the contradiction with: sixstep motor check {}", motor),
                       .grave = false,
                       .of = design::Concern::other});
 }

@@ -22,7 +22,7 @@ base::Problems duplicate_outputs(const std::vector<std::pair<std::string, std::s
       problems.push_back({.where = option,
                           .value = path,
                           .limit = fmt::format("is what {} writes", other->second),
-                          .cure = "give each its own file"});
+                          .cure = "give each output its own file"});
   }
   return problems;
 }

@@ -86,12 +86,12 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
                                  [&key](const Member& member) { return member.name == key; });
     if (to == members.end())
       problems.push_back(
-          {fmt::format("--range {}", word), "", "names no quantity of the range", meant(key, known)});
+          {fmt::format("--range {}", word), "", "is not a quantity of the range", meant(key, known)});
     else if (*to->number = positive(value, to->unit); *to->number == 0.0)
       problems.push_back(
           {fmt::format("--range {}", key), value,
            fmt::format("must be a number above 0 and at most {}", base::plausible(to->unit).most),
-           "give the largest value that the drive may measure, as in --range current_A=20"});
+           "give the largest value that the drive may measure, for example --range current_A=20"});
   }
   return range;
 }
@@ -110,8 +110,8 @@ base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   if (arithmetic) scenario->control.arithmetic = *arithmetic;
   const study::Arithmetic number = scenario->control.arithmetic;
   if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
-    return base::Problem{"--range", "", "applies to fixed point, and the drive is in floating point",
-                         "add --arithmetic q15 or another fixed point, or leave the range out"};
+    return base::Problem{"--range", "", "applies to fixed point only, and the drive is in floating point",
+                         "add --arithmetic q15 or another fixed-point format, or leave --range out"};
   return scenario;
 }
 
@@ -143,11 +143,12 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
   using Mode = sixstep::control::Mode;
   const bool cascade = control.mode == Mode::speed || control.mode == Mode::position;
   if (of_sensor && cascade && control.drive != study::FirmwareKind::field)
-    print(
-        "with these keys set, sixstep design --scenario " + text::visible(a.file) +
-            " --toml NEW.toml writes a scenario with gains and requirements for it, and says whether they are usable\n",
-        stderr);
-  print("no header was written; --despite REASON writes one that states all of this\n", stderr);
+    print("after setting these keys, design the loops again: sixstep design --scenario " +
+              text::visible(a.file) + " --toml NEW.toml\n",
+          stderr);
+  print(
+      "no header was written; to write it anyway, add --despite REASON, and the header will state all of this\n",
+      stderr);
   const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
   return graver(cli::exit_of(c.outcome), told);
 }
@@ -191,7 +192,7 @@ Exit export_header(const ExportArguments& a) {
   if (!clearance) return refused(within(a.file, clearance.problems()));
   if (!clearance->clear() && !a.despite) return not_cleared(a, scenario->control, *clearance);
   if (a.despite && clearance->clear())
-    print("--despite was not needed: the run holds, and the header states it\n", stderr);
+    print("--despite was not needed: the run holds every requirement, and the header states this\n", stderr);
   tell_conditions(*scenario, *clearance);
   wanted.clearance = &*clearance;
   const base::Result<std::string> text = text::config_header(wanted);
@@ -224,8 +225,7 @@ void declare_options(CLI::App& header, ExportArguments& a) {
       ->capture_default_str();
   header.add_option(
       "--despite", a.despite,
-      "write it although its run fails, or neglects effects of a real board; the header states this reason and "
-      "everything that was overridden");
+      "write the header although its run fails or neglects effects of a real board; the header states this reason and everything that was overridden");
   header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
   take_data(header, a.data_dir);
 }
@@ -236,9 +236,11 @@ Verb declare_export(CLI::App& app) {
   CLI::App& exports = *app.add_subcommand("export", "export of a scenario's drive");
   exports.require_subcommand(1);
   const auto a = std::make_shared<ExportArguments>();
-  declare_options(*exports.add_subcommand(
-                      "header", "gains and scalings as constants for firmware, in C++20, once the run holds"),
-                  *a);
+  declare_options(
+      *exports.add_subcommand(
+          "header",
+          "gains and scalings as constants for firmware, in C++20, if the run holds every requirement"),
+      *a);
   const Verb unit = declare_unit_export(exports);
   const auto header = calling(export_header, a);
   return {&exports, [header, unit](const std::string& command) {

@@ -58,8 +58,9 @@ std::string grid_foretold(const study::Scenario& s, double bytes_a_number) {
   const double bytes = rows * bytes_a_number * static_cast<double>(columns->size());
   if (!(bytes > many_bytes)) return "";
   const auto rough = [](double x) { return x < 10 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x); };
-  return fmt::format("its rows, one each {}, are some {} million, {} GB; a longer record.grid_s makes fewer",
-                     text::quantity_text(grid_s, "s", 3), rough(rows / 1e6), rough(bytes / 1e9));
+  return fmt::format(
+      "one row each {} makes some {} million rows, {} GB; for fewer rows set a longer record.grid_s",
+      text::quantity_text(grid_s, "s", 3), rough(rows / 1e6), rough(bytes / 1e9));
 }
 std::string csv_foretold(const study::Scenario& s) { return grid_foretold(s, 11); }
 std::string mat_foretold(const study::Scenario& s) { return grid_foretold(s, 8); }

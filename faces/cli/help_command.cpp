@@ -113,7 +113,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   const CLI::App* const verb = command_of(app, key);
   const KeyEntry* const same = text::find_key(scenario, key);
   if (verb && same)
-    print(fmt::format("{0} is a command, and a key of a scenario, which stands below the command.\n\n", key));
+    print(fmt::format("{0} is a command and also a key of a scenario; the key follows below.\n\n", key));
   if (verb) print(verb->help(app.get_name()));
   if (const KeyEntry* entry = same) {
     if (verb) print(fmt::format("The key {} of a scenario:\n", key));
@@ -147,7 +147,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   if (near.empty() && is_word) {
     const std::string text = with_word(scenario, key) + with_word(sheet, key) + with_word(plan, key);
     if (!text.empty()) {
-      print(fmt::format("No key is called {}. Keys and words that have it in their name or meaning:\n",
+      print(fmt::format("No key has the name {}. Keys and words with this word in their name or meaning:\n",
                         text::visible(key)) +
             text);
       return Exit::ok;
@@ -155,7 +155,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   }
   complain({{.where = key,
              .limit = "is not a key of a scenario or motor file",
-             .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});
+             .cure = near.empty() ? "sixstep help lists all keys" : fmt::format("did you mean {}?", near)}});
   return Exit::bad_input;
 }
 
@@ -168,8 +168,8 @@ Exit help_of_words(const CLI::App& app, const std::vector<std::string>& words) {
     const CLI::App* const next = command_of(*at, words[n]);
     if (next == nullptr) {
       complain({{.where = words[n],
-                 .limit = "is no command of " + before,
-                 .cure = before + " --help lists them; one key at a time is explained"}});
+                 .limit = "is not a command of " + before,
+                 .cure = before + " --help lists all commands; give only one key at a time"}});
       return Exit::bad_input;
     }
     at = next;

@@ -130,21 +130,7 @@ std::string files() {
 }
 
 constexpr std::string_view examples =
-    ".SH EXAMPLES\n"
-    "A scenario to start from, its report, and the same on a weaker bus:\n.PP\n.nf\n.RS\n"
-    "sixstep new first\n"
-    "sixstep run first.toml \\-\\-html first.html\n"
-    "sixstep run first.toml \\-\\-set supply.voltage_V=20\n"
-    ".RE\n.fi\n.PP\n"
-    "The PWM period that it needs, and a hundred drives within their tolerances, in\n"
-    "a file that a later call continues:\n.PP\n.nf\n.RS\n"
-    "sixstep run first.toml \\-\\-vary pwm.period_s=20us:60us:3\n"
-    "sixstep run first.toml \\-\\-tolerances \\-\\-runs 100 \\-\\-store first.sqlite\n"
-    ".RE\n.fi\n.PP\n"
-    "Gains of a speed cascade, checked over the sheet's tolerances, as a\n"
-    "scenario:\n.PP\n.nf\n.RS\n"
-    "sixstep design maxon\\-251601 \\-\\-mode speed \\-\\-toml drive.toml\n"
-    ".RE\n.fi\n";
+    ".SH EXAMPLES\nA scenario to start from, its report, and the same on a weaker bus:\n.PP\n.nf\n.RS\nsixstep new first\nsixstep run first.toml \\-\\-html first.html\nsixstep run first.toml \\-\\-set supply.voltage_V=20\n.RE\n.fi\n.PP\nThree PWM periods, and a hundred drives within the tolerances, in a file that a\nlater call continues:\n.PP\n.nf\n.RS\nsixstep run first.toml \\-\\-vary pwm.period_s=20us:60us:3\nsixstep run first.toml \\-\\-tolerances \\-\\-runs 100 \\-\\-store first.sqlite\n.RE\n.fi\n.PP\nGains of a speed cascade, checked over the sheet's tolerances, as a\nscenario:\n.PP\n.nf\n.RS\nsixstep design maxon\\-251601 \\-\\-mode speed \\-\\-toml drive.toml\n.RE\n.fi\n";
 
 }  // namespace
 
@@ -163,7 +149,7 @@ std::string man_page(const CLI::App& app) {
   text += ".SH EXIT STATUS\n";
   for (const ExitMeaning& exit : exit_meanings)
     text += entry(bold(std::to_string(static_cast<int>(exit.code))), exit.meaning);
-  text += ".SH ENVIRONMENT\n" + entry(bold("NO_COLOR"), "where set and not empty, no output is coloured");
+  text += ".SH ENVIRONMENT\n" + entry(bold("NO_COLOR"), "if set and not empty, the output has no colours");
   return text + std::string(examples);
 }
 

@@ -34,6 +34,19 @@ struct NewArguments {
   std::string command;
 };
 
+/// Replaces the library's words for other studies by the commands that make them.
+base::Problems with_commands(base::Problems problems, const NewArguments& a) {
+  const std::string motor = text::shell_word(a.motor);
+  const std::pair<std::string_view, std::string> commands[] = {
+      {"a design of the motor", fmt::format("sixstep design {} --mode {}", motor, a.mode)},
+      {"the torque-speed curve of the motor", fmt::format("sixstep curve {}", motor)}};
+  for (base::Problem& p : problems)
+    for (const auto& [words, command] : commands)
+      if (const std::size_t at = p.cure.find(words); at != std::string::npos)
+        p.cure.replace(at, words.size(), command);
+  return problems;
+}
+
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
   analysis::FirstScenarioSpec spec;
@@ -49,7 +62,7 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   spec.voltage_V = a.voltage_V;
   spec.for_each = side_by_side(0, true, "motors");
   base::Result<study::Scenario> scenario = analysis::first_scenario(spec);
-  if (!scenario) return in_options(scenario.problems());
+  if (!scenario) return with_commands(in_options(scenario.problems()), a);
   return scenario;
 }
 
@@ -62,7 +75,7 @@ base::Result<std::string> write_schema(const std::string& path) {
   } else if (const base::Result<std::string> there = files::read_text(path);
              !there || *there != text::scenario_schema()) {
     return fmt::format(
-        "; the existing {} beside it differs and is kept; editors need the one from sixstep schema scenario",
+        "; the existing {} beside it differs and was kept: for editors, replace it by the output of sixstep schema scenario",
         text::visible(path));
   }
   return fmt::format(", and {}, which editors use to complete and check it", text::visible(path));
@@ -91,14 +104,14 @@ Exit new_command(const NewArguments& a) {
                   text::visible(path), *beside, text::shell_word(path),
                   text::shell_word(fs::path(path).replace_extension(".html").string())));
   if (const auto sheet = design::check_sheet(scenario->sheet); sheet && !sheet->consistent)
-    print(fmt::format("note: {}; sixstep motor check {} shows where\n",
+    print(fmt::format("note: {}; see the contradiction with: sixstep motor check {}\n",
                       text::visible(design::contradiction_words(*sheet)), text::shell_word(a.motor)));
   if (!scenario->notes.empty()) print(fmt::format("note: {}\n", text::visible(scenario->notes)));
   if (const std::string note = text::starter_note(*scenario); !note.empty())
     print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(
-        "note: {}; this winding's ripple needs it; a choke in each line, added to the sheet's inductance, allows a longer period\n",
+        "note: {}. The ripple of this winding needs this period; a choke in each motor lead, added to the sheet's inductance, allows a longer one\n",
         text::too_short_for_images(scenario->pwm.period_s)));
   return Exit::ok;
 }
@@ -112,7 +125,7 @@ Verb declare_new(CLI::App& app) {
   fresh.add_option("--mode", a->mode, "controlled quantity: speed, current, position or duty")
       ->capture_default_str();
   fresh.add_option("--motor", a->motor, "motor's name or file")->capture_default_str();
-  fresh.add_option("--voltage", a->voltage_V, "bus voltage in V; without it the sheet's nominal voltage");
+  fresh.add_option("--voltage", a->voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
   fresh.add_flag("--full", a->full, "write all keys, not only those for a start");
   take_data(fresh, a->data_dir);
   return {&fresh, calling(new_command, a)};

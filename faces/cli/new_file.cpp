@@ -14,7 +14,8 @@ std::string toml_path(const std::string& name) { return name.ends_with(".toml") 
 base::Problems taken(const std::string& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
-  return {{.where = path, .limit = "is there already", .cure = "choose another name, or move it away"}};
+  return {
+      {.where = path, .limit = "already exists", .cure = "choose another name, or move the existing file"}};
 }
 
 base::Problems write_new(const std::string& path, const std::string& text) {

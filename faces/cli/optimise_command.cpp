@@ -27,8 +27,8 @@ namespace {
 /// The column of the figure that the plan minimises.
 base::Result<std::size_t> figure_of(const OptimiseArguments& a, const ReadPlan& plan) {
   if (plan.minimise.empty())
-    return base::Problem{a.plan + ":", "", "does not name the figure to be minimised",
-                         "name a figure of its scenario: minimise = \"label\""};
+    return base::Problem{a.plan + ":", "", "does not name the figure to minimise",
+                         "name a figure of the scenario: minimise = \"label\""};
   std::vector<std::string> known;
   for (std::size_t n = 0; n < plan.columns->figures.size(); ++n) {
     if (plan.columns->figures[n].name == plan.minimise) return n;
@@ -36,7 +36,7 @@ base::Result<std::size_t> figure_of(const OptimiseArguments& a, const ReadPlan& 
   }
   const std::string near = text::nearest(plan.minimise, known);
   return base::Problem{a.plan + ": minimise", plan.minimise, "is not a figure of the scenario",
-                       near.empty() ? fmt::format("take one of: {}", fmt::join(known, "; "))
+                       near.empty() ? fmt::format("use one of: {}", fmt::join(known, "; "))
                                     : fmt::format("did you mean {}?", near)};
 }
 
@@ -44,11 +44,11 @@ base::Problems not_to_be_chosen(const OptimiseArguments& a, const analysis::Plan
   base::Problems problems;
   for (const analysis::Axis& axis : plan.axes) {
     if (!axis.values.empty())
-      problems.push_back({a.plan + ": " + axis.key, "", "is a list, and an optimiser needs ranges",
-                          "give from and to, or a plan for each value"});
+      problems.push_back({a.plan + ": " + axis.key, "", "is a list, and --optimise needs ranges",
+                          "give from and to, or write a plan for each value"});
     if (axis.strays)
       problems.push_back({a.plan + ": " + axis.key, "", "is drawn by [[spread]] and cannot be chosen",
-                          "put it into [[spread]]"});
+                          "move it into [[spread]] of the scenario"});
   }
   return problems;
 }
@@ -134,8 +134,8 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
   if (interrupted()) return told_interrupted("the search", kept_in(a.store));
   if (!best)
-    return refused(
-        {{a.plan + ":", "", "has no point that can be run", "run one of its runs: sixstep run --only 0"}});
+    return refused({{a.plan + ":", "", "has no point that can be run",
+                     "find the reason with: sixstep run PLAN --only 0"}});
   const text::OptimumStory story{plan->name, plan->scenarios->plan(), *plan->columns, *figure};
   const std::string json = text::optimum_json(story, *best);
   if (const base::Problems unwritten = write(outputs, *plan, *best, json); !unwritten.empty())

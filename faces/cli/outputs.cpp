@@ -56,8 +56,8 @@ base::Problems make_folder(const std::string& out) {
   std::filesystem::create_directories(out, error);
   if (!error) return {};
   return {{.where = out + ":",
-           .limit = fmt::format("cannot be made a folder: {}", error.message()),
-           .cure = "choose another --out"}};
+           .limit = fmt::format("cannot be created: {}", error.message()),
+           .cure = "name another folder with --out"}};
 }
 
 const std::string& OutputPaths::of(std::string_view option) const {

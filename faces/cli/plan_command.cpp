@@ -64,9 +64,9 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
   const std::optional<analysis::RunRecord> now = batch::run_one(runs, (*before)->number);
   if (!now || (*now)->digest == (*before)->digest) return {};
   return {{.where = store.path() + ":",
-           .limit = fmt::format("was begun by another version of sixstep, and run {} now differs",
+           .limit = fmt::format("was begun by another version of sixstep, and run {} now has another result",
                                 (*before)->number),
-           .cure = "finish it with that version, or begin anew with --force"}};
+           .cure = "finish the runs with that version, or start again with --force"}};
 }
 
 /// A plan with complete runs: the rows of its store and the results. The object must not move.
@@ -79,7 +79,7 @@ class MadePlan {
     if (problems_.empty() && series_.runs < wanted && !interrupted())
       problems_.push_back({store_.path() + ":", "",
                            fmt::format("holds only {} of the {} runs that were stored", series_.runs, wanted),
-                           "begin anew with --force"});
+                           "start again with --force"});
   }
   MadePlan(const MadePlan&) = delete;
   MadePlan& operator=(const MadePlan&) = delete;
@@ -90,7 +90,7 @@ class MadePlan {
   /// A message about runs in the store that are not part of the plan; empty if there are none.
   std::string beyond() const {
     if (beyond_ == 0) return "";
-    return fmt::format("{}: holds {} run{} beyond the {} of this plan; request more to see them\n",
+    return fmt::format("{}: holds {} more run{} than the {} of this plan; ask for more runs to see them\n",
                        text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
                        analysis::runs_of(plan_.scenarios->plan()));
   }
@@ -255,22 +255,22 @@ base::Problems plan_contradictions(const RunArguments& a) {
   base::Problems problems;
   if (a.plan.resume && a.plan.store.empty() && a.out.empty())
     problems.push_back({.where = "--resume",
-                        .limit = "continues the runs of a store, and none is named",
-                        .cure = "add --store FILE.sqlite, or --out DIR as it was"});
+                        .limit = "continues the runs of a store, but no store is named",
+                        .cure = "add --store FILE.sqlite, or the earlier --out DIR"});
   if (a.watch)
     problems.push_back({.where = "--watch",
-                        .limit = "reruns scenarios, and this is a plan of many runs",
-                        .cure = "leave it out, or watch one of them with --only N"});
+                        .limit = "repeats one scenario, and this is a plan of many runs",
+                        .cure = "leave it out, or watch one run with --only N"});
   const bool both = compares(a);
   if (both && a.files.size() > report::most_plans_on_a_page)
     problems.push_back({.where = "--html",
                         .value = fmt::format("{} plans", a.files.size()),
                         .limit = fmt::format("must be at most {} on one page", report::most_plans_on_a_page),
-                        .cure = "compare two, or write a page each with --out DIR"});
+                        .cure = "name two plans, or write a page for each plan with --out DIR"});
   if (a.files.size() > 1 && (!a.plan.store.empty() || (a.paths.any() && a.out.empty() && !both)))
     problems.push_back({.where = a.plan.store.empty() ? all_options() : "--store",
-                        .limit = "name the outputs of one plan",
-                        .cure = "run the files one by one, or with --out DIR"});
+                        .limit = "apply to one plan only",
+                        .cure = "run the plans one by one, or use --out DIR"});
   return problems;
 }
 

@@ -48,7 +48,7 @@ base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& 
     if (!has_format(option))
       return {{.where = std::string(option),
                .limit = "is the trace of one run, and this is a plan of many runs",
-               .cure = "take the run's number: --only N " + std::string(option) + " FILE"}};
+               .cure = "choose one run: --only N " + std::string(option) + " FILE"}};
     if (path == "-" && option == "--json") {
       prints_json_ = true;
       continue;

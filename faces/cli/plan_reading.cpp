@@ -56,13 +56,13 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
     plan.sampling = analysis::Sampling::sobol;
   if (a.plan.points > 0 && plan.sampling == analysis::Sampling::grid)
     problems.push_back({"--points", std::to_string(a.plan.points),
-                        "applies to drawn points only, and a grid has the points of each range",
-                        "write --vary KEY=FROM:TO:POINTS, or leave --sampling grid out"});
+                        "applies to drawn points only; in a grid each range has its own number",
+                        "write --vary KEY=FROM:TO:POINTS, or leave out --sampling grid"});
   for (const analysis::Axis& axis : plan.axes)
     for (const std::string& set : a.sets)
       if (set.substr(0, set.find('=')) == axis.key)
         problems.push_back({"--set " + axis.key, "", "has no effect, because the plan varies this key",
-                            "give one of the two"});
+                            "remove --set, or the key from the plan"});
   if (a.plan.points > 0) plan.points = a.plan.points;
   if (a.runs > 0) plan.drives = a.runs;
   if (a.drive) plan.drives = static_cast<std::size_t>(*a.drive) + 1;
@@ -105,14 +105,14 @@ std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bo
 base::Problems without_drives(const RunArguments& a, const analysis::Plan& plan) {
   if (!a.plan.tolerances || plan.drives > 0) return {};
   return {{.where = "--tolerances",
-           .limit = "needs several drives, and only the drive as written is run",
-           .cure = "give their number, as --runs 1000"}};
+           .limit = "needs several drives, and this plan runs only the drive as written",
+           .cure = "give the number of drives, for example --runs 1000"}};
 }
 
 base::Problems without_series(const std::string& file, const ReadPlan& plan) {
   if (plan.scenarios->plan().drives == 0 || !plan.nominal.spread.empty()) return {};
   return {{.where = file + ":",
-           .limit = "describes no series, since all drives would be the same",
+           .limit = "has no [[spread]], so that all drives would be the same",
            .cure = "add [[spread]] with the values that vary; see: sixstep help spread"}};
 }
 

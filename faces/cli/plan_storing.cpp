@@ -40,7 +40,7 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
 
 std::string kept_in(const std::string& store) {
   if (store.empty() || !std::filesystem::exists(store)) return "";
-  return fmt::format("the finished runs are kept in {}, and the same command with --resume continues",
+  return fmt::format("the finished runs are in {}; to continue, repeat the command with --resume",
                      text::visible(store));
 }
 

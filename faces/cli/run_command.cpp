@@ -173,9 +173,9 @@ Exit run_again_on_save(const RunArguments& arguments) {
 base::Problems one_at_a_time(const RunArguments& a) {
   const bool on_core = !a.on.empty();
   return {{.where = on_core ? "--on" : "--compare",
-           .limit = fmt::format("{}, and this is a plan of many runs",
+           .limit = fmt::format("{}, but this is a plan of many runs",
                                 on_core ? "runs one scenario on a core" : "compares a log with one run"),
-           .cure = "choose one run of it: --only N, or --drive N of a series"}};
+           .cure = "choose one run: --only N, or --drive N of a series"}};
 }
 
 Exit run_command(const RunArguments& arguments) {
@@ -244,7 +244,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   runs->excludes(watch)->check(integer_in(1, 1'000'000'000));
   // Checked as a signed number, because an unsigned parser would read -1 as a large number.
   const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
-  run.add_option("--seed", a.seed, "seed of the series of drives; without it 1")->check(whole);
+  run.add_option("--seed", a.seed, "seed of the series of drives. Default: 1")->check(whole);
   run.add_option("--drive", a.drive, "only drive N of the series, with all its outputs")
       ->excludes(runs)
       ->check(whole);
@@ -253,7 +253,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
       "measure the outermost loop's frequency response at the scenario's end, beside the designed response");
   run.add_option(
          "--amplitude", a.amplitude,
-         "amplitude of --bode's multisine, A, rad/s or deg; without it a twentieth of the final reference")
+         "amplitude of --bode's multisine, A, rad/s or deg. Default: a twentieth of the final reference")
       ->needs(bode);
   run.add_option(
          "--on", a.on,
@@ -283,8 +283,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
       ->needs(log);
   run.add_option(
          "--shift", a.log.shift_s,
-         "time to add to the rows of --compare, s; without it a shift is fitted within 20 PWM periods. A clock that "
-         "starts beyond the run counts from its first row")
+         "time to add to the rows of --compare, s. Default: a shift fitted within 20 PWM periods. A clock that starts after the run counts from its first row")
       ->needs(log);
   declare_plan_options(run, a.plan);
 }

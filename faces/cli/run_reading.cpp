@@ -62,8 +62,8 @@ std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArgument
     into.problems.push_back(
         {.where = "--only",
          .value = std::to_string(number),
-         .limit = fmt::format("is not a run of this plan: its runs have the numbers 0 to {}", runs - 1),
-         .cure = "choose one of these"});
+         .limit = fmt::format("is not a run of this plan, whose runs have the numbers 0 to {}", runs - 1),
+         .cure = "choose one of these numbers"});
     return {};
   }
   base::Result<analysis::PlannedRun> run = plan->scenarios->run(number);
@@ -83,11 +83,11 @@ base::Problems same_outputs(const RunArguments& arguments) {
     if (other->first == "index")
       problems.push_back({.where = place(file),
                           .limit = "would write index.html, which lists all reports",
-                          .cure = "rename it, or run it without --out"});
+                          .cure = "rename this file, or run it without --out"});
     if (!is_new)
       problems.push_back({.where = place(file),
                           .limit = fmt::format("would write the same outputs as {}", other->second),
-                          .cure = "rename one or run them apart"});
+                          .cure = "rename one of the files, or run them one by one"});
   }
   std::vector<std::pair<std::string, std::string>> files = arguments.paths.files();
   files.emplace_back("--junit", arguments.junit);
@@ -127,11 +127,11 @@ base::Problems contradictions(const RunArguments& arguments) {
   else if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
     problems.push_back(
         {.where = all_options(),
-         .limit = "name the outputs of one scenario",
-         .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
+         .limit = "apply to one scenario only",
+         .cure = "for several files use --out DIR alone, or --html alone to compare the files"});
   if (!arguments.paths.of(uart_option).empty() && !on_a_chip(arguments))
     problems.push_back({.where = std::string(uart_option),
-                        .limit = "writes the serial output of a chip, and no chip runs here",
+                        .limit = "writes the serial output of a chip, but this run has no chip",
                         .cure = "add --on avr, or the map of your own firmware"});
   append(problems, same_outputs(arguments));
   return problems;

@@ -13,7 +13,7 @@ files::ReadOptions read_options(const std::string& data_dir, const std::vector<s
     if (cut == std::string::npos || cut == 0)
       problems.push_back({.where = fmt::format("--set {}", set),
                           .limit = "does not name a key and a value",
-                          .cure = "write --set table.key=value, as in --set supply.voltage_V=12"});
+                          .cure = "write --set table.key=value, for example --set supply.voltage_V=12"});
     else
       options.overrides.push_back({set.substr(0, cut), set.substr(cut + 1)});
   }

@@ -83,13 +83,9 @@ base::Result<std::string> unit_binary_of(int fmi) {
   if (path.empty())
     return base::Problem{
         "export fmu", "",
+        fmt::format("needs sixstep-fmi{0}.so, the library for units of FMI {0}, which is not installed", fmi),
         fmt::format(
-            "needs sixstep-fmi{0}.so, the library of functional mock-up units of FMI {0}, and this program "
-            "came without it",
-            fmi),
-        fmt::format(
-            "install the package sixstep, which has it, or build the target sixstep_fmi{} with the CMake "
-            "option SIXSTEP_C=ON",
+            "install the package sixstep, or build the target sixstep_fmi{} with the CMake option SIXSTEP_C=ON",
             fmi)};
   return files::read_text(path);
 }
@@ -120,17 +116,18 @@ std::string archive_of(const UnitParts& parts, int fmi) {
 /// Reads which part sets the gates of the unit.
 base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
   if (a.kind != "drive" && a.kind != "plant")
-    return base::Problem{"--kind", a.kind, "is no kind of unit", "take drive or plant"};
+    return base::Problem{"--kind", a.kind, "must be drive or plant",
+                         "use drive for a unit with its controller, plant without"};
   if (a.kind == "drive") {
     if (a.inputs.empty()) return text::FmiChip::of_scenario;
-    return base::Problem{"--inputs", a.inputs, "has no effect on a unit with its controller",
+    return base::Problem{"--inputs", a.inputs, "has no effect on a unit of the kind drive",
                          "add --kind plant, or leave it out"};
   }
   if (a.inputs.empty() || a.inputs == "gates") return text::FmiChip::gates;
   if (a.inputs == "pair") return text::FmiChip::pair;
   if (a.inputs == "legs") return text::FmiChip::legs;
-  return base::Problem{"--inputs", a.inputs, "is nothing that a plant's bridge takes",
-                       "take gates, pair or legs"};
+  return base::Problem{"--inputs", a.inputs, "must be gates, pair or legs",
+                       "use the inputs of the plant's bridge"};
 }
 
 base::Result<UnitParts> unit_parts_of(const UnitArguments& a, int fmi) {
@@ -157,7 +154,7 @@ base::Result<UnitParts> unit_parts_of(const UnitArguments& a, int fmi) {
 
 Exit export_unit(const UnitArguments& a) {
   if (a.fmi != "2" && a.fmi != "3")
-    return refused({{"--fmi", a.fmi, "is no version of FMI that units are written for", "take 2 or 3"}});
+    return refused({{"--fmi", a.fmi, "must be 2 or 3", "use the version of FMI that your program imports"}});
   const int fmi = a.fmi[0] - '0';
   const base::Result<UnitParts> parts = unit_parts_of(a, fmi);
   base::Problems problems = parts ? base::Problems() : parts.problems();

@@ -76,13 +76,13 @@ Problem unknown_word(const Called& called, const std::string& word) {
   const std::vector<std::string> verbs = verbs_of(*called.verb);
   const bool is_option = word.starts_with("-");
   if (!is_option && !verbs.empty() && word.ends_with(".toml"))
-    return {word, "", "is no command of " + called.path,
+    return {word, "", "is not a command of " + called.path,
             fmt::format("did you mean sixstep run {}?", text::shell_word(word))};
   std::string near = is_option ? text::nearest(word, options_of(*called.verb)) : nearest_verb(word, verbs);
   if (is_option && near.empty()) near = setting_meant(*called.verb, word);
-  const char* kind = is_option || verbs.empty() ? "argument" : "command";
+  const char* kind = is_option || verbs.empty() ? "an argument" : "a command";
   return {.where = word,
-          .limit = fmt::format("is no {} of {}", kind, called.path),
+          .limit = fmt::format("is not {} of {}", kind, called.path),
           .cure = near.empty() ? called.path + " --help lists them" : fmt::format("did you mean {}?", near)};
 }
 
@@ -109,7 +109,7 @@ std::optional<Problem> wrong_count(const Called& called, const std::string& last
     if (static_cast<int>(option->results().size()) > option->get_items_expected_max())
       return Problem{.where = option->get_name(), .limit = "is given more than once", .cure = "keep one"};
   return Problem{.where = last_word,
-                 .limit = "needs a value behind it",
+                 .limit = "needs a value after it",
                  .cure = meaning(called, called.verb->get_option_no_throw(last_word))};
 }
 
@@ -126,11 +126,10 @@ std::optional<Problem> no_number(const Called& called) {
     const std::string type = option->get_type_name(), word = option->results().front();
     const bool whole = type.starts_with("INT") || type.starts_with("UINT");
     if ((whole && !reads<std::int64_t>(word)) || (type.starts_with("FLOAT") && !reads<double>(word)))
-      return Problem{
-          .where = option->get_name(),
-          .value = word,
-          .limit = whole ? "must be a whole number, in digits alone" : "must be a number, without its unit",
-          .cure = meaning(called, option)};
+      return Problem{.where = option->get_name(),
+                     .value = word,
+                     .limit = whole ? "must be a whole number" : "must be a number without a unit",
+                     .cure = meaning(called, option)};
   }
   return {};
 }
@@ -157,7 +156,7 @@ std::optional<Problem> excluded(const Called& called) {
       if (option->count() > 0 && other->count() > 0)
         return Problem{.where = option->get_name(),
                        .limit = "cannot be combined with " + other->get_name(),
-                       .cure = "leave one of them out"};
+                       .cure = "leave out one of the two"};
   return {};
 }
 

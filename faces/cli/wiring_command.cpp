@@ -117,11 +117,10 @@ Verb declare_wiring(CLI::App& motor) {
       *motor.add_subcommand("wiring", "behaviour of the motor in each of the 36 wirings, and the cures");
   const auto a = std::make_shared<WiringArguments>();
   wiring.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
-  wiring.add_option("--voltage", a->voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
+  wiring.add_option("--voltage", a->voltage_V, "bus voltage, V. Default: the sheet's nominal voltage");
   wiring.add_option(
       "--current", a->current_A,
-      "current of the stalled motor, A, which sets the duty; without it the nominal current, or a tenth of the "
-      "current at full duty");
+      "current of the stalled motor, A, which sets the duty. Default: the nominal current, or a tenth of the current at full duty");
   wiring.add_flag("--json", a->json, "for programs");
   wiring.add_option("--svg", a->svg, "write the picture");
   wiring.add_option("--html", a->html, "write a page with the picture and all figures");

@@ -171,7 +171,7 @@ drive_result drive_get(drive* self, const char* function, unsigned reference, dr
   char text[96];
   int n;
   if (!has_kind(self, reference, kind)) {
-    snprintf(text, sizeof text, "%u is no reference of a variable of this type", reference);
+    snprintf(text, sizeof text, "no variable of this type has the value reference %u", reference);
     return drive_fail(self, function, text);
   }
   for (n = 0; n < drive_size(self, reference); ++n) values[n] = value_of(self, reference + (unsigned)n);
@@ -183,13 +183,13 @@ drive_result drive_set(drive* self, const char* function, unsigned reference, dr
   int n;
   const char* limit = NULL;
   if (!has_kind(self, reference, kind) || reference < DRIVE_FIRST_INPUT || reference >= DRIVE_FIRST_MEASURED) {
-    snprintf(text, sizeof text, "%u is no reference of an input of this type", reference);
+    snprintf(text, sizeof text, "no input of this type has the value reference %u", reference);
     return drive_fail(self, function, text);
   }
   for (n = 0; n < drive_size(self, reference) && !limit; ++n)
     limit = isfinite(values[n]) ? plant_limit(reference + (unsigned)n, values[n]) : "an input must be a finite number";
   if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL && !(self->state.phase & (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION)))
-    limit = "a parameter is set before the initialization ends";
+    limit = "a parameter can be set only before the initialization ends";
   if (limit) return drive_fail(self, function, limit);
   if (reference >= DRIVE_USES_TICKS && reference <= DRIVE_USES_HALL)
     self->state.uses[reference - DRIVE_USES_TICKS] = values[0];

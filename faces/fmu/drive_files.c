@@ -114,7 +114,7 @@ drive_result drive_read(drive* self, const char* location, const char* token) {
     return drive_fail(self, "resource location", text);
   }
   if (!token || strcmp(token, self->variables.token) != 0)
-    return drive_fail(self, "GUID or token", "is not that of this unit; take it from its modelDescription.xml");
+    return drive_fail(self, "GUID or token", "is not that of this unit; use the one in the unit's modelDescription.xml");
   snprintf(self->scenario, sizeof self->scenario, "%.*s/scenario.toml", (int)sizeof self->scenario - 16, folder);
   drive_reset(self);
   return DRIVE_OK;
@@ -148,7 +148,7 @@ static drive_state* new_state(drive* self) {
 
 drive_result drive_save(drive* self, const char* function, void** at) {
   drive_state* to;
-  if (!at) return drive_fail(self, function, "the place for the state is null");
+  if (!at) return drive_fail(self, function, "the pointer to the state is null");
   to = *at ? find(self, *at) : new_state(self);
   if (!to) return drive_fail(self, function, *at ? "the state is not one of this instance" : "memory ended");
   if (copy_state(&self->state, to) != DRIVE_OK) {
@@ -240,7 +240,7 @@ drive_result drive_from_bytes(drive* self, const char* function, const unsigned 
   memcpy(&h, bytes, sizeof h);
   if (!is_head(self, &h, count)) return drive_fail(self, function, "the bytes are not a saved state of this unit");
   if (checksum(&h, bytes + sizeof h) != h.check)
-    return drive_fail(self, function, "the bytes of the saved state are damaged: their checksum differs");
+    return drive_fail(self, function, "the bytes of the saved state are damaged: the checksum differs");
   if (h.session) {
     status = sixstep_load(bytes + sizeof h, (size_t)h.session, &session);
     if (status != SIXSTEP_OK && status != SIXSTEP_OVER) {

@@ -58,7 +58,7 @@ static drive_result stop_early(drive* self, const char* function, double asked_s
              fault.value, *fault.value ? " " : "", fault.limit, fault.cure);
   else
     snprintf(text, sizeof text,
-             "%s: the run is over at %s s, before %s s: its duration has passed; name a later stop time at the set-up",
+             "%s: the run ended at %s s, before %s s, because its duration has passed; set a later stop time before the initialization",
              function, at, asked);
   self->state.phase = DRIVE_STEP_FAILED;
   self->log(self, DRIVE_DISCARD, "logStatusDiscard", text);
@@ -84,7 +84,7 @@ static drive_result refuse_past_stop(drive* self, const char* function, double t
   char text[DRIVE_MESSAGE], to[64], stop[64];
   short_number(to, sizeof to, to_s);
   short_number(stop, sizeof stop, self->state.stop_s);
-  snprintf(text, sizeof text, "the step ends at %s s, but the stop time of the set-up is %s s; end the step there, or set none up",
+  snprintf(text, sizeof text, "the step ends at %s s, but the stop time is %s s; end the step there, or define no stop time",
            to, stop);
   return drive_fail(self, function, text);
 }
@@ -94,7 +94,7 @@ drive_result drive_begin_step(drive* self, const char* function, double point, d
   if (!(size > 0) || !isfinite(size)) return drive_fail(self, function, "the step size must be above 0");
   /* The library's resolution is 1 ps. Importers that add up step sizes deviate by more in the end. */
   if (!(fabs(point - now_s) <= 1e-9 * (1 + fabs(now_s))))
-    return drive_fail(self, function, "the communication point must be the end of the step before");
+    return drive_fail(self, function, "the communication point must be the end of the previous step");
   if (is_past_stop(&self->state, point + size)) return refuse_past_stop(self, function, point + size);
   return apply_inputs(self, function);
 }

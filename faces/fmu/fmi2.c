@@ -71,7 +71,7 @@ fmi2Status FMI2(SetDebugLogging)(fmi2Component c, fmi2Boolean on, size_t count, 
   if (!may(c, "fmi2SetDebugLogging", ANY_PHASE)) return fmi2Error;
   if (count && !names) return fail(c, "fmi2SetDebugLogging", "the categories are null");
   for (n = 0; n < count; ++n) {
-    if (!is_category(names[n])) return fail(c, "fmi2SetDebugLogging", "a category is none of modelDescription.xml");
+    if (!is_category(names[n])) return fail(c, "fmi2SetDebugLogging", "a log category is not in modelDescription.xml");
     if (strcmp(names[n], "logEvents") == 0) events = on;
   }
   i->events = events;
@@ -102,7 +102,7 @@ fmi2Component FMI2(Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
   memcpy(i->name, name ? name : "", bytes);
   if (!name || !*name) return refuse(i, "fmi2Instantiate: the instance needs a name");
   if (type != fmi2CoSimulation) return refuse(i, "fmi2Instantiate: the unit is for co-simulation only");
-  if (drive_read(&i->unit, resources, guid) != DRIVE_OK) return refuse(i, "fmi2Instantiate: no instance was made");
+  if (drive_read(&i->unit, resources, guid) != DRIVE_OK) return refuse(i, "fmi2Instantiate: no instance was created");
   return i;
 }
 
@@ -183,7 +183,7 @@ fmi2Status FMI2(GetString)(fmi2Component c, const fmi2ValueReference r[], size_t
   size_t n;
   if (!has_arrays(c, "fmi2GetString", READABLE, r, count, values)) return fmi2Error;
   for (n = 0; n < count; ++n) {
-    if (r[n] != DRIVE_DIGEST) return fail(c, "fmi2GetString", "there is no string with this reference");
+    if (r[n] != DRIVE_DIGEST) return fail(c, "fmi2GetString", "no string has this value reference");
     values[n] = ((instance*)c)->unit.state.digest;
   }
   return fmi2OK;
@@ -238,7 +238,7 @@ fmi2Status FMI2(FreeFMUstate)(fmi2Component c, fmi2FMUstate* state) {
 fmi2Status FMI2(SerializedFMUstateSize)(fmi2Component c, fmi2FMUstate state, size_t* size) {
   size_t bytes;
   if (!may(c, "fmi2SerializedFMUstateSize", ANY_PHASE)) return fmi2Error;
-  if (!size) return fail(c, "fmi2SerializedFMUstateSize", "the place for the size is null");
+  if (!size) return fail(c, "fmi2SerializedFMUstateSize", "the pointer to the size is null");
   bytes = drive_bytes(&((instance*)c)->unit, state, NULL, 0);
   if (!bytes) return fail(c, "fmi2SerializedFMUstateSize", "the state is not one of this instance");
   *size = bytes;
@@ -249,7 +249,7 @@ fmi2Status FMI2(SerializeFMUstate)(fmi2Component c, fmi2FMUstate state, fmi2Byte
   if (!may(c, "fmi2SerializeFMUstate", ANY_PHASE)) return fmi2Error;
   size = drive_bytes(&((instance*)c)->unit, state, (unsigned char*)bytes, room);
   if (!size) return fail(c, "fmi2SerializeFMUstate", "the state is not one of this instance");
-  return bytes && size <= room ? fmi2OK : fail(c, "fmi2SerializeFMUstate", "the room is smaller than the state");
+  return bytes && size <= room ? fmi2OK : fail(c, "fmi2SerializeFMUstate", "the buffer is smaller than the state");
 }
 fmi2Status FMI2(DeSerializeFMUstate)(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate* state) {
   if (!may(c, "fmi2DeSerializeFMUstate", ANY_PHASE)) return fmi2Error;
@@ -271,7 +271,7 @@ fmi2Status FMI2(CancelStep)(fmi2Component c) {
 
 static int has_status(fmi2Component c, const char* function, const void* value) {
   if (!may(c, function, DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)) return 0;
-  if (!value) fail(c, function, "the place for the value is null");
+  if (!value) fail(c, function, "the pointer to the value is null");
   return value != NULL;
 }
 

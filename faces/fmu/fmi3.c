@@ -36,7 +36,7 @@ FMI3_FUNCTION(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t count, co
   if (!fmi3_may(c, "fmi3SetDebugLogging", ANY_PHASE)) return fmi3Error;
   if (count && !names) return fmi3_fail(c, "fmi3SetDebugLogging", "the categories are null");
   for (n = 0; n < count; ++n) {
-    if (!is_category(names[n])) return fmi3_fail(c, "fmi3SetDebugLogging", "a category is none of modelDescription.xml");
+    if (!is_category(names[n])) return fmi3_fail(c, "fmi3SetDebugLogging", "a log category is not in modelDescription.xml");
     if (strcmp(names[n], "logEvents") == 0) events = on;
   }
   i->events = events;
@@ -48,7 +48,7 @@ static int are_intermediate(drive* unit, const fmi3ValueReference r[], size_t co
   size_t n;
   for (n = 0; n < count; ++n)
     if (r[n] == 0 || r[n] >= DRIVE_SIGNALS || unit->variables.kinds[r[n]] != DRIVE_REAL) {
-      drive_fail(unit, "fmi3InstantiateCoSimulation", "an intermediate variable is not one that modelDescription.xml marks so");
+      drive_fail(unit, "fmi3InstantiateCoSimulation", "an intermediate variable is not marked as such in modelDescription.xml");
       return 0;
     }
   return 1;
@@ -122,7 +122,7 @@ static int fits(fmi3Instance c, const char* function, const fmi3ValueReference r
   size_t n, needed = 0;
   for (n = 0; n < count; ++n) needed += (size_t)drive_size(c, r[n]);
   if (needed == room) return 1;
-  fmi3_fail(c, function, "the number of values must be that of the variables, an array's with all its elements");
+  fmi3_fail(c, function, "the number of values must be that of the variables, with all elements of arrays");
   return 0;
 }
 
@@ -177,7 +177,7 @@ FMI3_FUNCTION(GetString, (fmi3Instance c, const fmi3ValueReference r[], size_t c
   if (!has_arrays(c, "fmi3GetString", READABLE, r, count, values)) return fmi3Error;
   if (room != count) return fmi3_fail(c, "fmi3GetString", "needs as many values as references");
   for (n = 0; n < count; ++n) {
-    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "there is no string with this reference");
+    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "no string has this value reference");
     values[n] = ((instance*)c)->unit.state.digest;
   }
   return fmi3OK;
@@ -200,7 +200,7 @@ FMI3_FUNCTION(FreeFMUState, (fmi3Instance c, fmi3FMUState* state)) {
 FMI3_FUNCTION(SerializedFMUStateSize, (fmi3Instance c, fmi3FMUState state, size_t* size)) {
   size_t bytes;
   if (!fmi3_may(c, "fmi3SerializedFMUStateSize", ANY_PHASE)) return fmi3Error;
-  if (!size) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the place for the size is null");
+  if (!size) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the pointer to the size is null");
   bytes = drive_bytes(c, state, NULL, 0);
   if (!bytes) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the state is not one of this instance");
   *size = bytes;
@@ -211,7 +211,7 @@ FMI3_FUNCTION(SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte b
   if (!fmi3_may(c, "fmi3SerializeFMUState", ANY_PHASE)) return fmi3Error;
   size = drive_bytes(c, state, bytes, room);
   if (!size) return fmi3_fail(c, "fmi3SerializeFMUState", "the state is not one of this instance");
-  return bytes && size <= room ? fmi3OK : fmi3_fail(c, "fmi3SerializeFMUState", "the room is smaller than the state");
+  return bytes && size <= room ? fmi3OK : fmi3_fail(c, "fmi3SerializeFMUState", "the buffer is smaller than the state");
 }
 FMI3_FUNCTION(DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState* state)) {
   if (!fmi3_may(c, "fmi3DeserializeFMUState", ANY_PHASE)) return fmi3Error;

@@ -90,11 +90,11 @@ REFUSED(GetOutputDerivatives,
         (fmi3Instance c, references r, size_t n, const fmi3Int32 orders[], fmi3Float64 v[], size_t room),
         ((void)r, (void)n, (void)orders, (void)v, (void)room), NO_DERIVATIVES)
 REFUSED(GetNumberOfVariableDependencies, (fmi3Instance c, fmi3ValueReference r, size_t* n), ((void)r, (void)n),
-        "dependencies are those of modelDescription.xml")
+        "the dependencies are in modelDescription.xml")
 REFUSED(GetVariableDependencies,
         (fmi3Instance c, fmi3ValueReference r, size_t of[], fmi3ValueReference on[], size_t at[], fmi3DependencyKind kinds[],
          size_t n),
-        ((void)r, (void)of, (void)on, (void)at, (void)kinds, (void)n), "dependencies are those of modelDescription.xml")
+        ((void)r, (void)of, (void)on, (void)at, (void)kinds, (void)n), "the dependencies are in modelDescription.xml")
 
 REFUSED(EnterContinuousTimeMode, (fmi3Instance c), (void)0, NO_EXCHANGE)
 REFUSED(CompletedIntegratorStep, (fmi3Instance c, fmi3Boolean no, fmi3Boolean* event, fmi3Boolean* end),

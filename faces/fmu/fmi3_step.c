@@ -50,7 +50,7 @@ FMI3_FUNCTION(UpdateDiscreteStates,
   drive_state* s;
   if (!fmi3_may(c, "fmi3UpdateDiscreteStates", DRIVE_EVENT)) return fmi3Error;
   if (!more || !end || !nominals || !values || !timed || !time)
-    return fmi3_fail(c, "fmi3UpdateDiscreteStates", "a place for a result is null");
+    return fmi3_fail(c, "fmi3UpdateDiscreteStates", "a pointer to a result is null");
   s = &((instance*)c)->unit.state;
   s->active = 0;
   *more = *end = *nominals = *values = false;
@@ -65,7 +65,7 @@ FMI3_FUNCTION(GetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t co
   if (count && (!r || !values)) return fmi3_fail(c, "fmi3GetClock", "the references or the values are null");
   for (n = 0; n < count; ++n) {
     if (r[n] != DRIVE_TICK_CLOCK && r[n] != DRIVE_HALL_CLOCK)
-      return fmi3_fail(c, "fmi3GetClock", "there is no clock with this reference");
+      return fmi3_fail(c, "fmi3GetClock", "no clock has this value reference");
     values[n] = (((instance*)c)->unit.state.active & (r[n] == DRIVE_TICK_CLOCK ? DRIVE_TICK : DRIVE_HALL)) != 0;
   }
   return fmi3OK;
@@ -110,7 +110,7 @@ FMI3_FUNCTION(DoStep, (fmi3Instance c, fmi3Float64 point, fmi3Float64 size, fmi3
   (void)noStateBefore;
   if (!fmi3_may(c, "fmi3DoStep", DRIVE_STEP_COMPLETE)) return fmi3Error;
   if (!eventHandlingNeeded || !terminateSimulation || !earlyReturn || !lastSuccessfulTime)
-    return fmi3_fail(c, "fmi3DoStep", "a place for a result is null");
+    return fmi3_fail(c, "fmi3DoStep", "a pointer to a result is null");
   *eventHandlingNeeded = *earlyReturn = *terminateSimulation = false;
   *lastSuccessfulTime = i->unit.state.now_s;
   result = drive_begin_step(c, "fmi3DoStep", point, size);

@@ -72,8 +72,8 @@ base::Problem not_here(const std::string& program) {
   return {
       program, "", "is not installed on this machine",
       is_ours
-          ? "install the package sixstep-avr-board; in a checkout tools/install.sh target, then build sixstep again"
-          : "install it: " + (sources_folder() / "tools/packages.txt").string() +
+          ? "install the package sixstep-avr-board, or in a checkout run tools/install.sh target and build sixstep again"
+          : "install its package: " + (sources_folder() / "tools/packages.txt").string() +
                 " lists the packages for cores under [target]"};
 }
 
@@ -93,7 +93,7 @@ base::Result<Child> Child::start(const Command& command) {
   if (id < 0)
     return base::Problem{command.words.front(), "",
                          std::string("cannot be started: ") + std::strerror(failed),
-                         "end other programs and try again"};
+                         "end other programs, and try again"};
   return Child(id);
 }
 

@@ -9,8 +9,8 @@ base::Result<std::unique_ptr<Chip>> Chip::start(const Core& core, const std::str
   base::Result<Talk> talk = Talk::begin(core.emulator, image, &made->greeting_, sizeof made->greeting_);
   if (!talk) return talk.problems();
   if (!made->understood())
-    return base::Problem{core.emulator.front(), "", "uses other structs than this program",
-                         "build both from one source"};
+    return base::Problem{core.emulator.front(), "", "was built from another version than this program",
+                         "build both from the same sources"};
   made->talk_.emplace(std::move(*talk));
   return made;
 }

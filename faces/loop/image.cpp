@@ -20,7 +20,7 @@ base::Result<fs::path> sources() {
   const fs::path root = sources_folder();
   std::error_code none;
   if (fs::exists(root / "sixstep/control/drive.hpp", none)) return root;
-  return base::Problem{root.string(), "", "does not hold the sources of a core's program",
+  return base::Problem{root.string(), "", "does not contain the sources of a core's program",
                        "set SIXSTEP_SOURCES to the folder with sixstep/ and faces/ in it"};
 }
 

@@ -23,7 +23,7 @@ base::Result<Talk> Talk::begin(std::vector<std::string> emulator, const std::str
   // Only the child has the other ends, so that each process detects the end of the other process.
   Pipe calls = made_pipe(), answers = made_pipe();
   if (!calls.read || !answers.read)
-    return base::Problem{emulator.front(), "", "cannot be reached: this program has too many open files",
+    return base::Problem{emulator.front(), "", "cannot be started: this program has too many open files",
                          "run fewer experiments at a time"};
   const std::string program = emulator.front();
   emulator.push_back(image);
@@ -75,7 +75,7 @@ rig::CoreTrouble Talk::ask(const void* call, std::size_t call_bytes, void* answe
 base::Problem no_greeting(const std::string& program, rig::CoreTrouble trouble) {
   const bool silent = trouble == rig::CoreTrouble::silent;
   return {program, "", silent ? "did not start the program within 30 s" : "ended before the program ran",
-          "start it by hand and read its output; tools/packages.txt names its package"};
+          "start this program by hand and read its output; tools/packages.txt names its package"};
 }
 
 }  // namespace loop

@@ -87,8 +87,10 @@ struct PlanStore::Inside {
   }
   base::Problems put(const analysis::RunRecord& row) {
     if (!row.fits(plan.columns))
-      return {{db.path() + ":", "", fmt::format("does not take run {}: it has other columns", row->number),
-               "report this with the command that led to it"}};
+      return {
+          {db.path() + ":", "",
+           fmt::format("cannot store run {}: its columns differ from the columns of the plan", row->number),
+           "this is a defect of sixstep: please report it with the command"}};
     std::vector<Cell> cells = cells_of(row);
     cells.emplace_back(static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums)));
     for (std::size_t n = 0; n < cells.size(); ++n) insert->bind_cell(static_cast<int>(n) + 1, cells[n]);
@@ -174,7 +176,8 @@ base::Problems check_pages(Database& db) {
 }
 
 base::Problem foreign(const std::string& path) {
-  return {path + ":", "", "is no store of runs", "name another file: sixstep overwrites only its own files"};
+  return {path + ":", "", "is not a store of runs",
+          "name another file: sixstep overwrites only its own files"};
 }
 
 }  // namespace
@@ -189,7 +192,7 @@ base::Result<PlanStore> PlanStore::create(const std::string& path, StoredPlan pl
   if (standing == Standing::other) return foreign(path);
   if (standing == Standing::store && !force)
     return base::Problem{path + ":", "", "holds runs already",
-                         "continue them (resume), name another file, or overwrite it (force)"};
+                         "continue the runs (resume), name another file, or overwrite this file (force)"};
   if (standing == Standing::store)
     for (const char* part : {"", "-wal", "-shm"}) ::remove((path + part).c_str());
   base::Result<Database> db = Database::open(path);
@@ -226,15 +229,15 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
   };
   if (before.sixstep != now.sixstep)
     return refuse("was begun by sixstep " + before.sixstep + ", and this is " + now.sixstep +
-                      ": their rows could not be distinguished",
-                  "finish it with that version, or begin anew (force)");
+                      ", whose rows would look alike",
+                  "finish the runs with that version, or start again (force)");
   if (before.plan != now.plan)
     return refuse("holds the runs of another plan: " + before.plan,
                   "name another store for this plan: " + now.plan);
   if (before.inputs != now.inputs || *before.columns != *now.columns)
-    return refuse(
-        "holds runs of a scenario that was changed since: " + before.scenario + " or a file that it names",
-        "name another store, or overwrite this one (force)");
+    return refuse("holds runs of a scenario that has changed since then: " + before.scenario +
+                      " or a file that it names",
+                  "name another store, or overwrite this one (force)");
   // Messages name columns as the plan does, not as the file does.
   store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;

@@ -41,12 +41,12 @@ base::Problem Database::problem() const {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return {path_ + ":", "", "is in use by another program",
-              "wait until that has closed it, or name another store"};
+              "wait until the other program has closed the store, or name another store"};
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
       return damaged(path_, std::string("SQLite says: ") + sqlite().errmsg(handle_.get()));
     case SQLITE_FULL:
-      return {path_ + ":", "", "cannot grow: the disk is full", "free disk space and resume"};
+      return {path_ + ":", "", "cannot grow: the disk is full", "free disk space, and resume"};
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
     case SQLITE_PERM:
@@ -59,7 +59,7 @@ base::Problem Database::problem() const {
 }
 
 base::Problem damaged(const std::string& path, const std::string& how) {
-  return {path + ":", "", "is damaged: " + how, "use an older copy of it, or begin anew (force)"};
+  return {path + ":", "", "is damaged: " + how, "use an older copy of the store, or start again (force)"};
 }
 
 std::string sql_name(std::string_view name) {

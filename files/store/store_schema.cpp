@@ -95,10 +95,10 @@ base::Problems check_format(Database& db) {
   if (format == 1)
     return {{db.path() + ":", "",
              "was written by an older sixstep without checksums, so damage cannot be detected",
-             "finish it with that version, or begin anew (force)"}};
+             "finish the runs with that version, or start again (force)"}};
   return {{db.path() + ":", "",
            fmt::format("has the format {}, and this sixstep reads {}", format, store_format),
-           "use the version that wrote it, or begin anew (force)"}};
+           "use the version of sixstep that wrote the store, or start again (force)"}};
 }
 
 analysis::PlanColumns columns_from(const std::vector<ColumnRow>& rows) {

@@ -112,8 +112,8 @@ base::Problems MatWriter::save_what_fits(std::uint64_t digest) {
   const int reason = error_ != 0 ? error_ : file_.error() != 0 ? file_.error() : spool_.error();
   base::Problem problem = unwritable(file_.path(), reason);
   if (too_long_) {
-    problem.limit = fmt::format("has {} rows, and a column of MAT 5 ends at 2 GiB", spool_.rows());
-    problem.cure = "take --mat73, or record less";
+    problem.limit = fmt::format("has {} rows, but a column of MAT 5 has at most 2 GiB", spool_.rows());
+    problem.cure = "use --mat73, or record fewer rows";
   }
   if (!assemble(digest) || !file_.commit_partial().empty()) return {problem};
   problem.cure = too_long_

@@ -159,8 +159,8 @@ function noteEnvelope() {
   const thin = data.charts.filter((c) => !c.complete);
   if (!thin.length) return;
   element('envelope').textContent =
-    `The run has ${grouped(thin[0].recorded)} recorded rows: here an envelope stands ` +
-    `for them that keeps every peak; ${data.rows?.length ? `where fewer than ${grouped(ROWS_IN_VIEW)} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
+    `The run has ${grouped(thin[0].recorded)} recorded rows. Here an envelope that keeps every ` +
+    `peak replaces them; ${data.rows?.length ? `where fewer than ${grouped(ROWS_IN_VIEW)} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
 }
 
 /** The envelope stands first; every row follows when the page can be read already. */

@@ -29,8 +29,7 @@ struct Fixed {
 #if defined(__AVR__) && defined(__clang__) && !defined(SIXSTEP_ANY_COMPILER)
   static_assert(
       sizeof(Storage) == 2,
-      "clang 19 passes structs of 32-bit formats wrongly on the AVR wherever a call is not inlined: take q15 or q14, or "
-      "define SIXSTEP_ANY_COMPILER once a test on the chip has found this drive's bits right");
+      "clang 19 passes structs of 32-bit formats wrongly on the AVR where a call is not inlined; use q15 or q14, or define SIXSTEP_ANY_COMPILER after a test on the chip has confirmed this drive's bits");
 #endif
 
   Storage raw = 0;  ///< the number times 2^FractionBits

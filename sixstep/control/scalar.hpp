@@ -18,11 +18,11 @@
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error \
-    "sixstep/control is C++20 (-std=c++20). avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none: take clang 19 for the AVR"
+    "sixstep/control needs C++20 (-std=c++20), which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
 #endif
 #if defined(__AVR__) && defined(__clang__) && __clang_major__ < 19 && !defined(SIXSTEP_ANY_COMPILER)
 #error \
-    "this clang is known to compile drives wrongly for the AVR, without a warning: take clang 19 or later (SIXSTEP_ANY_COMPILER overrides)"
+    "this clang compiles drives wrongly for the AVR, without a warning; use clang 19 or later, or define SIXSTEP_ANY_COMPILER"
 #endif
 #include <cstdint>
 

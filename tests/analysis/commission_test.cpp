@@ -188,7 +188,7 @@ TEST(Commission, SaysWhichMotorsItCannotBeMadeWith) {
   }
   CommissionSubject weak = subject_of("maxon-251601");
   weak.current_A = 1e-5;
-  expect_refused(weak, "current_A", "because the rotor swings that long");
+  expect_refused(weak, "current_A", "the rotor takes too long to come to rest");
   CommissionSubject beside = subject_of("maxon-251601");
   beside.hall_offset_deg = 181.0;
   expect_refused(beside, "hall_offset_deg", "");

@@ -332,7 +332,7 @@ TEST(DesignStudy, SaysWhatOnlyTheRunCouldShow) {
        .spec = {
            .mode = Mode::speed, .method = design::GainMethod::symmetrical_optimum, .torque_limit_Nm = 0.78}});
   ASSERT_TRUE(drowned);
-  EXPECT_TRUE(warns(*drowned, "ripple in speed"));
+  EXPECT_TRUE(warns(*drowned, "speed ripple of the commutations"));
 }
 
 TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {

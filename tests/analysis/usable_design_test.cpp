@@ -157,7 +157,7 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   const auto late = std::find_if(hasty->warnings.begin(), hasty->warnings.end(),
                                  [](const auto& w) { return w.of == design::Concern::settling; });
   ASSERT_NE(late, hasty->warnings.end());
-  EXPECT_EQ(late->what.rfind("in the simulation it settles in ", 0), 0u) << late->what;
+  EXPECT_EQ(late->what.rfind("in the simulation the loop settles in ", 0), 0u) << late->what;
   EXPECT_NE(late->cure.find("settle_s = 0.28"), std::string::npos) << late->cure;
 }
 

@@ -148,7 +148,7 @@ TEST(PlanRuns, CountWhatCouldNotStartAndGoOn) {
   runs.scenario = [&](std::size_t n) -> base::Result<analysis::PlannedRun> {
     study::Scenario s = drives.scenario;
     if (n % 2 == 0) s.sheet.resistance_ohm->value = 0.0;
-    if (n == 3) return base::Problem{"--set a.b", "1", "is no key", "write another"};
+    if (n == 3) return base::Problem{"--set a.b", "1", "is not a key", "write another"};
     return analysis::PlannedRun{std::move(s), {}};
   };
   run_plan(runs);

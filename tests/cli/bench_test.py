@@ -99,7 +99,7 @@ class Bench(Started):
         written = tomllib.loads((self.path / "a.toml").read_text())
         self.assertEqual(written, {"sensors": {}})
         for told in (text, (self.path / "a.toml").read_text()):
-            self.assertIn("# hall_edges_deg is left out: codes alone show neither the first edge nor", told)
+            self.assertIn("# without hall_edges_deg: codes alone show neither the first edge nor", told)
         (self.path / "log.csv").write_text(log())
         self.run_program("motor", "identify", "log.csv", "--write", "b.toml")
         self.assertEqual(len(tomllib.loads((self.path / "b.toml").read_text())["sensors"]["hall_edges_deg"]), 6)
@@ -124,7 +124,7 @@ class Bench(Started):
             self.assertEqual(told["sheet"]["checks"][0]["holds"], code == 0)
         self.assertEqual(self.told("emf", "scope.csv", "--motor", "s.toml", "--pole-pairs", "4", code=1)["pole_pairs"], 4)
         line = self.refused("emf", "scope.csv", "--motor", "s.toml", "--pole-pairs", "3", "--write", "w.toml")
-        self.assertIn("--pole-pairs = 3 contradicts the 4 of s", line)
+        self.assertIn("--pole-pairs = 3 contradicts the 4 pole pairs of s", line)
         self.assertFalse((self.path / "w.toml").exists())
         self.run_program("motor", "emf", "scope.csv", "--motor", "s.toml", "--tolerance", "50")
 
@@ -143,9 +143,9 @@ class Bench(Started):
     def test_an_interval_does_not_overrule_a_column_of_time(self):
         of_file = self.told("emf", "scope.csv")
         self.assertEqual(self.told("emf", "scope.csv", "--interval", "2e-5"), of_file)
-        self.assertIn("scope.csv: contradicts the interval that is given, 4e-05 s: time steps by 2e-05 s",
+        self.assertIn("scope.csv: contradicts the given interval of 4e-05 s: time rises by 2e-05 s from row to row",
                       self.refused("emf", "scope.csv", "--interval", "4e-5"))
-        self.assertIn("contradicts the interval that is given", self.refused("identify", "log.csv", "--interval", "1e-4"))
+        self.assertIn("contradicts the given interval", self.refused("identify", "log.csv", "--interval", "1e-4"))
 
     def test_hostile_logs_get_one_line_with_place_and_cure(self):
         whole = log()
@@ -153,13 +153,13 @@ class Bench(Started):
         dead = "\n".join(",".join([*cells[:3], "0", *cells[4:]]) if n else ",".join(cells)
                          for n, cells in enumerate(line.split(",") for line in whole.splitlines()))
         for text, told in (("", "is empty; export the recording again"),
-                           ("".join(whole.splitlines(True)[:400]), "; turn the shaft by 3 electrical turns"),
+                           ("".join(whole.splitlines(True)[:400]), "; turn the shaft by at least 3 electrical turns"),
                            (standing, "hall1, hall2, hall3 never change: the rotor was at rest"),
                            (dead, "hall3 = 0 in every row, while another line changes"),
                            (whole.replace("hall", "pin"), "has no columns of Hall lines: it has time, pin1"),
                            (whole.replace(",", "|"), "holds no row of numbers"),
-                           ("\x1f\x8b\x08\x00\x00" + whole, "is no text; export the recording as CSV; gzip -d"),
-                           (whole.replace("0.01,", "nan,", 1), ': time "nan" is not a number; leave such rows out'),
+                           ("\x1f\x8b\x08\x00\x00" + whole, "is not a text file; export the recording as CSV, or unpack a .gz with gzip -d"),
+                           (whole.replace("0.01,", "nan,", 1), ': time "nan" is not a number; remove such rows'),
                            (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is too large for any instrument; check the unit"),
                            (whole + "0,1,0,0,0,0,0\n", "time 0 in row 2161 does not rise; give the rows in the order"),
                            (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is too large for any instrument"),
@@ -181,8 +181,8 @@ class Bench(Started):
                            (head, "holds no row of numbers"),
                            (head + "".join(rows.splitlines(True)[:900]), "period"),
                            (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor was at rest"),
-                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not name the points of the probes; lines is"),
-                           (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; head it time [s], or give"),
+                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing, and the headings do not tell between which points the voltages were measured; give lines"),
+                           (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; write the heading time [s], or give"),
                            (whole + "1,inf\n", 'u_ab "inf" is not a number')):
             (self.path / "scope.csv").write_text(text)
             with self.subTest(told):
@@ -202,7 +202,7 @@ class Bench(Started):
     def test_a_preamble_that_contradicts_the_rows_is_refused(self):
         (self.path / "scope.csv").write_text("# Sample interval: 20 ms\n" + (self.path / "scope.csv").read_text())
         line = self.refused("emf", "scope.csv")
-        self.assertIn('scope.csv: contradicts itself: time steps by 2e-05 s, and "Sample interval: 20 ms" says 0.02 s', line)
+        self.assertIn('scope.csv: contradicts itself: time rises by 2e-05 s from row to row, but "Sample interval: 20 ms" says 0.02 s', line)
         self.run_program("motor", "emf", "scope.csv", "--interval", "2e-5", "--quiet")
 
     def test_options_that_cannot_be(self):

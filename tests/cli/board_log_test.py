@@ -50,17 +50,17 @@ class BoardLog(LogTest):
         self.write_log()
         self.run_program("run", SCENARIO, "--compare", "log.csv", "--html", "over.html", "--quiet", code=0)
         page = (self.path / "over.html").read_text(encoding="utf-8")
-        for word in ("A board's log over its simulation", "what a board sent", "What the board sent, less the simulation", "log.csv"):
+        for word in ("A board's log over its simulation", "recorded on a board", "Log of the board, less the simulation", "log.csv"):
             self.assertIn(word, page)
 
     def test_refuses_with_a_way_out(self):
         self.write_log()
         (self.path / "bad.csv").write_text("t [us],i_m [V]\n1,2\n2,3\n")
         for words, said in (((SCENARIO, "--compare", "none.csv"), "none.csv"),
-                            ((SCENARIO, "--compare", "bad.csv"), "where A belongs"),
+                            ((SCENARIO, "--compare", "bad.csv"), "but A is expected"),
                             ((SCENARIO, SCENARIO, "--compare", "log.csv"), "name one scenario"),
-                            ((SCENARIO, "--compare", "log.csv", "--csv", "x.csv"), "no output but --html"),
-                            ((SCENARIO, "--compare", "log.csv", "--out", "d"), "no output but --html"),
+                            ((SCENARIO, "--compare", "log.csv", "--csv", "x.csv"), "--html FILE as the only output"),
+                            ((SCENARIO, "--compare", "log.csv", "--out", "d"), "--html FILE as the only output"),
                             ((SCENARIO, "--shift", "1"), "--compare"),
                             ((SCENARIO, "--compare", "log.csv", "--vary", "supply.voltage_V=20:28:3"), "--only N")):
             with self.subTest(words=words[1:]):
@@ -136,7 +136,7 @@ class LogsOfOthers(LogTest):
                       "duty = duty_cycle\n", text)
         self.assertIn("current_in (a mean over PWM periods, where the simulation has the pulses)", text)
         text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
-        self.assertIn("its clock starts at 36000 s: times count from its first row", text)
+        self.assertIn("its clock starts at 36000 s, so that times are counted from its first row", text)
         self.assertIn("not used: input_voltage, temp_mos_max, current_in, d_axis_current, q_axis_current, duty_cycle, tacho_meter (not named)", text)
 
     def test_ardupilot(self):
@@ -176,7 +176,7 @@ class LogsOfOthers(LogTest):
         named = ("--columns", "time=t/1000,speed=speed,i_m=i_m")
         self.expect_right("--interval", "0.003", *named)
         for words in ((), named):
-            self.assertIn("contradicts the interval that is given, 0.006 s", self.compared("--interval", "0.006", *words, code=2)[1])
+            self.assertIn("contradicts the given interval of 0.006 s", self.compared("--interval", "0.006", *words, code=2)[1])
 
     def test_a_scopes_record_of_terminals(self):
         self.log("Time (s),CH1 (V),CH2 (V)\n", lambda n, r: f"{r['t_s']:.6f},{r['u_a_V']:.3f},{r['u_ab_V']:.3f}\n")
@@ -189,19 +189,19 @@ class LogsOfOthers(LogTest):
         self.log("t [ms],speed_rpm,rpm,current,note\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},1,2,x\n")
         found, text = self.compared()
         self.assertEqual(set(found), {"speed_rad_s"}, text)
-        self.assertIn("not used: rpm, current (a simulation has none of that name), note (holds no numbers)", text)
+        self.assertIn("not used: rpm, current (the simulation has no such column), note (holds no numbers)", text)
 
     def test_what_cannot_be_compared_exits_2(self):
         good = [f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f}\n" for r in self.rows]
         for head, rows, words, said in (
-                ("t [ms],speed [counts]\n", good, (), 'heads speed in "counts", which is not a unit; rad/s belongs there; units that fit: rad/s, '),
-                ("t [ms],speed [Hz]\n", good, (), 'heads speed as Hz, where rad/s belongs; name another column; write rev/s for turns of the shaft'),
-                ("t [foo],speed [rpm]\n", good, (), 'heads t in "foo", which is not a unit; s belongs there'),
-                ("t [s],speed [rpm]\n", good, (), "has 1 of 100 rows in the simulated time, 0 to 0.3 s; its own is 0 to 297 s, and 5 are needed"),
+                ("t [ms],speed [counts]\n", good, (), 'has the heading speed in "counts", which is not a unit; rad/s is expected; units that fit: rad/s, '),
+                ("t [ms],speed [Hz]\n", good, (), 'has the heading speed in Hz, but rad/s is expected; name another column; write rev/s for turns of the shaft'),
+                ("t [foo],speed [rpm]\n", good, (), 'has the heading t in "foo", which is not a unit; s is expected'),
+                ("t [s],speed [rpm]\n", good, (), "has 1 of 100 rows in the simulated time, 0 to 0.3 s; the log covers 0 to 297 s, and 5 are needed"),
                 ("t [ms],speed [rpm]\n", good[:4], (), "has 4 of 4 rows"),
                 ("t [ms],speed [rpm]\n", [*good[:5], "15.0,OL\n", *good[6:]], (), 'log.csv:7: speed "OL" is not a number'),
                 ("t [ms],speed [rpm],speed [rpm]\n", [row[:-1] + ",1\n" for row in good], (), "has two columns of speed_rad_s"),
-                ("t [ms],speed [rpm]\n", good, ("--columns", "sped=speed"), "--columns = sped is no column that a simulation has; did you mean speed"),
+                ("t [ms],speed [rpm]\n", good, ("--columns", "sped=speed"), "--columns = sped is not a column of the simulation; did you mean speed"),
                 ("t [ms],speed [rpm]\n", good, ("--columns", "speed"), "--columns = speed must be NAME=COLUMN"),
                 ("t [ms],speed [rpm]\n", good, ("--columns", "speed=sped"), 'has no column "sped"; did you mean "speed"?'),
                 ("t [ms],speed [rpm]\n", good, ("--columns", "speed=speed,speed=t"), "--columns = speed is named twice"),

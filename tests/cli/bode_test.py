@@ -68,7 +68,7 @@ class Bode(ProgramTest):
                      re.sub("<script.*?</script>", "", (self.path / "b.html").read_text(), flags=re.S)):
             self.assertIsNone(re.search(r"(?<![\w-])-?(nan|inf)(?!\w)", text))
         quiet = self.run_program("run", "held.toml", "--bode", "--quiet", code=1)
-        self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: nothing was measured: no line has a coherence of 0.9\n"))
+        self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n"))
 
     def test_refuses_a_drive_that_is_still_on_its_way(self):
         """400 rad/s take 20 s there. A straight way has a coherence of 1 in every line: the curve would be that of the way."""
@@ -87,7 +87,7 @@ class Bode(ProgramTest):
             (self.path / "b.json").unlink()
             lost = told["designed"]["phase_margin_deg"] - told["measured"]["phase_margin_deg"]
             self.assertEqual(lost > 5, beside)
-            self.assertEqual('deg from the designed one' in made and 'pwm.chopping = "complementary" lets it' in made, beside)
+            self.assertEqual('deg from the designed one' in made and 'pwm.chopping = "complementary" lets the current reverse' in made, beside)
             page = (self.path / "b.html").read_text()
             self.assertIn("±", page)
             self.assertNotIn("+-", page[page.index("<h1"):page.index("<footer") if "<footer" in page else len(page)])
@@ -101,7 +101,7 @@ class Bode(ProgramTest):
         both, ideal = ("--set", "pwm.chopping=complementary"), ("--set", "sensors.rotor=ideal")
         encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
         for words, said, cures in some((
-                (("sp.toml", *free, *ideal), "this chopping lets no current flow backwards", (both,)),
+                (("sp.toml", *free, *ideal), "with this chopping the current cannot reverse", (both,)),
                 (("po.toml",), "Hall probes resolve the position only in steps of 7.5 deg", (encoder,)),
                 (("sp.toml",), None, ()),
                 (("sp.toml", *ideal), None, ()),

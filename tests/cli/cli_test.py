@@ -46,7 +46,7 @@ class CommandLine(ProgramTest):
         files = [self.write(f"{name}.toml", 1000) for name in ("a", "b")]
         self.run_program("run", *files, "--html", "both.html")
         page = (self.path / "both.html").read_text()
-        self.assertIn("Nothing that changes a run.", page)
+        self.assertIn("No difference that changes a run.", page)
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))
         differences = [curve for chart in data["charts"] if chart["id"].endswith("-difference") for curve in chart["curves"]]
         self.assertTrue(differences)
@@ -63,7 +63,7 @@ class CommandLine(ProgramTest):
         self.run_program("run", "absent.toml", code=2)
         self.run_program("run", code=2)
         self.run_program("nonsense", code=2)
-        self.assertEqual(self.run_program("rum", code=2).stderr, "rum is no command of sixstep; did you mean run?\n")
+        self.assertEqual(self.run_program("rum", code=2).stderr, "rum is not a command of sixstep; did you mean run?\n")
         self.assertIn("--jobs", self.run_program("run", good, "--jobs", "-1", code=2).stderr)
         self.run_program("run", good, "--set", "novalue", code=2)
         self.run_program("run", good, "a.toml", "--csv", "x.csv", code=2)
@@ -96,18 +96,18 @@ class CommandLine(ProgramTest):
                             ("design own.toml --quick --toml own.toml", "own.toml")):
             with self.subTest(words):
                 told = self.run_program(*words.split(), code=2).stderr
-                self.assertEqual(told, f"{name}: is an input of this command, and the output would replace it; name another file\n")
+                self.assertEqual(told, f"{name}: is an input of this command, which the output would replace; name another file\n")
         self.assertEqual((self.path / "a.toml").read_text(), text)
         self.assertEqual((self.path / "own.toml").read_text(), sheet)
         self.assertEqual(self.names(), ["a.toml", "link.toml", "own.toml"])
 
     def test_two_outputs_to_one_file_are_refused_in_whatever_spelling(self):
         self.write("a.toml", 1000), self.write("index.toml", 1000)
-        for words, told in (("run a.toml --csv ./x --json x", "--json = x is what --csv writes; give each its own file\n"),
-                            ("curve maxon-251601 --csv x --html ./x", "--html = ./x is what --csv writes; give each its own file\n"),
-                            ("design maxon-251601 --toml x --json ./x", "--toml = x is what --json writes; give each its own file\n"),
+        for words, told in (("run a.toml --csv ./x --json x", "--json = x is what --csv writes; give each output its own file\n"),
+                            ("curve maxon-251601 --csv x --html ./x", "--html = ./x is what --csv writes; give each output its own file\n"),
+                            ("design maxon-251601 --toml x --json ./x", "--toml = x is what --json writes; give each output its own file\n"),
                             ("run a.toml index.toml --out out", "index.toml: would write index.html, which lists all reports; "
-                                                                "rename it, or run it without --out\n")):
+                                                                "rename this file, or run it without --out\n")):
             self.assertEqual(self.run_program(*words.split(), code=2).stderr, told)
         self.assertEqual(self.names(), ["a.toml", "index.toml"])
         self.run_program("run", "a.toml", "--csv", "/dev/null", "--vcd", "/dev/null", "--quiet")  # /dev/null accepts all of them
@@ -165,8 +165,8 @@ class CommandLine(ProgramTest):
         told = self.run_program("run", self.write("a.toml", 1000), "--tolerances", code=2).stderr
         self.assertTrue(told.startswith("--tolerances needs several drives"), told)
         self.assertNotIn("--vary", told)
-        self.assertIn("describes no series", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
-        self.assertIn("describes no series", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
+        self.assertIn("has no [[spread]]", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
+        self.assertIn("has no [[spread]]", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
         file = self.write_series(1000)
         self.assertIn("--only", self.run_program("run", file, "--runs", "3", "--vcd", "a.vcd", code=2).stderr)
         self.run_program("run", file, "--runs", "3", "--drive", "1", code=2)
@@ -192,28 +192,28 @@ class CommandLine(ProgramTest):
         for words, told in (
                 ("run", "sixstep run needs FILE: scenario or plan files; sixstep run --help lists all"),
                 ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help lists all"),
-                ("motor lst", "lst is no command of sixstep motor; did you mean list?"),
-                ("run a.toml --htlm x", "--htlm is no argument of sixstep run; did you mean --html?"),
-                ("run a.toml --duraton 3", "--duraton is no argument of sixstep run; did you mean --set duration_s=..?"),
-                ("run a.toml --supply-voltage=3", "--supply-voltage=3 is no argument of sixstep run; did you mean --set supply.voltage_V=..?"),
-                ("run a.toml --csv", "--csv needs a value behind it; it means: write the recorded trace"),
+                ("motor lst", "lst is not a command of sixstep motor; did you mean list?"),
+                ("run a.toml --htlm x", "--htlm is not an argument of sixstep run; did you mean --html?"),
+                ("run a.toml --duraton 3", "--duraton is not an argument of sixstep run; did you mean --set duration_s=..?"),
+                ("run a.toml --supply-voltage=3", "--supply-voltage=3 is not an argument of sixstep run; did you mean --set supply.voltage_V=..?"),
+                ("run a.toml --csv", "--csv needs a value after it; it means: write the recorded trace"),
                 ("run a.toml --html x --html y", "--html is given more than once; keep one"),
-                ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave one of them out"),
+                ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave out one of the two"),
                 ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help lists all"),
                 ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help lists all"),
-                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number, in digits alone; it means: number of points from standstill to no load; without it 41"),
-                ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number, without its unit; it means: bus voltage, V; "
-                                                     "without it the sheet's nominal voltage"),
-                ("--verson", "--verson is no argument of sixstep; did you mean --version?"),
-                ("run -", "-: is no file; /dev/stdin is the one that holds what is piped into the program"),
-                ("run /dev/zero", "/dev/zero: cannot be read: it is larger than 128 MiB; name a file that ends")):
+                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number; it means: number of points from standstill to no load. Default: 41"),
+                ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number without a unit; it means: bus voltage, V. "
+                                                     "Default: the sheet's nominal voltage"),
+                ("--verson", "--verson is not an argument of sixstep; did you mean --version?"),
+                ("run -", "-: is not a file; to read from a pipe, name /dev/stdin"),
+                ("run /dev/zero", "/dev/zero: cannot be read: it is larger than 128 MiB; name a smaller file")):
             with self.subTest(words):
                 self.assertEqual(self.run_program(*words.split(), code=2).stderr, told + "\n")
         alone = self.run_program(code=2)
         self.assertEqual(alone.stdout, "")
         self.assertIn("To begin with: sixstep new first\n", alone.stderr)
         self.assertEqual(self.run_program("motor", "show", "a.toml", code=2).stderr,
-                         "a.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name this motor\n")
+                         "a.toml:1:1: is a scenario, not a motor file; name the scenario's motor, maxon-251601\n")
 
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)
@@ -233,7 +233,7 @@ class CommandLine(ProgramTest):
         self.assertLess(both.index("Usage: sixstep motor"), both.index("The key motor of a scenario"), "the command comes first")
         for words in (["motor", "new"], ["motor", "check"], ["export", "fmu"]):
             self.assertEqual(self.run_program("help", *words).stdout, self.run_program(*words, "--help").stdout)
-        self.assertIn("is no command of sixstep motor", self.run_program("help", "motor", "mew", code=2).stderr)
+        self.assertIn("is not a command of sixstep motor", self.run_program("help", "motor", "mew", code=2).stderr)
         self.assertIn("looked up beside the scenario", both)
 
 

@@ -65,7 +65,7 @@ class Commission(Started):
         for phases, turns_over in (("abc", False), ("bca", False), ("bac", True)):
             text = self.commission("maxon-251601", "--phases", phases).stdout
             self.assertEqual(f"Phases {phases} are at the legs a b c." in text, phases != "abc")
-            self.assertEqual("its forward is the motor's backward" in text, turns_over)
+            self.assertEqual("its forward direction is backward for the motor" in text, turns_over)
             self.assertIn("sixstep motor wiring", text)
 
     def test_what_cannot_be_is_refused(self):

@@ -16,7 +16,7 @@ class Conditions(ProgramTest):
     def test_the_time_that_a_winding_withstands_its_limit_is_that_of_two_bodies(self):
         """Winding and housing integrated step by step, with the worse ends of the sheet's ranges (5.3 K/W, 11.7 s), from 25 to 125 degC."""
         remarks = json.loads(self.run_program("run", CORTEX, "--json", "-").stdout)
-        told = re.search(r"lets ([\d.]+) A flow.*withstands it for .* from 25 degC, and by the worse ends of their ranges for ([\d.]+) s", json.dumps(remarks))
+        told = re.search(r"lets ([\d.]+) A flow.*withstands this current for .* from 25 degC, and by the worse ends of the thermal ranges for ([\d.]+) s", json.dumps(remarks))
         current, seconds = map(float, told.groups())
         self.assertAlmostEqual(current, 0.195 / 33.5e-3, delta=0.01)
         winding = housing = 25.0
@@ -37,7 +37,7 @@ class Conditions(ProgramTest):
         ends = seconds()
         worse = ("resistance_winding_housing_K_W=5.3", "time_constant_winding_s=11.7")
         told = self.run_program("run", CORTEX, *(w for end in worse for w in ("--set", f"motor_override.thermal_{end}"))).stdout
-        self.assertAlmostEqual(float(re.search(r"withstands it for ([\d.]+) s from 25", told).group(1)), ends, delta=0.02 * ends)
+        self.assertAlmostEqual(float(re.search(r"withstands this current for ([\d.]+) s from 25", told).group(1)), ends, delta=0.02 * ends)
         for part, code in ((0.98, 0), (1.02, 2)):
             self.run_program("export", "header", CORTEX, "--set", f"protection.stall_s={part * ends}", "--out", "d.hpp", "--force", code=code)
 
@@ -47,7 +47,7 @@ class Conditions(ProgramTest):
         bare = (SOURCE / "data/scenarios/firmware/cortex-m.toml").read_text().replace('"maxon-251601"', '"bare.toml"')
         (self.path / "bare-drive.toml").write_text(bare)
         limit = ("--set", "motor_override.max_speed_rpm=2000")
-        for words, said in (((CORTEX, *limit), "the rotor reached 3"), ((CORTEX,), "withstands it for 12.8 s"),
+        for words, said in (((CORTEX, *limit), "the rotor reached 3"), ((CORTEX,), "withstands this current for 12.8 s"),
                             ((CORTEX, "--set", "bridge.dead_time_s=50e-9"), "dead_time_s = 50 ns is short"),
                             ((CORTEX, "--set", "protection.over_speed_rad_s=3000", "--despite", "a trial"), "protects nothing"),
                             (("bare-drive.toml",), "not checked: whether the winding withstands")):
@@ -67,12 +67,12 @@ class Conditions(ProgramTest):
         brakes = ("--set", "protection.brake_current_A=2", "--set", "supply.capacitance_F=1e-3")
         sinks = (*brakes, "--set", "supply.sinks=true")
         cleared = self.run_program("export", "header", CORTEX, *sinks)
-        self.assertRegex(cleared.stderr, r"with one that takes none back protection.brake_current_A = 2 ends a stop at 0\.8 s in a fault: over-voltage")
+        self.assertRegex(cleared.stderr, r"with a supply that takes no current back, protection.brake_current_A = 2 ends a stop at 0\.8 s in a fault: over-voltage")
         self.assertRegex(cleared.stdout, r"bool cleared = true; .*whose supply takes current back")
         self.assertIn("setpoint_limit = 300 rad/s is the largest reference", cleared.stderr)
         self.run_program("export", "header", CORTEX, *brakes, "--out", "no.hpp", code=1)
         large = ("--set", "supply.capacitance_F=20e-3")
-        self.assertNotIn("takes none back", self.run_program("export", "header", CORTEX, *sinks, *large).stderr)
+        self.assertNotIn("with a supply that takes no current back", self.run_program("export", "header", CORTEX, *sinks, *large).stderr)
         self.run_program("export", "header", CORTEX, *brakes, *large, "--out", "yes.hpp")
 
     def test_the_example_for_a_bench_holds_on_any_supply_within_its_tolerances(self):
@@ -88,7 +88,7 @@ class Conditions(ProgramTest):
         for file, told in (("lean.toml", True), (CORTEX, False)):
             cleared = self.run_program("export", "header", file)
             for text in (cleared.stderr, cleared.stdout):
-                self.assertEqual("has no protection: it leaves the bridge on at over-current" in text, told, file)
+                self.assertEqual("has no protection: the bridge stays on at over-current" in text, told, file)
             self.assertEqual(bool(re.search(r"bool cleared = true; .*that your firmware protects", cleared.stdout)), told)
 
     def test_a_nominal_speed_lies_between_no_load_and_a_warm_motor(self):
@@ -102,7 +102,7 @@ class Conditions(ProgramTest):
 
     def test_a_contradiction_is_told_wherever_the_sheet_is_used(self):
         (self.path / "a.toml").write_text(SHEET.replace("value = 23.3,", "value = 32.3,"))
-        words = "the motor's sheet contradicts itself: stall current disagrees with its other values"
+        words = "the motor's sheet contradicts itself: stall current disagrees with the other values"
         self.assertIn(words, self.run_program("design", "a.toml", "--quick").stdout)
         self.assertIn(words, self.run_program("new", "mine", "--motor", "a.toml", "--mode", "current").stdout)
         self.assertIn(words, self.run_program("run", "mine.toml").stdout)

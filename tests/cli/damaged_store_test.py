@@ -94,7 +94,7 @@ class DamagedStore(ProgramTest):
 
     def test_rows_beyond_the_plan_are_told(self):
         told = self.run_program("run", "a.toml", "--runs", "50", "--store", "s.sqlite", "--resume", code=1)
-        self.assertIn(f"s.sqlite: holds {MORE - 50} runs beyond the 50 of this plan", told.stderr)
+        self.assertIn(f"s.sqlite: holds {MORE - 50} more runs than the 50 of this plan", told.stderr)
         self.assertIn("50 drives", told.stdout)
 
     def test_another_version_or_format_is_named(self):
@@ -125,7 +125,7 @@ class DamagedStore(ProgramTest):
     def test_a_store_is_no_standard_output(self):
         for words in (("run", "a.toml", "--runs", "5"), ("compare", "maxon-251601"), ("design", "--optimise", "a.toml")):
             told = self.run_program(*words, "--store", "-", code=2)
-            self.assertIn("--store = - means standard output elsewhere", told.stderr)
+            self.assertIn("--store = - means standard output", told.stderr)
         self.assertNotIn("-", self.names())
 
     def test_a_plan_is_the_same_however_it_is_spelled(self):

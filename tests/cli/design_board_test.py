@@ -45,7 +45,7 @@ over_speed_rad_s = 300
         self.assertEqual((written["control"]["drive"], written["control"]["current"]["limit_A"]), ("product", 3))
         self.assertEqual(written["protection"]["over_current_A"], 4)
         self.assertNotIn("not_usable", written)
-        self.assertNotIn("gate drivers of small bridges", (self.path / "d.toml").read_text())
+        self.assertNotIn("the usual value of small bridges", (self.path / "d.toml").read_text())
         # With a limit above the trip level, text and file name the same omission.
         told, written = self.designed_for(board.replace("limit_A = 3", "limit_A = 8"), code=1)
         self.assertIn("NOT USABLE: of the board's scenario are left out: ", told)
@@ -61,7 +61,7 @@ slew = 1000
 current = {settle_s = 1e-3, damping = 0.6, back_emf_feed_forward = true}
 speed = {settle_s = 0.1, damping = 0.95, torque_limit_Nm = 0.15}
 """)
-        self.assertIn("this design leaves out these keys of the board's scenario: control.slew, heat.motor, load.coulomb_Nm\n", told)
+        self.assertIn("the design does not use these keys of the board's scenario: control.slew, heat.motor, load.coulomb_Nm\n", told)
         self.assertEqual((written["control"]["current"]["damping"], written["control"]["speed"]["damping"]), (0.6, 0.95))
         self.assertTrue(written["control"]["current"]["back_emf_feed_forward"])
 
@@ -82,7 +82,7 @@ over_speed_rad_s = OVER
     def test_what_the_boards_drive_changes_is_told_as_the_file_runs(self):
         """The product drive measures its offsets first, so that a step of the current settles later."""
         told, _ = self.designed_for(self.HELD.replace("MODE", "current").replace("LIMITS", "").replace("OVER", "300").replace("value = 100", "value = 2"))
-        line = re.search(r"the designed file keeps control.drive and \[protection\] of the board's scenario, so its run shows (.*)", told).group(1)
+        line = re.search(r"the designed file keeps control.drive and \[protection\] of the board's scenario, so that its run shows (.*)", told).group(1)
         run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
         ran = {c["figure"]: c["measured"] for c in run["compare"]}
         named = [(figure, float(value) * (1e-3 if unit == "ms" else 1)) for figure, value, unit in
@@ -127,7 +127,7 @@ speed = {settle_s = 0.1, damping = 0.9}
 """
         crossed = self.BOARD.replace('rotor = "hall"', 'rotor = "hall", hall_lines = "213"')
         told, _ = self.designed_for(crossed + drive, code=1)
-        self.assertIn("the wiring is the cause (sensors.hall_lines, bridge.phases)", told)
+        self.assertIn("correct the wiring (sensors.hall_lines, bridge.phases)", told)
 
     def test_a_limit_of_the_current_bounds_what_is_warned_of(self):
         """3 A of the 5.83 A at full torque: 1.29 times the nominal current."""

@@ -103,7 +103,7 @@ class Design(ProgramTest):
             for when, angle in re.findall(r"phase margin, (.*?) {2,}([\d.]+) deg", told):
                 margins[when] = float(angle)
             crossover = float(re.search(r"crossover +([\d.]+) kHz", told).group(1)) * 1e3
-        self.assertIn("a command counts 1.5 periods late, sampled in the middle of a period", told)
+        self.assertIn("a command acts 1.5 periods late, sampled in the middle of a period", told)
         half = 360 * crossover * 15e-6
         for sooner, later in (("no computation delay", "command half a period late"), ("command half a period late", "one period late"),
                               ("one period late", "1.5 periods late")):
@@ -162,7 +162,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
             # The design's test uses a board's dead time, as usual gate drivers need it.
-            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: usual for gate drivers of small bridges")
+            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: simulated with the usual value of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
             mantissa, exponent = d1.split("p")
@@ -232,9 +232,9 @@ class Design(ProgramTest):
         ran = json.loads(self.run_program("run", "d.toml", "--json", "-", "--quiet").stdout)
         self.assertEqual(ran["gains"][1]["d1"], d["loops"][1]["gains"]["d1"])
         told = self.run_program("design", "example-linear", "--torque-limit", "1", code=2).stderr
-        self.assertEqual(told, "--torque-limit = 1 is for turning motors, and this motor is linear; write --force-limit\n")
+        self.assertEqual(told, "--torque-limit = 1 applies to rotary motors only, and this motor is linear; write --force-limit\n")
         told = self.run_program("design", "maxon-251601", "--load-mass", "1", code=2).stderr
-        self.assertEqual(told, "--load-mass = 1 is for linear motors, and this motor turns; write --load-inertia\n")
+        self.assertEqual(told, "--load-mass = 1 applies to linear motors only, and this motor is rotary; write --load-inertia\n")
 
     def test_an_option_that_enters_nothing_is_refused_by_name(self):
         """Each option of the help, in each kind of design: it changes the numbers, or is refused by its name."""

@@ -125,7 +125,7 @@ class MotorTest(ProgramTest):
         else:
             self.assertRegex(first.stdout, "^NOT USABLE: ")
             advised = re.findall(r"(?m)^    usable with (.*)$", first.stdout)
-        if not advised and (choke := re.search(r" (\S+) mH of choke in each line", first.stdout + first.stderr)):
+        if not advised and (choke := re.search(r" a choke of (\S+) mH in each motor lead", first.stdout + first.stderr)):
             return self.chokes_help(motor, mode, float(choke.group(1)))
         self.assertEqual(len(advised), 1, first.stdout + first.stderr)
         words = advised[0].replace(" and ", " ").split()
@@ -169,7 +169,7 @@ class FoundMotors(MotorTest):
         self.run_any("design", "small.toml", "--quiet", "--toml", "x.toml")
         told = self.run_program("run", "x.toml").stdout
         ripple = 24 * 30e-6 / 224e-6 * (1.6 / 24) * (1 - 1.6 / 24)
-        samples, mean = map(float, re.search(r"note: mean of the last ten samples is (\S+) A at the controller's samples and (\S+) A", told).groups())
+        samples, mean = map(float, re.search(r"note: mean of the last ten samples is (\S+) A at the controller's samples, but (\S+) A", told).groups())
         self.assertAlmostEqual(samples, 1.0, delta=0.02)
         self.assertAlmostEqual(mean - samples, ripple / 2, delta=0.1 * ripple / 2)
         self.assertIn('pwm.sample = "middle"', told)

@@ -67,7 +67,7 @@ class Export(ProgramTest):
         self.assertEqual(told(position, "--arithmetic", "q51"),
                          "--arithmetic = q51 must be one of double, float, q15, q14, q31, q30; did you mean q15?\n")
         self.assertEqual(told(position, "--range", "curent_A=3", "--arithmetic", "q15"),
-                         "--range curent_A=3 names no quantity of the range; did you mean current_A?\n")
+                         "--range curent_A=3 is not a quantity of the range; did you mean current_A?\n")
         self.assertIn("--range current_A = 3A must be a number above 0", told(position, "--range", "current_A=3A", "--arithmetic", "q15"))
         self.assertIn("--range current_A", told(position, "--range", "current_A", "--arithmetic", "q15"))
         self.assertIn("add --arithmetic q15", told(position, "--range", "current_A=3"))
@@ -76,17 +76,17 @@ class Export(ProgramTest):
         for stated, least in (("current_A=4.9", "5 A"), ("setpoint=4.9", "5 of its unit"), ("bus_V=23", "24 V")):
             self.assertIn(f"is less than {least}, the largest of this scenario's", told(square, "--range", stated, "--arithmetic", "q15"))
         for name in ("7up", "int", "left::class", "std"):
-            self.assertIn(f"--namespace = {name} is no name of a C++ namespace", told(position, "--namespace", name))
+            self.assertIn(f"--namespace = {name} is not the name of a C++ namespace", told(position, "--namespace", name))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")
         self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot hold this drive: speed.K_i = ", small)
-        self.assertIn("take 32 bits", small)
+        self.assertIn("use a 32-bit format", small)
         # The ratio of such bases does not fit 16 bits, so that the message names the gain.
         self.assertIn("position_gain = ", told(position, "--arithmetic", "q15", "--set", "control.position.gain_rad_s_per_deg=1e6"))
         self.run_program("export", code=2)
         self.run_program("export", "heder", position, code=2)
         self.run_program("export", "header", code=2)
-        self.assertEqual(self.run_program("exprt", code=2).stderr, "exprt is no command of sixstep; did you mean export?\n")
+        self.assertEqual(self.run_program("exprt", code=2).stderr, "exprt is not a command of sixstep; did you mean export?\n")
         self.assertIn("cannot be written", self.run_program("export", "header", position, "--out", "no/d.hpp", code=2).stderr)
         self.assertEqual(self.names(), [])
 
@@ -100,7 +100,7 @@ class Gate(ProgramTest):
         result = self.run_program("export", "header", self.scenario(name), *words, "--out", "d.hpp", code=code)
         self.assertEqual((result.stdout, self.names()), ("", []))
         *lines, last = result.stderr.splitlines()
-        self.assertEqual(last, "no header was written; --despite REASON writes one that states all of this")
+        self.assertEqual(last, "no header was written; to write it anyway, add --despite REASON, and the header will state all of this")
         return [line.removeprefix(self.scenario(name) + ": ") for line in lines]
 
     def test_a_header_that_passed_says_what_it_passed(self):
@@ -120,8 +120,8 @@ class Gate(ProgramTest):
         """Slower than 9.2 L/R the placed loop's proportional gain is negative: 2 x 4.6/T_reg is below R/L."""
         slow = self.run_program("export", "header", self.scenario(BOARD), "--set", "control.current={settle_s=0.02}", *DESPITE).stdout
         plain = self.run_program("export", "header", self.scenario(BOARD)).stdout
-        self.assertIn("gain on its error is negative", slow)
-        self.assertNotIn("gain on its error is negative", plain)
+        self.assertIn("gain on the error is negative", slow)
+        self.assertNotIn("gain on the error is negative", plain)
 
     def test_the_run_computes_as_the_chip_will(self):
         text = self.run_program("export", "header", self.scenario(BOARD), "--arithmetic", "q15").stdout
@@ -140,7 +140,7 @@ class Gate(ProgramTest):
     def test_a_requirement_that_fails_is_refused(self):
         told = self.refused(1, BOARD, "--set", "supply.voltage_V=6")
         self.assertEqual(len(told), 1)
-        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; read its report")
+        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; read the report")
 
     def test_what_was_never_measured_is_refused_all_at_once_beside_what_fails(self):
         told = self.refused(2, "current-square", "--set", "supply.voltage_V=6", "--set", "pwm.chopping=complementary")
@@ -151,8 +151,8 @@ class Gate(ProgramTest):
         """All that is told at once, and the design that it names: no second refusal comes behind the first."""
         encoder = SOURCE / "data/scenarios/gallery/encoder.toml"
         said = self.run_program("export", "header", str(encoder), "--out", "d.hpp", code=2).stderr
-        self.assertIn('sensors.rotor = "encoder" has no decoder in the header\'s drive, which reads Hall probes; set rotor = "hall", '
-                      "and design gains and [[require]] for edges that come 7.5 deg apart\n", said)
+        self.assertIn('sensors.rotor = "encoder" is not supported by the header\'s drive, which reads Hall probes; set rotor = "hall", '
+                      "and design gains and [[require]] for Hall edges that are 7.5 deg apart\n", said)
         for cure in ("currents = \"phases\"", "delay_periods = 1", "500e-9", "sixstep design --scenario"):
             self.assertIn(cure, said)
         text = encoder.read_text().replace('rotor = "encoder"\n', 'rotor = "hall"\ncurrents = "phases"\ncurrent_range_A = 40\n')
@@ -180,7 +180,7 @@ class Gate(ProgramTest):
         text = self.run_program("export", "header", self.scenario("current-square"), "--set", "supply.voltage_V=6",
                                 "--despite", reason).stdout
         lines = text.splitlines()
-        at = lines.index("// NOT CLEARED FOR A BRIDGE. Written anyway, for this reason:")
+        at = lines.index("// NOT CLEARED FOR A BRIDGE. The header was written anyway, for this reason:")
         self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// What was overridden:"])
         self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 7]],
                          ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
@@ -194,7 +194,7 @@ class Gate(ProgramTest):
         told = self.run_program("export", "header", self.scenario(BOARD), "--despite", " \n", code=2).stderr
         self.assertEqual(told, "--despite gives no reason; give the reason for writing the header anyway; the header quotes it\n")
         clear = self.run_program("export", "header", self.scenario(BOARD), *DESPITE)
-        self.assertIn("--despite was not needed: the run holds, and the header states it\n", clear.stderr)
+        self.assertIn("--despite was not needed: the run holds every requirement, and the header states this\n", clear.stderr)
         self.assertIn("Cleared by its run", clear.stdout)
 
 

@@ -146,7 +146,7 @@ class Ends(Started):
                 told = program.communicate(timeout=60)[1]
             self.assertEqual(program.returncode, 130, told)
             left = "current-square-series: interrupted; the finished part is in o.partial.csv, o.partial.json"
-            kept = "; the finished runs are kept in o.sqlite, and the same command with --resume continues"
+            kept = "; the finished runs are in o.sqlite; to continue, repeat the command with --resume"
             self.assertIn(left + (kept if store else "") + "\n", told)
             self.assertIn("the verdicts of the finished runs are in o.partial.xml\n", told)
             self.assertEqual([name for name in self.names() if name.startswith("o.")],
@@ -174,7 +174,7 @@ class Ends(Started):
                 program.send_signal(signal.SIGINT)
                 told = program.communicate(timeout=60)[1]
                 self.assertEqual(program.returncode, 130, told)
-                self.assertIn(f"{what}: interrupted; the finished runs are kept in s.sqlite, and the same command with --resume continues\n", told)
+                self.assertIn(f"{what}: interrupted; the finished runs are in s.sqlite; to continue, repeat the command with --resume\n", told)
             (self.path / "s.sqlite").unlink()
 
     def test_curves(self):

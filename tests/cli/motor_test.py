@@ -20,7 +20,7 @@ class Motor(ProgramTest):
     def test_a_sheet_of_ones_own_from_the_template_to_a_run(self):
         self.assertIn("sixstep motor check mine.toml", self.run_program("motor", "new", "--style", "drone", "mine").stdout)
         self.assertEqual(self.names(), ["mine.toml"])
-        self.assertIn("mine.toml is there already", self.run_program("motor", "new", "mine", code=2).stderr)
+        self.assertIn("mine.toml already exists", self.run_program("motor", "new", "mine", code=2).stderr)
         text = (self.path / "mine.toml").read_text()
         self.assertEqual(self.run_program("motor", "new", "--style", "drone").stdout, text.replace('"mine"', '"my motor"'))
         for line in self.run_program("motor", "check", "mine.toml", code=2).stderr.splitlines():
@@ -54,11 +54,11 @@ class Motor(ProgramTest):
         words = 'name = "a"\npole_pairs = 7\nresistance_ohm = { value = 0.1, frame = "phase" }\n'
         (self.path / "a.toml").write_text(words)
         last = self.run_program("motor", "check", "a.toml").stdout.splitlines()[-1]
-        self.assertEqual(last, "consistent: the sheet prints nothing twice; it cannot be simulated: inductance_mH, "
+        self.assertEqual(last, "consistent: no two values of the sheet can be compared; it cannot be simulated: inductance_mH, "
                                "torque_constant_mNm_A and inertia_gcm2 are missing")
         more = 'inductance_uH = { value = 50, frame = "phase" }\nflux_linkage_mWb = 5\ninertia_gcm2 = 400\n'
         (self.path / "a.toml").write_text(words + more)
-        self.assertTrue(self.run_program("motor", "check", "a.toml").stdout.endswith("\nconsistent: the sheet prints nothing twice\n"))
+        self.assertTrue(self.run_program("motor", "check", "a.toml").stdout.endswith("\nconsistent: no two values of the sheet can be compared\n"))
         (self.path / "a.toml").write_text(words + more + 'simulatable = false\nnot_simulatable_because = "nobody trusts its inertia"\n')
         self.assertIn("; it cannot be simulated: nobody trusts its inertia\n", self.run_program("motor", "check", "a.toml").stdout)
 

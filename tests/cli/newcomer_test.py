@@ -56,9 +56,9 @@ class Starter(ProgramTest):
         (self.path / "mine.toml").write_text("mine")
         (self.path / "sixstep-scenario.schema.json").write_text("{}")
         self.assertEqual(self.run_program("new", "mine.toml", code=2).stderr,
-                         "mine.toml is there already; choose another name, or move it away\n")
+                         "mine.toml already exists; choose another name, or move the existing file\n")
         self.assertEqual((self.path / "mine.toml").read_text(), "mine")
-        self.assertIn("wrote other.toml; the existing sixstep-scenario.schema.json beside it differs and is kept", self.run_program("new", "other").stdout)
+        self.assertIn("wrote other.toml; the existing sixstep-scenario.schema.json beside it differs and was kept", self.run_program("new", "other").stdout)
         self.assertEqual((self.path / "sixstep-scenario.schema.json").read_text(), "{}")
 
     def test_without_a_name_it_goes_to_standard_output(self):
@@ -175,7 +175,7 @@ class Follower:
         yield r"^put words in quotes", lambda: self.replace_word('"' + self.word() + '"')
         yield r"^write a decimal point", lambda: self.replace_at(",", ".")
         yield r"^write KEY = VALUE", lambda: self.put(self.column, "= ")
-        yield r"^end the line behind the value", lambda: self.replace_line(self.lines[self.row][:self.column])
+        yield r"^end the line after the value", lambda: self.replace_line(self.lines[self.row][:self.column])
         yield r"^give each key and table once", lambda: self.lines.pop(self.row)
         yield r"^write true or false, in small letters", lambda: self.replace_word(self.word().lower())
         yield r"^close the header", lambda: self.put(len(self.lines[self.row]), "]")

@@ -47,14 +47,14 @@ class OnCore(ProgramTest):
                             ((AVR, "--on", "avr", "--set", "control.arithmetic=float"), "set control.arithmetic = \"q15\""),
                             ((AVR, "--on", "avr", "--set", "pwm.period_s=10.01e-6"), "a multiple of 125 ns"),
                             ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=0"), "bridge.dead_time_s"),
-                            ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=6e-6"), "5e-6 at most"),
+                            ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=6e-6"), "at most to 5e-6"),
                             ((AVR, "--on", "avr", "--set", "sensors.adc_bits=12"), "set sensors.adc_bits = 10"),
                             ((AVR, "--on", "none.toml"), "none.toml"),
                             ((AVR, "--on", MAP), "build the firmware first"),
                             ((AVR, "--on", "retuned.toml"), "chip"),
                             (("drifts.toml", "--on", "avr"), "give its offset and gain from the start"),
-                            (("retuned.toml", "--on", "riscv"), "a core is flashed once"),
-                            ((SPEED, "--uart", "u.csv"), "no chip runs here"),
+                            (("retuned.toml", "--on", "riscv"), "fixed in the core's program"),
+                            ((SPEED, "--uart", "u.csv"), "this run has no chip"),
                             ((SPEED, "--on", "cortex-m4", "--uart", "u.csv"), "add --on avr")):
             with self.subTest(words=words[1:]):
                 made = self.run_program("run", *words, code=2)

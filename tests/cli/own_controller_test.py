@@ -146,7 +146,7 @@ class OwnController(Started):
         self.assertRegex(told, WHO + WAYS["abort"] + AT_20 + ", of run 2" + ENDS)
         code, out, told = self.behaving("step-abort", *plan, "--resume", "--csv", "o.csv")
         self.assertEqual((code, told), (3, ""))
-        self.assertRegex(out, rf"1 stopped by a fault, the first of them run 2: {re.escape(str(CONTROLLER))}: the controller ended itself by abort\(\) \(SIGABRT\) in step 20")
+        self.assertRegex(out, rf"1 stopped by a fault, first run 2: {re.escape(str(CONTROLLER))}: the controller ended itself by abort\(\) \(SIGABRT\) in step 20")
         self.assertIn("4 runs: 3 hold every requirement, 1 do NOT\n", out)
         self.nothing_is_left("o.csv", "s.sqlite")
         code, out, _ = self.behaving("well", *plan, "--resume", "--quiet", "--force", "--csv", "o.csv")
@@ -167,13 +167,13 @@ class OwnController(Started):
             with self.subTest(place):
                 code, told = self.stuck(f"{place}-loop", "run", "a.toml", "--csv", "o.csv")
                 self.assertEqual(code, -signal.SIGINT)
-                self.assertRegex(told, WHO + "does not come back" + PLACES[place] + r"; press Ctrl-C again to end \(or send a second SIGTERM\)\n$")
+                self.assertRegex(told, WHO + "does not return" + PLACES[place] + r"; press Ctrl-C again to end the program \(or send a second SIGTERM\)\n$")
                 self.nothing_is_left()
         code, told = self.stuck("step-loop", "run", "a.toml", "--vary", "supply.voltage_V=20,22", "--store", "s.sqlite", "--jobs", "1")
         self.assertRegex(told, ", of run 0; press")
         code, out, _ = self.behaving("well", "run", "a.toml", "--vary", "supply.voltage_V=20,22", "--store", "s.sqlite", "--resume")
         self.assertEqual(code, 3)
-        self.assertIn("the controller does not come back in step 20", out)
+        self.assertIn("the controller does not return in step 20", out)
 
 
 if __name__ == "__main__":

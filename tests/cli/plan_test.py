@@ -192,7 +192,7 @@ class Plan(ProgramTest):
                 with unittest.mock.patch.dict(os.environ, {size: "2", rank: n}):
                     told.append(self.run_program("run", file, "--runs", "3", code=2).stderr)
                     self.run_program("motor", "list")
-            self.assertIn("started 2 processes, and this build has no MPI", told[0])
+            self.assertIn("started 2 processes, but this build has no MPI", told[0])
             self.assertEqual(told[1], "")
             with unittest.mock.patch.dict(os.environ, {size: "1", rank: "0"}):
                 self.run_program("run", file, code=1)
@@ -235,7 +235,7 @@ class Plan(ProgramTest):
                             (["--resume"], "--resume continues the runs of a store"),
                             (["--tolerances"], "--tolerances needs several drives"),
                             ([*varied, "--tolerances"], "--tolerances needs several drives"),
-                            ([*varied, "--watch"], "--watch reruns scenarios"),
+                            ([*varied, "--watch"], "--watch repeats one scenario"),
                             ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
                             ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V has no effect, because the plan varies this key"),
                             ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies to drawn points")):
@@ -279,7 +279,7 @@ class Plan(ProgramTest):
         rows = self.rows("p.sqlite")
         self.assertEqual(told, self.run_program(*words, "--resume").stdout)
         self.assertEqual(self.rows("p.sqlite"), rows)
-        for wrong, why in (('minimise = "currant"', "did you mean current?"), ('sampling = "sobol"\npoints = 9', "does not name the figure to be minimised")):
+        for wrong, why in (('minimise = "currant"', "did you mean current?"), ('sampling = "sobol"\npoints = 9', "does not name the figure to minimise")):
             (self.path / "q.toml").write_text((self.path / "p.toml").read_text().replace('minimise = "current"', wrong))
             self.assertIn(why, self.run_program("design", "--optimise", "q.toml", code=2).stderr)
 
@@ -301,7 +301,7 @@ class Plan(ProgramTest):
         self.run_program("run", "a.toml", "--vary", "bridge.dead_time_s=0,1", "--junit", "bad.xml", code=2)
         bad = xml.etree.ElementTree.parse(self.path / "bad.xml").getroot()
         self.assertEqual(bad.get("errors"), "1")
-        self.assertIn("1 could not run, the first of them run 1", bad[0][0][0].get("message"))
+        self.assertIn("1 could not run, first run 1", bad[0][0][0].get("message"))
         self.run_program("run", held, "--junit", "runs.xml", code=1)  # overwrites sixstep's own file
         (self.path / "other.xml").write_text("<?xml version='1.0'?><mine/>")
         self.run_program("run", held, "--junit", "other.xml", code=2)
@@ -312,8 +312,8 @@ class Plan(ProgramTest):
                            ("supply.voltage_V", "KEY=FROM:TO:POINTS"),
                            ("supply.voltage_V=1:2:x", "is not a number of points"),
                            ("supply.voltage_V=1:2:3:cubic", "write log or linear"),
-                           ("supply.voltage_V=1:2", "give 2 points or more"),
-                           ("supply.voltage_V=-1:2:3:log", "has no logarithm"),
+                           ("supply.voltage_V=1:2", "give at least 2 points"),
+                           ("supply.voltage_V=-1:2:3:log", "must be above 0, like both ends of a logarithmic range"),
                            ("supply.voltage_V=1m:2m:3", "m"),
                            ("pwm.chopping=soft,hrad", "hrad"),
                            ("require[0].max=1,2", "is the same in all runs"),
@@ -343,7 +343,7 @@ class Plan(ProgramTest):
     def test_a_window_behind_the_end_is_told_once_by_the_key_that_was_written(self):
         told = self.run_program("run", self.held(), "--set", "require[0].from_s=1.1", "--vary", "supply.voltage_V=12,24", code=2).stderr
         self.assertEqual(told.count("\n"), 1, told)
-        self.assertIn("from_s = 1.1 lies behind the end of the run (duration_s = 0.02)", told)
+        self.assertIn("from_s = 1.1 is not before the end of the run (duration_s = 0.02)", told)
 
     def test_crossed_wires_in_a_speed_loop(self):
         """Backward holds each speed with the other sign, late one speed whatever is asked; early trips, and says which figures are
@@ -354,7 +354,7 @@ class Plan(ProgramTest):
         told = self.run_program("run", file, *wires, "--json", "a.json", code=3).stdout
         early, late, backward = (line.split()[-1] for line in told.splitlines() if re.match(r" +\d  ", line))
         self.assertEqual((early, late, backward), ("FAULT", "FAIL", "FAIL"))
-        self.assertIn("1 stopped by a fault, the first of them run 0: t = 0.14", told)
+        self.assertIn("1 stopped by a fault, first run 0: t = 0.14", told)
         _, late, backward = ([row[column] for column in (4, 6, 8)] for row in json.loads((self.path / "a.json").read_text())["rows"])
         for asked, back, held in zip((100, 300, 70), backward, late):
             self.assertLess(abs(back + asked), 0.01 * asked)

@@ -85,7 +85,7 @@ TEST(RotorBody, IsHeldAgainstAPrintedInertiaWhichCounts) {
   EXPECT_EQ(relation(s).verdict, RelationVerdict::holds);
   s.rotor_radius_mm->value = 2 * r_mm;
   EXPECT_EQ(relation(s).verdict, RelationVerdict::broken);
-  EXPECT_EQ(relation(s).remark, "a factor 16: a diameter for the radius?");
+  EXPECT_EQ(relation(s).remark, "a factor 16: a diameter instead of the radius?");
 }
 
 TEST(RotorBody, AnOverriddenMeasureDropsThePrintedInertia) {

@@ -262,7 +262,7 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
       warns(designed({.mode = Mode::current, .settle_s = 0.1e-3, .delay_periods = 1}), "loop is unstable"));
   EXPECT_TRUE(warns(designed({.mode = Mode::speed, .settle_s = 10e-3, .current_settle_s = 8e-3}),
                     "times the frequency"));
-  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "is to settle within"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "is designed to settle within"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
   // A ripple above the nominal current causes a grave warning, and the proposed chokes reduce the ripple to a
   // fifth, for any short L/R.
@@ -371,8 +371,7 @@ TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       to_string(refused.problems()[0]),
-      "lowest_speed_rad_s = 451 leaves no room for a step down to it: on this bus at most 450 rad/s may be the "
-      "lowest, with a fifth of it above against half the torque of the nominal current; lower it, or give a higher voltage_V");
+      "lowest_speed_rad_s = 451 is too high for the test, a step down to it from 1.2 times this speed: on this bus at most 450 rad/s; lower it, or give a higher voltage_V");
   spec.voltage_V = 30;
   EXPECT_TRUE(design_drive(motor, spec)) << "the cure";
 }

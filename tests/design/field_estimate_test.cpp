@@ -128,9 +128,10 @@ TEST(FieldEstimate, TheGreatestLoadThatItStartsAgainstIsToldWithRoomToSpare) {
 TEST(FieldEstimate, WhatCannotBeSeenIsTold) {
   FieldMachine round = salient;
   round.L_d_H = round.L_q_H;
-  EXPECT_THAT(field_estimate(round, 40, spec(true, true)).problems()[0].limit, HasSubstr("the same"));
+  EXPECT_THAT(field_estimate(round, 40, spec(true, true)).problems()[0].limit,
+              HasSubstr("inductances are equal"));
   EXPECT_THAT(field_estimate(salient, 0, spec(true, true)).problems()[0].limit,
-              HasSubstr("the sheet gives none"));
+              HasSubstr("the sheet has no saturation_current_A"));
   EXPECT_THAT(field_estimate(salient, 4000, spec(true, true)).problems()[0].limit,
               HasSubstr("less than 1 %"));
   FieldEstimateSpec fast = spec(false, true);

@@ -135,9 +135,9 @@ TEST(MotorModel, BothConstantsMustBeOneFact) {
   s.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
   EXPECT_EQ(problems_of(s), "");
   s.back_emf_mV_s->value = 16.76;
-  EXPECT_EQ(problems_of(s),
-            "back_emf_mV_s = 16.76 contradicts torque_constant_mNm_A, which means 16.75; give only one of "
-            "the two\n");
+  EXPECT_EQ(
+      problems_of(s),
+      "back_emf_mV_s = 16.76 contradicts torque_constant_mNm_A, which means 16.75; keep one of the two\n");
 }
 
 /// The values are in SI units under keys in mH and gcm2. A run of such a motor would not end.

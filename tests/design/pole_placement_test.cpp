@@ -111,8 +111,7 @@ TEST(PolePlacement, NamesEveryInputItCannotUse) {
   EXPECT_EQ(p.problems()[0].where, "period_s");
   EXPECT_EQ(p.problems()[1].where, "settle_s");
   EXPECT_EQ(to_string(p.problems()[2]),
-            "damping = 1.2 must be above 0 and at most 1; the rule places a conjugate pair; 0.9 is the "
-            "thesis's choice");
+            "damping = 1.2 must be above 0 and at most 1; give a damping up to 1; the thesis uses 0.9");
   EXPECT_FALSE(place_poles(current, std::nan(""), 0.9, period_s));
 }
 

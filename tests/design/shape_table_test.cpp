@@ -153,7 +153,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   EXPECT_NE(first(s).find("back_emf_shape = 3 values needs one for each of the 4"), std::string::npos)
       << first(s);
   s = sheet_of({{0, 120, 120.001, 300}, {1, 1, -1, -1}});
-  EXPECT_NE(first(s).find("at least 0.01 behind it"), std::string::npos) << first(s);
+  EXPECT_NE(first(s).find("at least 0.01 deg before the next angle"), std::string::npos) << first(s);
   s = sheet_of({{0, 120, 180, 360}, {1, 1, -1, -1}});
   EXPECT_NE(first(s).find("must lie in [0, 360)"), std::string::npos) << first(s);
   s = sheet_of({{0, 180}, {2, 2}});
@@ -172,7 +172,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   EXPECT_NE(first(s).find("has not been read"), std::string::npos) << first(s);
   s = sheet_of(corners(120));
   s.back_emf = BackEmfShape::sine;
-  EXPECT_NE(first(s).find("applies to a table only, and back_emf is none"), std::string::npos) << first(s);
+  EXPECT_NE(first(s).find("applies to back_emf = \"table\" only"), std::string::npos) << first(s);
 }
 
 }  // namespace SIXSTEP_TEST_FILE

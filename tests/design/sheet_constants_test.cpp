@@ -68,8 +68,9 @@ TEST(SheetConstants, GeometryGivesTheTerminalTorqueConstant) {
   s.flux_density_T = Quantity{0.5, "", ""};
   s.active_length_mm = Quantity{10, "", ""};
   s.air_gap_radius_mm = Quantity{20, "", ""};
-  EXPECT_EQ(told(s),
-            "flux_density_T needs turns_in_series beside it; K_t = 2 B l r N takes all four, or give none");
+  EXPECT_EQ(
+      told(s),
+      "flux_density_T needs turns_in_series beside it; give all four values of K_t = 2 B l r N, or none");
   s.turns_in_series = 100;
   const auto m = motor_model(s);
   ASSERT_TRUE(m);
@@ -157,9 +158,9 @@ TEST(SheetConstants, PolesPairsAndWindingsAreToldApart) {
   s.pole_pairs = 14;
   EXPECT_EQ(told(s), "pole_pairs = 14 is the number of poles of winding = \"12N14P\"; write pole_pairs = 7");
   s.pole_pairs = 8;
-  EXPECT_EQ(told(s),
-            "pole_pairs = 8 contradicts winding = \"12N14P\", which has 7 pole pairs; keep the one that is "
-            "right");
+  EXPECT_EQ(
+      told(s),
+      "pole_pairs = 8 contradicts winding = \"12N14P\", which has 7 pole pairs; correct the wrong one of the two");
   s.pole_pairs.reset();
   s.winding.clear();
   s.poles = 15;
@@ -171,7 +172,7 @@ TEST(SheetConstants, PolesPairsAndWindingsAreToldApart) {
   EXPECT_EQ(sheet_constants(s).pole_pairs, 8);
   s.poles.reset();
   for (const auto& [code, message] : {std::pair{"12N15P", "names 15 poles, an odd number"},
-                                      {"14N12P", "names 14 teeth, which three phases cannot share"},
+                                      {"14N12P", "names 14 teeth, not a multiple of 3"},
                                       {"12/14", "is not a winding code"},
                                       {"12N14", "is not a winding code"},
                                       {"", "pole_pairs is missing"}}) {
@@ -217,9 +218,9 @@ TEST(SheetConstants, SaliencyAndBrakesAreAskedFor) {
   s.with_brake = true;
   EXPECT_EQ(sheet_constants(s).J_kg_m2->value, 150e-7);
   s.inertia_with_brake_gcm2->value = 13.5;
-  EXPECT_EQ(told(s),
-            "inertia_with_brake_gcm2 = 13.5 is less than the rotor's own, inertia_gcm2 = 135; the brake only "
-            "adds: swap the two");
+  EXPECT_EQ(
+      told(s),
+      "inertia_with_brake_gcm2 = 13.5 is less than the rotor's own, inertia_gcm2 = 135; swap the two values: a brake adds inertia");
 }
 
 TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
@@ -240,7 +241,7 @@ TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
   EXPECT_NEAR(m->shaft.B_Nm_s, B, 64 * eps * B);  // two subtractions of numbers of the same size
   EXPECT_NEAR(m->shaft.coulomb_Nm, T_c, 64 * eps * T_c);
   s.second_no_load_current_mA->value = 500;
-  EXPECT_NE(told(s).find("would make friction negative with the first point: B = -"), std::string::npos);
+  EXPECT_NE(told(s).find("gives, with the first point, a negative friction: B = -"), std::string::npos);
 }
 
 TEST(SheetConstants, AnIdleCurrentAtAVoltageIsANoLoadPoint) {

@@ -225,7 +225,7 @@ TEST(SheetNoLoad, ACurrentThatTakesAllOfTheVoltageIsToldOf) {
   s.coulomb_friction_mNm->value = 1.01e3 * m.K * m.U / m.R;  // more than the stall torque
   const Relation r = relation(s, "no-load speed");
   EXPECT_EQ(r.left, 0.0);
-  EXPECT_EQ(r.remark, "R I_0 is all of the voltage: with this current it does not turn");
+  EXPECT_EQ(r.remark, "R I_0 uses up the whole voltage: with this current the motor does not turn");
 }
 
 TEST(SheetNoLoad, AnotherMotorsFrictionIsAllowedToDiffer) {

@@ -93,7 +93,7 @@ class OwnControllerPage(unittest.TestCase):
         told = json.loads(self.run_program(*words, "--runs", "0", "--json", "-").stdout)
         cost = next(c["cost"] for c in told["controllers"] if c["name"] == "PI in integers")
         self.assertEqual((cost["core"], cost["tick_instructions"], cost["flash_bytes"]), ("Cortex-M4F", worst, flash))
-        for text, said in (("{", "is no count of a user's controller"), (json.dumps({**counted, "cores": []}), "has no count of the Cortex-M4F"),
+        for text, said in (("{", "is not a count of a user's controller"), (json.dumps({**counted, "cores": []}), "has no count of the Cortex-M4F"),
                            (json.dumps({**counted, "cores": [{**row, "flash_bytes": -1}]}), "has no count of the Cortex-M4F"),
                            (json.dumps({**counted, "controller": "another"}), '"another" is not a controller of --own')):
             (self.path / "cost.json").write_text(text, encoding="utf-8")
@@ -111,7 +111,7 @@ class OwnControllerPage(unittest.TestCase):
         """mine.c limits no current and answers no reference."""
         self.run_program("run", "mine.toml", "--quiet", "--html", "mine.html")
         page = (self.path / "mine.html").read_text(encoding="utf-8")
-        self.assertNotIn("asked for", page.split('class="glance"')[1].split('<section id')[0])
+        self.assertNotIn("reference at", page.split('class="glance"')[1].split('<section id')[0])
 
     def test_a_number_is_varied_and_a_new_controller_is_told(self):
         vary = re.search(r'--vary "([^"]*)"`', PAGE).group(1)
@@ -163,7 +163,7 @@ class OwnControllerPage(unittest.TestCase):
         made = self.run_program("run", "own.toml", "--set", "control.own={controller='wrong.so'}", code=3)
         self.assertIn("wrong.so: the controller answered duty = infinite in step 1, which must lie in 0 to 1", made.stderr + made.stdout)
         self.assertIn("own", self.run_program("export", "header", "own.toml", code=2).stderr)
-        self.assertIn("is already another controller's name", self.run_program(
+        self.assertIn("is the name of another controller", self.run_program(
             "compare", "maxon-251601", "--own", "six_step_again.so", "--own", "six_step_again.so", code=2).stderr)
 
 

@@ -329,7 +329,7 @@ TEST(ExportHeader, WhatDoesNotFitIsNamed) {
   const base::Problem& p = text.problems()[0];
   EXPECT_EQ(p.where, "control.arithmetic");
   EXPECT_NE(p.limit.find("speed.K_i"), std::string::npos);
-  EXPECT_NE(p.limit.find("one digit unseen"), std::string::npos);
+  EXPECT_NE(p.limit.find("one digit has no effect"), std::string::npos);
   EXPECT_FALSE(p.value.empty() || p.cure.empty());
   EXPECT_TRUE(header_of(s, study::Arithmetic::float64));
 }

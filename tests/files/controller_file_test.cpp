@@ -26,10 +26,10 @@ std::string told(const std::string& file) {
 TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   EXPECT_EQ(told("sine_voltage.so"), "loaded sine voltage");
   EXPECT_EQ(told("nowhere.so").find(folder + "/nowhere.so cannot be read: "), 0u) << told("nowhere.so");
-  EXPECT_EQ(told("no_symbol.so"),
-            folder +
-                "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile it "
-                "with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
+  EXPECT_EQ(
+      told("no_symbol.so"),
+      folder +
+          "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
   EXPECT_EQ(told("answers_nothing.so")
                 .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller answers a null"),
             0u);
@@ -37,7 +37,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
       told("other_interface.so"),
       folder +
           "/other_interface.so has a controller whose interface = 2 is not 1, the interface of this program: compile it "
-          "with this program's own_controller.h; see sixstep/control/own/own_controller.h");
+          "with this program's own_controller.h; compare the controller's description with sixstep/control/own/own_controller.h");
   EXPECT_EQ(told("in_float.so"),
             folder +
                 "/in_float.so has a controller whose interface = 257 is compiled for float, and this program "
@@ -118,7 +118,7 @@ TEST(ControllerFile, ScenariosTellWhatTheyCannotHave) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       to_string(refused.problems()[0]),
-      "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario or the controller's numbers");
+      "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario, or the controller's numbers in control.own.number");
 }
 
 /// The digest of the inputs includes the controller's bytes, so a store detects a recompiled controller.

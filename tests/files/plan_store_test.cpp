@@ -104,7 +104,7 @@ TEST_F(Store, LeavesWhatIsNotItsOwnAlone) {
   std::ofstream(path()) << "a letter\n";
   for (const bool force : {false, true})
     EXPECT_THAT(to_string(PlanStore::create(path(), plan(), force).problems().front()),
-                HasSubstr("no store of runs"));
+                HasSubstr("not a store of runs"));
   EXPECT_FALSE(PlanStore::resume(path(), plan()));
   EXPECT_FALSE(PlanStore::read(path()));
   EXPECT_EQ(std::filesystem::file_size(path()), 9u);
@@ -131,7 +131,7 @@ TEST_F(Store, TakesNoRowOfOtherColumns) {
   store->add(row(std::make_shared<const analysis::PlanColumns>(other), wide));
   const base::Problems told = store->finish();
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(to_string(told[0]), HasSubstr("does not take run 1"));
+  EXPECT_THAT(to_string(told[0]), HasSubstr("cannot store run 1"));
   EXPECT_TRUE(store->failed());
 }
 

@@ -150,7 +150,7 @@ TEST_F(ReplacedFiles, ALinkThatLeadsNowhereMakesTheFileItNames) {
   EXPECT_TRUE(fs::is_symlink(at("astray.csv")));
   fs::create_symlink("round.csv", at("round.csv"));
   EXPECT_THAT(told_writing(at("round.csv"), "new"),
-              HasSubstr("name the file itself, not a link that leads to itself"));
+              HasSubstr("name the file itself, not a link that points to itself"));
 }
 
 TEST_F(ReplacedFiles, OtherNamesOfAFileKeepTheOldOne) {

@@ -53,8 +53,9 @@ TEST(Chip, OneThatEndsIsGoneAndOneThatHangsIsSilent) {
 }
 
 TEST(Chip, WhatDoesNotGreetAsOneIsTold) {
-  for (const auto& [how, said] : {std::pair{"never starts", "ended before the program ran"},
-                                  std::pair{"chip means other structs", "build both from one source"}}) {
+  for (const auto& [how, said] :
+       {std::pair{"never starts", "ended before the program ran"},
+        std::pair{"chip means other structs", "build both from the same sources"}}) {
     const Core core = playing(how);
     const auto chip = Chip::start(core, "image");
     ASSERT_FALSE(chip) << how;

@@ -99,9 +99,9 @@ TEST(CurveTable, ShowsAnEngineersUnits) {
         "nominal torque", "780.58 mNm at standstill, 6841.3 rpm",
         "No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A",
         "83.40 mNm, 5240 rpm, 2.330 A; at that torque the curve has 5078 rpm (-3.1 %)",
-        "R/K_t^2 is 8.76 and leaves out the time that commutation takes",
-        "The curve itself can be held for ever from 5027 rpm (86.64 mNm) on.",
-        "At 25 degC ambient the winding stays below 125 degC with 2.82 A", "for 60 s", "for ever"})
+        "R/K_t^2 is 8.76, which neglects the commutation time",
+        "The motor can run continuously on this curve from 5027 rpm (86.64 mNm) on.",
+        "At 25 degC ambient the winding stays below 125 degC with 2.82 A", "for 60 s", "continuously"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   const std::string without = text::curve_table(made(false).request, made(false).curve);
   EXPECT_NE(without.find("No thermal limits: thermal_resistance_winding_housing_K_W"), std::string::npos);
@@ -110,11 +110,11 @@ TEST(CurveTable, ShowsAnEngineersUnits) {
 
 TEST(CurveTable, SaysWhereALockedRotorsAngleDecides) {
   Made m = made(false);
-  EXPECT_EQ(text::curve_table(m.request, m.curve).find("Locked, the angle"), std::string::npos) << "flat top";
+  EXPECT_EQ(text::curve_table(m.request, m.curve).find("Locked rotor:"), std::string::npos) << "flat top";
   m.request.bench = shaped(design::BackEmfShape::sine, 120);
   m.curve = *batch::torque_speed_curve(m.request, batch::on_threads(1));
   const std::string text = text::curve_table(m.request, m.curve);
-  EXPECT_NE(text.find("Locked, the angle decides: 707.9 to 817.4 mNm"), std::string::npos) << text;
+  EXPECT_NE(text.find("Locked rotor: 707.9 to 817.4 mNm"), std::string::npos) << text;
 }
 
 TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {

@@ -102,7 +102,8 @@ TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
     EXPECT_THAT(told, Not(HasSubstr("half the torque of the nominal current")));
     EXPECT_THAT(told, HasSubstr("the sheet names no nominal current: a tenth of the stall current, 2.33"));
   }
-  EXPECT_THAT(text, HasSubstr("2.3301 A, a tenth of the stall current: the sheet names none"));
+  EXPECT_THAT(
+      text, HasSubstr("2.3301 A, a tenth of the stall current, because the sheet names no nominal current"));
   EXPECT_THAT(page, HasSubstr("a tenth of stall"));
   EXPECT_THAT(text, HasSubstr(" A, a tenth of the stall current (the sheet names no nominal one), above "));
 }

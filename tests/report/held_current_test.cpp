@@ -129,7 +129,7 @@ TEST(HeldCurrent, what_was_asked_for_has_the_sign_and_the_time_of_the_peak) {
       seen = seen || reference[n] == *current->asked_A;
   EXPECT_TRUE(seen);
   EXPECT_THAT(glance_section(s, run.outcome, run.trace),
-              HasSubstr("(" + computed(*current->asked_A, "A") + " asked for then)"));
+              HasSubstr("(reference then: " + computed(*current->asked_A, "A") + ")"));
 }
 
 /// The report's mean after the step equals the metric `mean` from the same time on.

@@ -135,7 +135,7 @@ TEST(PlanPage, TheWorstRunsAreTheWorst) {
   const SyntheticPlan made = synthetic_plan(drawn_plan(2000, Sampling::latin_hypercube));
   const auto worst = worst_of(made.story(), 20);
   ASSERT_EQ(worst.size(), 3u);
-  EXPECT_TRUE(worst[2].empty()) << "nothing is required of it";
+  EXPECT_TRUE(worst[2].empty()) << "it has no requirements";
   for (std::size_t f = 0; f < 2; ++f) {
     // The worst runs are the first ones after a sort by margin.
     const auto& column = made.columns->figures[f];

@@ -111,7 +111,7 @@ TEST(Comparison, a_boards_log_has_its_columns_and_no_verdict) {
                          .command = "sixstep run one.toml --compare b.csv --html x.html",
                          .version = "0.1.0"});
   EXPECT_THAT(html, HasSubstr("A board's log over its simulation"));
-  EXPECT_THAT(html, HasSubstr("b&lt;i&gt;.csv<small class=\"aside\">what a board sent</small>"));
+  EXPECT_THAT(html, HasSubstr("b&lt;i&gt;.csv<small class=\"aside\">recorded on a board</small>"));
   EXPECT_THAT(
       html,
       HasSubstr("<code>i_m_A</code></th><td class=\"num\">12</td><td class=\"num\">125.0\u00a0mA</td>"));
@@ -133,7 +133,7 @@ TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
       html,
       HasSubstr(
           "<td class=\"num bad\">10.83\u00a0A <b>✗ not met</b><small class=\"aside\">+100\u00a0%</small>"));
-  EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
+  EXPECT_THAT(html, HasSubstr("No difference that changes a run."));
 }
 
 sixstep::study::Scenario shipped(const std::string& name) {

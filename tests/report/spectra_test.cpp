@@ -60,8 +60,8 @@ TEST(Spectra, fewer_than_two_electrical_turns_are_told) {
     trace.values.emplace_back();
     for (const double t : trace.values[0]) trace.values.back().push_back(2 * t * turned * 2 * M_PI / 2);
     const std::string html = spectra_section(spectra(trace, scenario(), 2));
-    EXPECT_EQ(html.find("holds only 0.38 electrical turns") != std::string::npos, turned == 0.38) << html;
-    EXPECT_EQ(html.find("holds only 1.2 electrical turns") != std::string::npos, turned == 1.2) << html;
+    EXPECT_EQ(html.find("has only 0.38 electrical turns") != std::string::npos, turned == 0.38) << html;
+    EXPECT_EQ(html.find("has only 1.2 electrical turns") != std::string::npos, turned == 1.2) << html;
     EXPECT_EQ(html.find("fewer than two") != std::string::npos, turned > 0.0 && turned < 2.0) << html;
   }
 }

@@ -138,7 +138,7 @@ TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
     const bool lean = drive == study::FirmwareKind::lean;
     const double times = number(lean ? "speed_edges is " : "number of edges is ");
     const double base = number(lean ? "control.full_scale.speed_rad_s of " : "a base of the speed of ");
-    const double most_Hz = lean ? number("take a timer of ") : 400e6 / times;
+    const double most_Hz = lean ? number("use a timer of ") : 400e6 / times;
     for (const double beyond : {0.999, 1.01}) {
       s.sensors.capture_Hz = most_Hz * beyond;
       EXPECT_EQ(told().empty(), beyond < 1) << text;

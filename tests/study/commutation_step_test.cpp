@@ -207,7 +207,7 @@ TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
     if (!out) return Seen{};
     return Seen{out->comparisons[0].measured, out->comparisons[1].measured,
                 std::any_of(out->remarks.begin(), out->remarks.end(), [](const auto& text) {
-                  return text.find("a larger peak of the current") != text.npos;
+                  return text.find("a larger current peak") != text.npos;
                 })};
   };
   for (const double speed_rad_s : {40.0, 150.0}) {
@@ -237,7 +237,7 @@ TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
       const auto out = study::run(s);
       EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
       const bool told = out && std::any_of(out->remarks.begin(), out->remarks.end(), [](const auto& text) {
-                          return text.find("\"overlap\" lowers the torque near") != text.npos;
+                          return text.find("\"overlap\" lowers the torque when") != text.npos;
                         });
       return std::pair(out ? out->comparisons[0].measured : 0.0, told);
     };
@@ -271,7 +271,7 @@ TEST(CommutationStep, IsIdleWhereTheDutyIsOneAnyway) {
       const bool idle = with.digest == seen(CurrentCommutation::plain).digest;
       EXPECT_EQ(idle, speed_rad_s > 400) << speed_rad_s;
       EXPECT_EQ(has("has no effect in this run"), idle);
-      EXPECT_EQ(has("a larger peak of the current"), !idle && pattern == PwmPattern::upper);
+      EXPECT_EQ(has("a larger current peak"), !idle && pattern == PwmPattern::upper);
     }
 }
 

@@ -92,7 +92,7 @@ TEST(ExportGate, TheCureOfAnotherSensorIsAllThatHasToChange) {
       EXPECT_EQ(cure.find("and shaft = \"motor\"") != cure.npos, shaft == study::SensorShaft::load) << cure;
       EXPECT_EQ(cure.find("at[0].sensors.missed_edges") != cure.npos, encoder) << cure;
       EXPECT_EQ(cure.find("record.columns = \"encoder_A\"") != cure.npos, encoder) << cure;
-      EXPECT_NE(cure.find("design gains and [[require]] for edges"), cure.npos) << cure;
+      EXPECT_NE(cure.find("design gains and [[require]] for Hall edges"), cure.npos) << cure;
       s.sensors.rotor = study::RotorSensing::hall;
       if (cure.find("shaft = ") != cure.npos) s.sensors.shaft = study::SensorShaft::motor;
       if (cure.find("missed_edges") != cure.npos) s.at.clear();
@@ -221,7 +221,7 @@ TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   const auto blind = study::clear_for_export(s);
   ASSERT_TRUE(blind);
   ASSERT_THAT(wheres(blind->unheld), ElementsAre("sensors.current_range_A"));
-  EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("above which the drive measures no more"));
+  EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("and the converter measures only up to"));
 }
 
 /// The drive reads a bus of 24 V as 12 V, where its converter's range ends.

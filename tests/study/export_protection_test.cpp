@@ -75,7 +75,8 @@ TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
     return text;
   };
   using ::testing::HasSubstr;
-  EXPECT_THAT(told(5.8), HasSubstr("its own limits allow: 5.82 A, control.speed.torque_limit_Nm over K_t"));
+  EXPECT_THAT(told(5.8),
+              HasSubstr("the drive's limits allow: 5.82 A, control.speed.torque_limit_Nm over K_t"));
   EXPECT_EQ(told(5.9), "");
   s.control.limits.current_A = 5.0;
   EXPECT_THAT(told(4.9), HasSubstr("5 A, control.limits.current_A"));

@@ -302,26 +302,26 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
     change(other);
     return other;
   };
-  expect_refused(with([](Scenario& x) { x.pwm.sample = SampleAt::middle; }), "pwm.sample", "zero crossing");
+  expect_refused(with([](Scenario& x) { x.pwm.sample = SampleAt::middle; }), "pwm.sample", "crosses zero");
   expect_refused(with([](Scenario& x) { x.control.mode = Mode::position; }), "control.mode", "counts turns");
   expect_refused(with([](Scenario& x) { x.sensors.rotor = RotorSensing::encoder; }), "sensors.rotor",
                  "has no effect");
   expect_refused(with([](Scenario& x) { x.control.field.law = FieldLaw::finite_set; }), "control.field.law",
-                 "no pulses");
+                 "makes no PWM pulses");
   expect_refused(with([](Scenario& x) { x.sheet.saturation_current_A.reset(); }), "control.field.angle",
-                 "the sheet gives none");
+                 "the sheet has no saturation_current_A");
   expect_refused(with([](Scenario& x) { x.control.field.start_current_A = 1.0; }),
                  "control.field.start_current_A", "unknown at rest");
   expect_refused(with([](Scenario& x) {
                    with_real_sensors(x);
                    x.control.field.injection_V = 0.05;
                  }),
-                 "control.field.injection_V", "a digit of the converters");
+                 "control.field.injection_V", "less than one count of the converters");
   expect_refused(with([](Scenario& x) {
                    x.control.field.angle = FieldAngle::sensors;
                    x.control.field.injection_V = 1.0;
                  }),
-                 "control.field.injection_V", "injected nowhere");
+                 "control.field.injection_V", "control.field.angle has no injection");
 }
 
 /// The motor's iron does not saturate, although the drive was designed for iron that saturates. The drive

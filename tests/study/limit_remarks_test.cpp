@@ -95,8 +95,9 @@ TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   // 206 J heat 2.5 J/K by less than 100 K, and 1 J/K by more.
   const auto told = [&s] {
     const auto remarks = outcome_of(s).remarks;
-    return std::any_of(remarks.begin(), remarks.end(),
-                       [](const auto& text) { return text.find("past its limit of 125 degC") != text.npos; });
+    return std::any_of(remarks.begin(), remarks.end(), [](const auto& text) {
+      return text.find("above its limit of 125 degC") != text.npos;
+    });
   };
   EXPECT_FALSE(told());
   s.sheet.thermal_time_constant_winding_s->range = base::Interval{4.0, 10.0};
@@ -113,7 +114,7 @@ TEST(LimitRemarks, ABatteryIsFullWhereItIsGivenMore) {
   s.reference.value = -5.0;
   s.pwm.chopping = control::Chopping::complementary;
   s.duration_s = 10e-3;
-  EXPECT_GT(number_behind(outcome_of(s).remarks, "its charge went up to "), 1.0);
+  EXPECT_GT(number_behind(outcome_of(s).remarks, "its charge rose to "), 1.0);
   s.supply.battery_charge = 0.1;
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("battery was"))));
 }
@@ -176,9 +177,9 @@ TEST(LimitRemarks, AWindingThatWouldNotStandIt) {
   Scenario warm = s;
   warm.heat.motor = true;
   warm.duration_s = 1.1 * within_s;
-  EXPECT_THAT(outcome_of(warm).remarks, Contains(HasSubstr("and its sheet allows 125 degC")));
+  EXPECT_THAT(outcome_of(warm).remarks, Contains(HasSubstr("and the motor's sheet allows 125 degC")));
   warm.duration_s = 0.8 * within_s;
-  EXPECT_THAT(outcome_of(warm).remarks, Not(Contains(HasSubstr("and its sheet allows"))));
+  EXPECT_THAT(outcome_of(warm).remarks, Not(Contains(HasSubstr("and the motor's sheet allows"))));
   s.reference.value = 2.33;
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("copper loss"))));
   s.reference.value = 20.0;

@@ -116,11 +116,13 @@ TEST(Limits, OfASalientRotorAreNotPromised) {
   s.sheet.q_axis_inductance_mH = base::Quantity{.value = 0.34};
   EXPECT_EQ(refusal(s), "not refused");
   s.control.limits.current_A = 6;
-  EXPECT_THAT(refusal(s),
-              HasSubstr("control.limits.current_A = 6 is proved for a rotor with one inductance"));
+  EXPECT_THAT(
+      refusal(s),
+      HasSubstr("control.limits.current_A = 6 is guaranteed only for a rotor with equal L_d and L_q"));
   s.control.limits = {.speed_rad_s = 300};
-  EXPECT_THAT(refusal(s),
-              HasSubstr("control.limits.speed_rad_s = 300 is proved for a rotor with one inductance only"));
+  EXPECT_THAT(
+      refusal(s),
+      HasSubstr("control.limits.speed_rad_s = 300 is guaranteed only for a rotor with equal L_d and L_q"));
   EXPECT_THAT(refusal(s), HasSubstr("L_q is 1.42 times its L_d"));
 }
 
@@ -156,7 +158,7 @@ TEST(Product, BrakingAboveOverCurrentIsRefused) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.brake_current_A = *s.protection.over_current_A;
   ASSERT_EQ(study::check(s).size(), 1u);
-  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("braking would be a fault"));
+  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("braking would trip the drive"));
 }
 
 TEST(Product, AThresholdBeyondTheConverterIsRefused) {

@@ -120,18 +120,17 @@ TEST(LinearEncoder, WhatCannotBeIsRefused) {
   EXPECT_EQ(refused([](Scenario&) {}), "nothing");
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.pitch_mm.reset(); }), HasSubstr("is missing"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.pitch_mm = 0.021; }), HasSubstr("whole number"));
-  EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.lines = 500; }),
-              HasSubstr("pitch_mm in their place"));
+  EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.lines = 500; }), HasSubstr("pitch_mm instead"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.shaft = SensorShaft::load; }),
               HasSubstr("this motor is linear"));
   for (const RotorSensing rotor : {RotorSensing::absolute, RotorSensing::resolver})
     EXPECT_THAT(refused([rotor](Scenario& s) { s.sensors.rotor = rotor; }),
-                HasSubstr("on the shaft of a turning motor"));
+                HasSubstr("needs a turning shaft"));
   Scenario turning = cascade();
   turning.pwm.commutation = CommutationAt::sample;
   turning.sensors.rotor = RotorSensing::encoder;
   turning.sensors.encoder.pitch_mm = 0.02;
-  EXPECT_THAT(to_string(check(turning)[0]), HasSubstr("this motor turns"));
+  EXPECT_THAT(to_string(check(turning)[0]), HasSubstr("this motor is rotary"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

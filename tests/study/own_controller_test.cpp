@@ -128,8 +128,9 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
   s.control.own.number = {{"first", 5.0}};
   const auto refused = study::run(s);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(to_string(refused.problems()[0]),
-            "control.own puppet cannot have five; change the scenario or the controller's numbers");
+  EXPECT_EQ(
+      to_string(refused.problems()[0]),
+      "control.own puppet cannot have five; change the scenario, or the controller's numbers in control.own.number");
 }
 
 /// The magnet's direction is as exact as the sensors: Hall codes determine it within a sector of 60 degrees.
@@ -188,17 +189,17 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   EXPECT_EQ(fault(pair_puppet, wrong), answered("overlap = -1.5 in step 1, which must lie in -1 to 1"));
   wrong = pair;
   wrong.sink = 0;
-  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 0 in step 1, the same leg as source"));
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 0 in step 1, which is the same leg as source"));
   wrong.sink = 3;
   EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 3 in step 1, which is no leg"));
   wrong = pair;
   wrong.chopping = 3;
   EXPECT_EQ(fault(pair_puppet, wrong),
-            answered("chopping = 3 in step 1, which own_controller.h does not name"));
+            answered("chopping = 3 in step 1, which is no value of own_controller.h"));
   wrong = {};
   wrong.enabled = 1, wrong.leg[0].state = 4;
   EXPECT_EQ(fault(legs_puppet, wrong),
-            answered("leg[0].state = 4 in step 1, which own_controller.h does not name"));
+            answered("leg[0].state = 4 in step 1, which is no value of own_controller.h"));
   wrong = {};
   wrong.fault = 1;
   EXPECT_EQ(fault(pair_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
@@ -220,7 +221,7 @@ TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
     EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
     int given = 0, converters = 0;
     for (const std::string& text : out ? out->remarks : std::vector<std::string>{}) {
-      given += text.find("must keep by itself") != std::string::npos;
+      given += text.find("the controller itself must keep") != std::string::npos;
       converters += text.find("the converters show at most") != std::string::npos;
     }
     return std::pair(given, converters);

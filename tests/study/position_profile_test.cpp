@@ -235,7 +235,8 @@ TEST(PositionProfile, ContradictionsAreTold) {
       with([](Control& c) { c.position.speed_limit_rad_s = 80.0; }),
       HasSubstr(
           "control.position.profile.speed_rad_s = 100 is above control.position.speed_limit_rad_s = 80"));
-  EXPECT_THAT(with([](Control& c) { c.slew = 10.0; }), HasSubstr("control.slew = 10 shapes the setpoint"));
+  EXPECT_THAT(with([](Control& c) { c.slew = 10.0; }),
+              HasSubstr("control.slew = 10 limits the rate of the setpoint"));
   EXPECT_THAT(with([](Control& c) { c.arithmetic = Arithmetic::q31; }),
               HasSubstr("control.arithmetic = q31 has too few digits for"));
   EXPECT_THAT(with([](Control& c) { c.speed.law = study::SpeedLaw::disturbance_rejection; }),

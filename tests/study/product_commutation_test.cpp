@@ -173,7 +173,7 @@ TEST(ProductCommutation, SaysWhatCannotBe) {
   all.clear();
   for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";
   EXPECT_THAT(all, HasSubstr("control.advance applies to the product drive only"));
-  EXPECT_THAT(all, HasSubstr("sensors.hall_stable_samples = 6 filters the pins"));
+  EXPECT_THAT(all, HasSubstr("sensors.hall_stable_samples = 6 applies to the product drive only"));
 }
 
 TEST(ProductCommutation, FullScaleMayBeChosenForTheProductToo) {

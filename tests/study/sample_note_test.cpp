@@ -46,7 +46,7 @@ Scenario asked_of_its_samples(MetricKind metric) {
   return s;
 }
 
-constexpr const char* centred = "pwm.alignment = \"centre\" with pwm.sample = \"middle\"";
+constexpr const char* centred = "pwm.alignment = \"centre\" and pwm.sample = \"middle\"";
 constexpr const char* all_of_it = "sampled = false";
 
 bool says(const std::string& note, const char* words) { return note.find(words) != note.npos; }

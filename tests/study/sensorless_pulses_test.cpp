@@ -176,7 +176,7 @@ TEST(SensorlessPulses, AlignsWhatShowsNothingAndSaysSo) {
   ASSERT_FALSE(out.fault) << to_string(*out.fault);
   EXPECT_NEAR(out.comparisons[0].measured, 100.0, 1.0);
   ASSERT_EQ(out.notes.size(), 1u);
-  EXPECT_THAT(out.notes[0], HasSubstr("the pulses did not show the rotor's north"));
+  EXPECT_THAT(out.notes[0], HasSubstr("the pulses did not show which end of the magnet is north"));
   EXPECT_THAT(out.notes[0], HasSubstr("the drive aligned the rotor"));
 }
 

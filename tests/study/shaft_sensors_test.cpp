@@ -185,7 +185,7 @@ TEST(ShaftSensors, WhatCannotBeIsRefused) {
   EXPECT_THAT(refused(RotorSensing::resolver, [](Scenario& s) { s.sensors.resolver.pole_pairs = 3; }),
               HasSubstr("does not divide"));
   EXPECT_THAT(refused(RotorSensing::resolver, [](Scenario& s) { s.sensors.resolver.excitation_Hz = 10e3; }),
-              HasSubstr("miss its peaks"));
+              HasSubstr("miss the excitation's peaks"));
   EXPECT_THAT(refused(RotorSensing::resolver, [](Scenario& s) { s.sensors.resolver.bandwidth_Hz = 2e4; }),
               HasSubstr("half the rate"));
 }

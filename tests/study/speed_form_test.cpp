@@ -157,7 +157,7 @@ TEST(SpeedForm, SaysWhatOnlyThePositionalFormHas) {
   s.control.speed.derivative_s = std::nullopt;
   s.control.speed.derivative_filter_s = 1e-3;
   ASSERT_EQ(study::check(s).size(), 1u);
-  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("no derivative to smooth"));
+  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("no effect without control.speed.derivative_s"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

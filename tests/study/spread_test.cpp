@@ -251,11 +251,11 @@ TEST(Spread, RefusesWhatCannotStray) {
   EXPECT_THAT(refusal(relative("load.locked", 0.1)), HasSubstr("is not a number"));
   EXPECT_THAT(refusal(relative("initial.bus_V", 0.1)), HasSubstr("give initial.bus_V its nominal value"));
   EXPECT_THAT(refusal(relative("motor_override.back_emf_mV_s", 0.1)),
-              HasSubstr("the sheet gives torque_constant_mNm_A: spread that"));
+              HasSubstr("spread torque_constant_mNm_A, which the sheet gives"));
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 1.5)),
-              HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside of the key's range"));
+              HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside the key's range"));
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 0.4, Distribution::normal)),
-              HasSubstr("lower it or cut_sigma"));
+              HasSubstr("lower it, or lower cut_sigma"));
   Spread none;
   none.key = "supply.voltage_V";
   EXPECT_THAT(refusal(none), HasSubstr("spread[0].relative is missing"));

@@ -44,10 +44,12 @@ TEST(BoardLog, ATracesOwnHeadingInAnotherUnitIsRefused) {
     const auto log = text::read_board_log("b.csv", text);
     return log ? std::string("nothing") : log.problems()[0].limit + "; " + log.problems()[0].cure;
   };
-  EXPECT_THAT(told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
-              HasSubstr("in A by its name and in mA by the unit behind it; head it i_m_A or i_m [mA]"));
-  EXPECT_THAT(told("t_s,speed_rad_s [rpm]\n0,1\n1,2\n"), HasSubstr("head it speed_rad_s or speed [rpm]"));
-  EXPECT_THAT(told("t_s [ms],i_m [mA]\n0,1\n1,2\n"), HasSubstr("head it t_s or t [ms]"));
+  EXPECT_THAT(
+      told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
+      HasSubstr("in A by its name but in mA by the unit after it; write the heading i_m_A or i_m [mA]"));
+  EXPECT_THAT(told("t_s,speed_rad_s [rpm]\n0,1\n1,2\n"),
+              HasSubstr("write the heading speed_rad_s or speed [rpm]"));
+  EXPECT_THAT(told("t_s [ms],i_m [mA]\n0,1\n1,2\n"), HasSubstr("write the heading t_s or t [ms]"));
   EXPECT_EQ(told("t_s [s],i_m_A [A],bus_V (V)\n0,1,2\n1,2,3\n"), "nothing");
 }
 
@@ -65,8 +67,8 @@ TEST(BoardLog, SaysWhatIsWrong) {
     return log ? std::string("nothing") : log.problems()[0].where + " " + log.problems()[0].limit;
   };
   EXPECT_THAT(limit(""), HasSubstr("is empty"));
-  EXPECT_THAT(limit("t [us],i_m [V]\n1,2\n3,4\n"), HasSubstr("where A belongs"));
-  EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column that a simulation has"));
+  EXPECT_THAT(limit("t [us],i_m [V]\n1,2\n3,4\n"), HasSubstr("but A is expected"));
+  EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column of the simulation"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is not a number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
@@ -115,7 +117,7 @@ TEST(BoardLog, RemarksBetweenRowsAndFaultsAreTold) {
     EXPECT_THAT(
         log->notes,
         ElementsAre("line 4 says \"fault: over-current\", and 1 more does", "line 9 says \"stop\"",
-                    "1 row says that the board missed control periods, up to 3: what it sent there is late",
+                    "1 row says that the board missed control periods, up to 3: its values there are late",
                     "1 row says that the board had a fault, faults 4 first in line 7"));
     EXPECT_THAT(log->not_used, testing::IsEmpty());
   }
@@ -129,10 +131,11 @@ TEST(BoardLog, ALineOfUnitsWithAStrangeOneIsNoLineOfHeadings) {
     const auto log = text::read_board_log("b.csv", text);
     return log ? "nothing" : to_string(log.problems()[0]);
   };
-  EXPECT_THAT(
-      limit("t,i_m,u_a\ns,foo,V\n0,1,2\n1,2,3\n"),
-      testing::AllOf(HasSubstr("heads i_m in \"foo\", which is not a unit"), HasSubstr("units that fit: A")));
-  EXPECT_THAT(limit("t,i_m\nfoo,mA\n0,1\n1,2\n"), HasSubstr("heads t in \"foo\", which is not a unit"));
+  EXPECT_THAT(limit("t,i_m,u_a\ns,foo,V\n0,1,2\n1,2,3\n"),
+              testing::AllOf(HasSubstr("has the heading i_m in \"foo\", which is not a unit"),
+                             HasSubstr("units that fit: A")));
+  EXPECT_THAT(limit("t,i_m\nfoo,mA\n0,1\n1,2\n"),
+              HasSubstr("has the heading t in \"foo\", which is not a unit"));
   EXPECT_THAT(limit("t,foo,bar\ns,V,mA\n0,1,2\n1,2,3\n"), HasSubstr("it has t, foo, bar"));
   const auto log = text::read_board_log("b.csv", "t,duty,i_m\nms,-,mA\n0,0.5,2\n1,0.25,3\n");
   ASSERT_TRUE(log);

@@ -44,7 +44,9 @@ TEST(BodeText, TellsBothLoopsAndTheirMargins) {
 TEST(BodeText, WithoutALinearLoopSaysWhy) {
   const analysis::BodeStudy s = study_of(true);
   const std::string text = text::bode_text("band", s);
-  EXPECT_THAT(text, HasSubstr("no linear loop to compare with: the current is held in a band"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("no linear loop to compare with: the current loop is a hysteresis, which is not linear"));
   EXPECT_THAT(text, Not(HasSubstr("designed")));
   EXPECT_THAT(text::bode_csv(s), Not(HasSubstr("designed")));
 }

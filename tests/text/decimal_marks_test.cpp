@@ -34,9 +34,7 @@ std::string told(const std::string& file) {
 TEST(DecimalMarks, CommasBesidePointsAreRefusedWithBothCells) {
   EXPECT_EQ(
       seen(in_millivolts("t (ms)\tu_ab (mV)\tu_bc (mV)\n", "{:.1f}\t{}\t{}\n", ',')).problem,
-      "r.csv:2: holds 3,784, and line 2 holds 0.0: one mark is decimal, and the other one's meaning "
-      "is unclear; write thousands without a mark between them, 2940, and one decimal mark, or leave the "
-      "column out");
+      "r.csv:2: holds 3,784, and line 2 holds 0.0: which of the two marks is decimal is unclear; write thousands without a separator, for example 2940, and use one decimal mark, or remove the column");
   EXPECT_THAT(told("t;u\n0,5;1,5\n1;1.025\n"),
               AllOf(StartsWith("r.csv:3: holds 1.025, and line 2 holds 0,5")));
 }
@@ -55,7 +53,7 @@ TEST(DecimalMarks, AMarkFromAThousandOnIsRefused) {
 TEST(DecimalMarks, ACommaWithinQuotesPartsNoCells) {
   for (const char* head : {"t (ms),u_ab (mV),u_bc (mV)\n", ""})
     EXPECT_THAT(seen(in_millivolts(head, "{:.1f},\"{}\",\"{}\"\n", ','), between_lines).problem,
-                HasSubstr("one mark is decimal"));
+                HasSubstr("which of the two marks is decimal"));
   const auto named = read_recording("r.csv", "\"time, of the shot [s]\",\"u_ab, mV\"\n0,\"1\"\n1,2\n3,4\n");
   ASSERT_TRUE(named);
   EXPECT_EQ(named->columns.size(), 2u);

@@ -122,7 +122,7 @@ TEST(LinearMotorFile, UnitsAreOfTheMotorsKind) {
       told("[control]\nmode = \"speed\"\nspeed.force_limit_N = 10\n[reference]\nvalue = \"150 mm/s\"\n"), "");
   EXPECT_THAT(
       told("[control]\nmode = \"speed\"\nspeed.force_limit_N = 10\n[reference]\nvalue = \"150 rpm\"\n"),
-      HasSubstr("not of the kind of m/s"));
+      HasSubstr("cannot be converted to m/s"));
   EXPECT_THAT(told("load.mass_kg = \"200 g\"\n"), "");
 }
 
@@ -130,9 +130,10 @@ TEST(LinearMotorFile, TheOtherKindsWordsAreRefused) {
   EXPECT_THAT(
       told("load.torque_Nm = 3\n"),
       HasSubstr(
-          "s.toml:3:18: load.torque_Nm = 3 is for turning motors, and this motor is linear; write force_N"));
-  EXPECT_THAT(told("load.force_N = 3\n", "maxon-251601"),
-              HasSubstr("load.force_N = 3 is for linear motors, and this motor turns; write torque_Nm"));
+          "s.toml:3:18: load.torque_Nm = 3 applies to rotary motors only, and this motor is linear; write force_N"));
+  EXPECT_THAT(
+      told("load.force_N = 3\n", "maxon-251601"),
+      HasSubstr("load.force_N = 3 applies to linear motors only, and this motor is rotary; write torque_Nm"));
   EXPECT_THAT(told("[[at]]\ntime_s = 0.005\nload.torque_Nm = 3\n"), HasSubstr("write force_N"));
   EXPECT_THAT(told("motor_override.mass_kg = 3\n", "maxon-251601"), HasSubstr("write inertia_gcm2"));
 }
@@ -148,12 +149,13 @@ TEST(LinearMotorFile, NamesItsSignalsItself) {
   EXPECT_EQ(told(asked("speed_m_s")) + told(asked("load_N")) + told(asked("position_m")), "");
   EXPECT_THAT(
       told(asked("torque")),
-      HasSubstr("s.toml:5:10: require.signal = \"torque\" is for turning motors, and this motor is linear; "
-                "write \"force\""));
+      HasSubstr(
+          "s.toml:5:10: require.signal = \"torque\" applies to rotary motors only, and this motor is linear; write \"force\""));
   EXPECT_THAT(told(asked("load_Nm")), HasSubstr("write \"load_N\""));
   EXPECT_THAT(
       told(asked("force"), "maxon-251601"),
-      HasSubstr("require.signal = \"force\" is for linear motors, and this motor turns; write \"torque\""));
+      HasSubstr(
+          "require.signal = \"force\" applies to linear motors only, and this motor is rotary; write \"torque\""));
   EXPECT_THAT(told(asked("forse")), HasSubstr("did you mean \"force\"?"));
 }
 

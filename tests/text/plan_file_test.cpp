@@ -204,7 +204,7 @@ TEST(PlannedScenarios, RefuseWhatNoRunCouldHave) {
   EXPECT_THAT(told({.key = "pwm.chopping", .values = {"soft"}, .strays = true}),
               HasSubstr("is not a number, and only numbers can be spread"));
   EXPECT_THAT(told({.key = "pwm.period_s", .values = {"3e-5"}, .strays = true}),
-              HasSubstr("differs from drive to drive"));
+              HasSubstr("may not differ from drive to drive"));
   EXPECT_EQ(told({.key = "supply.voltage_V", .values = {"-1", "24"}}), "nothing")
       << "one of its ends can be run";
 }

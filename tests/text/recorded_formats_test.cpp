@@ -103,7 +103,7 @@ TEST(RecordedFormats, RigolMso5000) {
             [](int, double, double a, double b) { return fmt::format("{:.5e},{:.5e},,\n", a, b); });
   expect_right(file);
   EXPECT_THAT(seen(file, between_lines).notes,
-              ElementsAre("has no column of time: rows are 0.0001 s apart, as \"tInc = 0.0001\" says"));
+              ElementsAre("has no column of time; the rows are 0.0001 s apart by \"tInc = 0.0001\""));
   expect_right(file, 1e-5,
                {.hall = {}, .voltages = {}, .between = analysis::EmfBetween::lines, .interval_s = dt});
 }
@@ -127,7 +127,7 @@ TEST(RecordedFormats, TektronixTds) {
   expect_right(file(1e-4, "V"), 1e-5, between_lines, 1);
   EXPECT_THAT(seen(file(1e-4, "V"), between_lines).channels, ElementsAre("CH1"));
   EXPECT_THAT(seen(file(1e-7, "V"), between_lines).problem, HasSubstr("contradicts itself"));
-  EXPECT_THAT(seen(file(1e-4, "dBV"), between_lines).problem, HasSubstr("heads CH1 in \"dBV\""));
+  EXPECT_THAT(seen(file(1e-4, "dBV"), between_lines).problem, HasSubstr("has the heading CH1 in \"dBV\""));
 }
 
 TEST(RecordedFormats, LabViewWithAndWithoutItsColumnOfX) {

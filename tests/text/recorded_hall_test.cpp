@@ -77,7 +77,7 @@ TEST(RecordedHall, SigrokWithAColumnOfTime) {
   expect_right(found, rows);
   ASSERT_FALSE(found.log.t_s.empty());
   EXPECT_NEAR(found.log.t_s.back(), 0.2, 1e-4);
-  EXPECT_THAT(found.notes, Contains("Time is in us, as \"Samplerate: 20 kHz\" says"));
+  EXPECT_THAT(found.notes, Contains("Time is in us by \"Samplerate: 20 kHz\""));
   const auto identity = analysis::identify(found.log, 1, [] { return true; });
   ASSERT_TRUE(identity);
   // Rows that exist only at changes are whole numbers of samples apart.
@@ -98,8 +98,9 @@ TEST(RecordedHall, SigrokAsItComes) {
   }
   EXPECT_THAT(seen(file).notes,
               Contains("D0, D1 and D2 are taken for H1, H2 and H3, in the order of their columns"));
-  EXPECT_THAT(seen(file, {"logic"}).problem,
-              HasSubstr("has 3 columns \"logic\"; name one by its place: column 2, column 3 or column 4"));
+  EXPECT_THAT(
+      seen(file, {"logic"}).problem,
+      HasSubstr("has 3 columns \"logic\"; name one column by its place: column 2, column 3 or column 4"));
 }
 
 TEST(RecordedHall, SigrokWithoutTime) {
@@ -108,7 +109,7 @@ TEST(RecordedHall, SigrokWithoutTime) {
   ASSERT_FALSE(found.log.t_s.empty());
   EXPECT_NEAR(found.log.t_s.back(), 0.2, 1e-4);
   EXPECT_THAT(found.notes,
-              Contains("has no column of time: rows are 5e-05 s apart, as \"Samplerate: 20 kHz\" says"));
+              Contains("has no column of time; the rows are 5e-05 s apart by \"Samplerate: 20 kHz\""));
 }
 
 /// With one sample per microsecond the numbers are nanoseconds; with one sample per nanosecond they are row
@@ -162,7 +163,7 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
       ElementsAre(
           "not used: u_b (a voltage of a terminal; u_a, u_b and u_c are all needed), aux (its heading has no known meaning)"));
   EXPECT_THAT(notes("time,hall1,hall2,hall3,u_ab,u_bc,u_a", "1,2,3"),
-              ElementsAre("not used: u_a (a voltage of a terminal; line-to-line voltages are used)"));
+              ElementsAre("not used: u_a (a voltage of a terminal; the line-to-line voltages are used)"));
   std::string file = "time,hall1,hall\n";
   for (int row = 0; row < 300; ++row)
     file += fmt::format("{:.5f},{},{}\n", row * 5e-5, codes[row / 10 % 6] >> 2, codes[row / 10 % 6]);
@@ -187,10 +188,11 @@ TEST(RecordedHall, WhatVoltagesAreOfIsNeverGuessedByTheirNumber) {
   const std::vector<std::string> two = {"CH4", "CH5"}, three = {"CH4", "CH5", "CH6"};
   for (const Seen& found : {with("u_a,u_b"), with("u_a,u_b", {"u_a", "u_b"}),
                             with("u_a,u_b", {}, EmfBetween::star), with("CH4,CH5", two, EmfBetween::star)})
-    EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; u_a, u_b and u_c are needed"));
+    EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; give u_a, u_b and u_c"));
   for (const Seen& found :
        {with("CH4,CH5", two), with("CH4,CH5,CH6", three), with("u_ab,u_b", {"u_ab", "u_b"})})
-    EXPECT_THAT(found.problem, HasSubstr("between is missing: the headings do not name the points"));
+    EXPECT_THAT(found.problem,
+                HasSubstr("between is missing, and the headings do not tell between which points"));
   EXPECT_EQ(with("u_ab,u_bc").log.voltages, RecordedVoltages::lines);
   EXPECT_EQ(with("u_a,u_b,u_c").log.voltages, RecordedVoltages::terminals);
   // Three voltages between terminals remain line-to-line voltages if the user names them.

@@ -118,7 +118,8 @@ TEST(Recording, WhatIsNoTable) {
   EXPECT_EQ(told_of_hall(""), "r.csv: is empty; export the recording again: headings, then rows of numbers");
   EXPECT_EQ(told_of_hall(" \r\n\t\n"), told_of_hall(""));
   const std::string gz("\x1f\x8b\x08\x00\x00\x00rest", 10);
-  EXPECT_EQ(told_of_emf(gz), "r.csv: is no text; export the recording as CSV; gzip -d unpacks a .gz");
+  EXPECT_EQ(told_of_emf(gz),
+            "r.csv: is not a text file; export the recording as CSV, or unpack a .gz with gzip -d");
   EXPECT_THAT(told_of_emf("\x1f\x8b\x08\x08\x1c\xffno zero among these"),
               StartsWith("r.csv:1: holds no row of numbers; export the recording as text"));
   EXPECT_THAT(told_of_emf("time,u_ab\n"), StartsWith("r.csv:1: holds no row of numbers"));
@@ -133,11 +134,10 @@ TEST(Recording, CellsThatAreNoNumbersAreNamedByTheirLine) {
     return "time [s],u_ab [V]\n0,1\n1e-3," + std::string(cell) + "\n2e-3,3\n";
   };
   for (const char* const cell : {"nan", "NaN", "inf", "-inf", "--", "OL", "1e", "0x10", "1.2.3", "1 2", ""})
-    EXPECT_EQ(
-        told_of_emf(changed(cell)),
-        fmt::format(
-            "r.csv:3: u_ab \"{}\" is not a number; leave such rows out, and write numbers as 0.5 or 5e-1",
-            cell));
+    EXPECT_EQ(told_of_emf(changed(cell)),
+              fmt::format(
+                  "r.csv:3: u_ab \"{}\" is not a number; remove such rows, and write numbers as 0.5 or 5e-1",
+                  cell));
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1e-3\n"),
               StartsWith("r.csv:3: u_ab \"\" is not a number"));
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\nnever,2\n"),
@@ -161,15 +161,16 @@ TEST(Recording, NumbersBeyondAllInstrumentsAreNamedByTheirRow) {
 TEST(Recording, TimesThatDoNotTell) {
   EXPECT_EQ(
       told_of_emf("u_ab [V],u_bc [V]\n1,2\n2,3\n"),
-      "r.csv: has no column of time: it has u_ab, u_bc; head it time [s], or give the interval of the rows");
+      "r.csv: has no column of time: it has u_ab, u_bc; write the heading time [s], or give the interval of the rows");
   EXPECT_THAT(told_of_emf("sample,u_ab\n0,1\n1,2\n2,3\n"),
               StartsWith("r.csv: has no column of time: it has sample, u_ab"));
-  EXPECT_THAT(told_of_emf("time,u_ab\n0,1\n1,2\n2,3\n"),
-              StartsWith("r.csv: numbers its rows in time; head the column time [s]"));
+  EXPECT_THAT(
+      told_of_emf("time,u_ab\n0,1\n1,2\n2,3\n"),
+      StartsWith("r.csv: has no time: its column time only numbers the rows; write the heading time [s]"));
   EXPECT_THAT(told_of_emf(scope(2) + "0.001,1\n"),
               StartsWith("r.csv: time 0.001 in row 201 does not rise; give the rows in the order"));
   EXPECT_THAT(told_of_emf("time [V],u_ab [V]\n0,1\n1,2\n"),
-              StartsWith("r.csv: heads time as V, where s belongs; name another column"));
+              StartsWith("r.csv: has the heading time in V, but s is expected; name another column"));
 }
 
 /// A given interval replaces a missing time, but does not override the file's time.
@@ -203,37 +204,37 @@ TEST(Recording, AnIntervalBesideATime) {
 }
 
 TEST(Recording, WrongColumns) {
-  EXPECT_EQ(told_of_hall(scope(3)),
-            "r.csv: has no columns of Hall lines: it has time, u_ab; head them hall1, hall2, hall3, "
-            "or one of codes hall, or name the columns");
+  EXPECT_EQ(
+      told_of_hall(scope(3)),
+      "r.csv: has no columns of Hall lines: it has time, u_ab; write the headings hall1, hall2, hall3, or hall for a column of codes, or name the columns");
   EXPECT_EQ(
       told_of_hall(hall_log(36),
                    {.hall = {"hall1", "hall2", "hal3"}, .voltages = {}, .between = {}, .interval_s = {}}),
       "r.csv: has no column \"hal3\"; did you mean \"hall3\"?");
   EXPECT_THAT(told_of_hall(hall_log(36),
                            {.hall = {"hall1", "hall2"}, .voltages = {}, .between = {}, .interval_s = {}}),
-              StartsWith("r.csv: has not three columns of Hall lines"));
+              StartsWith("r.csv: does not have three columns of Hall lines"));
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n1e-3,8\n"),
-              StartsWith("r.csv: hall 8 in row 2 is no Hall code, 0 to 7"));
+              StartsWith("r.csv: hall 8 in row 2 is not a Hall code, 0 to 7"));
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n1e-3,4.5\n"),
-              StartsWith("r.csv: hall 4.5 in row 2 is no Hall code, 0 to 7"));
+              StartsWith("r.csv: hall 4.5 in row 2 is not a Hall code, 0 to 7"));
   EXPECT_THAT(told_of_hall(hall_log(36, "time [s],hall1 [s],hall2,hall3\n")),
-              StartsWith("r.csv: heads hall1 as s, where V belongs"));
+              StartsWith("r.csv: has the heading hall1 in s, but V is expected"));
   EXPECT_THAT(told_of_emf("time [s]\n0\n1\n3\n"),
               StartsWith("r.csv: has no column of voltages: it has time"));
   EXPECT_THAT(told_of_emf(scope(4, 3.0, "time [s],CH1 [V]\n")),
-              StartsWith("between is missing: the headings do not name the points"));
+              StartsWith("between is missing, and the headings do not tell between which points"));
   EXPECT_THAT(told_of_hall("time [s],hall,u_ab\n0,4,1\n1e-3,4,1\n"),
-              StartsWith("r.csv: has 1 voltage of lines; u_ab and u_bc are needed"));
+              StartsWith("r.csv: has 1 voltage of lines; give u_ab and u_bc"));
 }
 
 /// With a wrong separator, the file has one column.
 TEST(Recording, WrongSeparators) {
   EXPECT_THAT(told_of_hall("time|hall1|hall2|hall3\n0|1|0|0\n1|1|1|0\n"),
               StartsWith("r.csv: holds no row of numbers"));
-  EXPECT_THAT(
-      told_of_emf("time,u_ab\n0,0,1,5\n0,001,2,5\n"),
-      AllOf(StartsWith("r.csv:2: has 4 cells below 2 headings"), HasSubstr("; export it with semicolons")));
+  EXPECT_THAT(told_of_emf("time,u_ab\n0,0,1,5\n0,001,2,5\n"),
+              AllOf(StartsWith("r.csv:2: has 4 cells below 2 headings"),
+                    HasSubstr("; export the file with semicolons")));
 }
 
 TEST(Recording, TooShortStandingOrDead) {

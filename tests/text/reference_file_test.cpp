@@ -41,9 +41,9 @@ TEST(ReferenceFile, IsReadWhateverPartsItsCells) {
 }
 
 TEST(ReferenceFile, WhichOfManyColumnsIsMeantIsNotGuessed) {
-  EXPECT_THAT(
-      told("t [s],x [A],i [A]\n0,0,0\n0.1,3,100\n"),
-      ElementsAre(AllOf(HasSubstr("r.csv:2: has 3 columns: \"x\", \"i\""), HasSubstr("name the column"))));
+  EXPECT_THAT(told("t [s],x [A],i [A]\n0,0,0\n0.1,3,100\n"),
+              ElementsAre(AllOf(HasSubstr("r.csv:2: has 3 columns: \"x\", \"i\""),
+                                HasSubstr("name the wanted column"))));
   EXPECT_THAT(told("0,0,0\n0.1,3,100\n"), ElementsAre(HasSubstr("keep two columns")));
   const base::Result<ShapeRows> shape = shape_rows("s.csv", "angle [deg],e,f\n0,0,0\n360,0,0\n");
   ASSERT_FALSE(shape);
@@ -65,7 +65,8 @@ TEST(ReferenceFile, AHeadingMayBringAUnit) {
   EXPECT_THAT(read("t,what I saw\n0,30\n", "A").values, ElementsAre(30.0)) << "no unit: as wanted";
   EXPECT_THAT(
       told("t_s,u_V\n0,1\n"),
-      ElementsAre(HasSubstr("r.csv: heads u as V, where A belongs; name another column; units that fit: A")));
+      ElementsAre(HasSubstr(
+          "r.csv: has the heading u in V, but A is expected; name another column; units that fit: A")));
   for (const char* odd : {"t_s,i [counts]\n0,1\n", "Time (foo),i\n0,1\n"})
     EXPECT_THAT(told(odd), ElementsAre(HasSubstr("which is not a unit"))) << odd;
   // In the encoding of older instruments the micro sign is one byte.
@@ -81,13 +82,15 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
               ElementsAre("r.csv:2: column 2 \"\" is not a number; write numbers as 0.5 or 5e-1",
                           "r.csv:3: column 2 \"x\" is not a number; write numbers as 0.5 or 5e-1",
                           "r.csv:6: column 2 \"nan\" is not a number; write numbers as 0.5 or 5e-1"));
-  EXPECT_THAT(told("# remark\n0,1\n0.1,1\n\n0.1,1\n-1,2\n"),
-              ElementsAre("r.csv:5: time 0.1 does not rise; sort the rows, from 0 s on",
-                          "r.csv:6: time -1 does not rise; sort the rows, from 0 s on"));
+  EXPECT_THAT(
+      told("# remark\n0,1\n0.1,1\n\n0.1,1\n-1,2\n"),
+      ElementsAre("r.csv:5: time 0.1 is not above the row before; sort the rows; the first may be 0 s",
+                  "r.csv:6: time -1 is not above the row before; sort the rows; the first may be 0 s"));
   EXPECT_THAT(told("t,torque\n0,1\n", "torqe"),
               ElementsAre("r.csv: has no column \"torqe\"; did you mean \"torque\"?"));
-  EXPECT_THAT(told("0,1\n", "torque"),
-              ElementsAre("r.csv:1: has no headings; the first line must name \"torque\""));
+  EXPECT_THAT(
+      told("0,1\n", "torque"),
+      ElementsAre("r.csv:1: has no headings; write headings in the first line, one of them \"torque\""));
   std::string broken = "0,1\n";
   for (int n = 0; n < 100; ++n) broken += "x,y\n";
   EXPECT_EQ(told(broken).size(), 6u);
@@ -130,11 +133,13 @@ TEST_F(ReferenceInAFile, ItsSlipsAreToldWhereTheyStand) {
               ElementsAre("x.toml:7:8: reference.file = \"/dev/zero\" names /dev/zero, which cannot be read: "
                           "it is not a regular file; name a file"));
   std::ofstream(folder_ / "r.csv") << "0,1\n0,3\n";
-  EXPECT_THAT(complaints("file = \"r.csv\"\n"),
-              ElementsAre("r.csv:2: time 0 does not rise; sort the rows, from 0 s on"));
-  EXPECT_THAT(complaints("file = \"r.csv\"\ntimes_s = [0]\nvalues = [1]\n"),
-              ElementsAre("x.toml:7:8: reference.file = \"r.csv\" contradicts times_s and values: the rows "
-                          "are given twice; keep one of the two"));
+  EXPECT_THAT(
+      complaints("file = \"r.csv\"\n"),
+      ElementsAre("r.csv:2: time 0 is not above the row before; sort the rows; the first may be 0 s"));
+  EXPECT_THAT(
+      complaints("file = \"r.csv\"\ntimes_s = [0]\nvalues = [1]\n"),
+      ElementsAre(
+          "x.toml:7:8: reference.file = \"r.csv\" contradicts times_s and values: give the rows only once; keep file, or times_s and values"));
   EXPECT_THAT(complaints("column = \"b\"\n"),
               ElementsAre("x.toml:5:1: reference.file is missing for shape = \"csv\"; give file = "
                           "\"NAME.csv\", or times_s and values"));

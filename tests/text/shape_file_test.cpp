@@ -54,11 +54,12 @@ TEST(ShapeFile, SaysWhatIsWrongWithItself) {
   };
   EXPECT_THAT(of(named, "angle_deg,value\n0,1\n120,x\n"),
               HasSubstr("motors/shape.csv:3: value \"x\" is not a number"));
-  EXPECT_THAT(of(named, "0 1\n200 -1\n100 1\n"), HasSubstr("motors/shape.csv:3: angle 100 does not rise"));
-  EXPECT_THAT(of(named, "time_s,value\n0,1\n"), HasSubstr("heads time as s, where deg belongs"));
+  EXPECT_THAT(of(named, "0 1\n200 -1\n100 1\n"),
+              HasSubstr("motors/shape.csv:3: angle 100 is not above the row before"));
+  EXPECT_THAT(of(named, "time_s,value\n0,1\n"), HasSubstr("has the heading time in s, but deg is expected"));
   EXPECT_THAT(of("back_emf_file = \"none.csv\"\n", rows),
               HasSubstr("motors/m.toml:9:17: back_emf_file = \"none.csv\" names motors/none.csv"));
-  EXPECT_THAT(of(named + "back_emf_shape = [1, -1]\n", rows), HasSubstr("the points are given twice"));
+  EXPECT_THAT(of(named + "back_emf_shape = [1, -1]\n", rows), HasSubstr("give the points only once"));
   EXPECT_THAT(of(named, "0,1\n120,1\n180,-1\n300,-0.9\n"), HasSubstr("subtract 0.0"));
 }
 

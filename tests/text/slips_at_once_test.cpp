@@ -36,8 +36,8 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
   const std::vector<::testing::Matcher<std::string>> all = {
       HasSubstr(":3:1: polar is not a key here; "),
       HasSubstr(":4:18: resistance_ohm = 1.03 must say its frame"),
-      HasSubstr(":5:17: inductance_mH = \"0.572 mF\" carries the unit mF"),
-      HasSubstr(":7:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; give only"),
+      HasSubstr(":5:17: inductance_mH = \"0.572 mF\" has the unit mF"),
+      HasSubstr(":7:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; keep one"),
       HasSubstr(":8:16: inertia_gcm2 = -135 must be above 0; it means: moment of inertia"),
       HasSubstr(":9:1: inertias is not a key here; "),
       HasSubstr(":10:18: cogging_orders = 13 must be a multiple of the number of poles, 16; "),
@@ -57,7 +57,7 @@ TEST_F(SlipsAtOnce, AScenarioTellsItsOwnSlipsBesideItsMotors) {
                          "time_s = 3\nload = { torque_Nm = 1 }\n[control]\nmode = \"current\"\n"
                          "current = { settle_ms = 1 }\n"),
               ElementsAre(HasSubstr("x.toml:4:15: bridge.dead_time_s = 1 must be shorter than"),
-                          HasSubstr("x.toml:6:10: at.time_s = 3 lies behind the end of the run"),
+                          HasSubstr("x.toml:6:10: at.time_s = 3 is not before the end of the run"),
                           HasSubstr("x.toml:10:13: control.current.settle_ms is not a key here"),
                           HasSubstr("bad.toml:2:1: polar is not a key here"),
                           HasSubstr("bad.toml:3:18: resistance_ohm = 1.03 must say its frame")));

@@ -63,25 +63,22 @@ TEST(Units, OtherFactorsAreRoundedLast) {
 TEST(Units, AFrequencyForAPeriodIsToldAsItsReciprocal) {
   EXPECT_EQ(
       refused("20 kHz", "s"),
-      "carries the unit kHz, and this key is a time; write the period, 1 over the frequency: 20 kHz is 50 us. Units that "
-      "fit: s, ms, us or min");
+      "has the unit kHz, and this key is a time; write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: s, ms, us or min");
 }
 
 TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("20 mA", "s"),
-            "carries the unit mA, which is not of the kind of s; units that fit: s, ms, us or min");
+            "has the unit mA, which cannot be converted to s; units that fit: s, ms, us or min");
   EXPECT_EQ(
       refused("50 Hz", "rad/s"),
-      "carries the unit Hz, and hertz may count turns of the shaft or electrical turns, which are "
-      "pole pairs times as many; write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; "
-      "units that fit: rad/s, rpm, rev/s or deg/s");
-  EXPECT_EQ(refused("20 msecs", "s"), "carries an unknown unit, msecs; units that fit: s, ms, us or min");
+      "has the unit Hz, which may count turns of the shaft or electrical turns; write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; units that fit: rad/s, rpm, rev/s or deg/s");
+  EXPECT_EQ(refused("20 msecs", "s"), "has the unknown unit msecs; units that fit: s, ms, us or min");
   EXPECT_EQ(refused("20 MS", "s"),
-            "carries an unknown unit, MS; did you mean ms? Units that fit: s, ms, us or min");
+            "has the unknown unit MS; did you mean ms? Units that fit: s, ms, us or min");
   EXPECT_EQ(refused("20", "s"), "lacks its unit; write 20, which is in s, or \"20 s\"");
   EXPECT_EQ(refused("20", ""), "must be a number without quotes; write 20");
   EXPECT_EQ(refused("20 ms", ""),
-            "carries the unit ms, and this key is a plain number; write the number alone, or in %");
+            "has the unit ms, and this key is a plain number; write the number alone, or in %");
   EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write a point, not a comma, as the decimal mark");
   EXPECT_EQ(refused("1e400 A", "A"),
             "is outside the range of a double, 4.9e-324 to 1.8e308; correct its exponent");
@@ -155,8 +152,7 @@ TEST(Units, OfAReferenceFollowTheMode) {
   EXPECT_EQ(told(duration + "control.mode = \"position\"\nreference.value = \"0.25 rev\"\n"), "accepted");
   EXPECT_EQ(
       told(duration + "control.mode = \"current\"\nreference.value = \"955 rpm\"\n"),
-      "x.toml:4:19: reference.value = \"955 rpm\" carries the unit rpm, which is not of the kind of A; units "
-      "that fit: A or mA");
+      "x.toml:4:19: reference.value = \"955 rpm\" has the unit rpm, which cannot be converted to A; units that fit: A or mA");
   EXPECT_EQ(told(duration + "reference.value = \"955 rpm\"\n"),
             "x.toml:3:19: reference.value = \"955 rpm\" is in the unit of control.mode, and this mode has "
             "none; set control.mode, or write a number without quotes");
@@ -216,14 +212,13 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
   };
   EXPECT_EQ(
       told("metric = \"max\"\nmax = \"20 ms\"\n"),
-      "x.toml:5:7: require.max = \"20 ms\" carries the unit ms, which is not of the kind of A; units that "
-      "fit: A or mA\n");
-  EXPECT_EQ(told("metric = \"settling_time_s\"\nlevel = \"2 A\"\nmax = \"2 A\"\n"),
-            "x.toml:6:7: require.max = \"2 A\" carries the unit A, which is not of the kind of s; units "
-            "that fit: s, ms, us or min\n");
-  EXPECT_EQ(told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
-            "x.toml:5:7: require.min = \"8 W\" carries the unit W, and this key is a plain number; write the "
-            "number alone, or in %\n");
+      "x.toml:5:7: require.max = \"20 ms\" has the unit ms, which cannot be converted to A; units that fit: A or mA\n");
+  EXPECT_EQ(
+      told("metric = \"settling_time_s\"\nlevel = \"2 A\"\nmax = \"2 A\"\n"),
+      "x.toml:6:7: require.max = \"2 A\" has the unit A, which cannot be converted to s; units that fit: s, ms, us or min\n");
+  EXPECT_EQ(
+      told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
+      "x.toml:5:7: require.min = \"8 W\" has the unit W, and this key is a plain number; write the number alone, or in %\n");
   EXPECT_EQ(told("metric = \"max\"\nmax = \"2\"\n"),
             "x.toml:5:7: require.max = \"2\" lacks its unit; write 2, which is in A, or \"2 A\"\n");
   // The unit is unknown here: only the wrong word is reported.

@@ -56,7 +56,7 @@ TEST(WiringText, HasEachWiringInItsPlace) {
   EXPECT_THAT(row(text, "abc", 1), ElementsAre("abc", "-", "a>c>b", "a>b>c", "H2-H3", "H1-H3", "H1-H2"));
   EXPECT_THAT(row(text, "cba", 1),
               ElementsAre("cba", "a-c", "a-b", "b-c", "a-b H1-H3", "a-b H1-H2", "a-b H2-H3"));
-  EXPECT_THAT(text, HasSubstr("All 36 move in simulation as theory predicts."));
+  EXPECT_THAT(text, HasSubstr("All 36 wirings move in simulation as theory predicts."));
   EXPECT_THAT(text, HasSubstr("20 times the current"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), 130u) << line;
@@ -130,8 +130,8 @@ TEST(WiringJson, HasEverythingOfEachWiring) {
 TEST(WiringWords, TellMovesAsTheyAreMade) {
   EXPECT_EQ(text::cure_text({}), "nothing");
   EXPECT_EQ(text::cure_mark({}), "-");
-  EXPECT_EQ(text::cure_text({.legs = {1, 2, 0}}), "move the phase wires on: a to b, b to c, c to a");
-  EXPECT_EQ(text::cure_text({.legs = {2, 0, 1}}), "move the phase wires on: a to c, c to b, b to a");
+  EXPECT_EQ(text::cure_text({.legs = {1, 2, 0}}), "move the phase wires: a to b, b to c, c to a");
+  EXPECT_EQ(text::cure_text({.legs = {2, 0, 1}}), "move the phase wires: a to c, c to b, b to a");
   EXPECT_EQ(text::cure_mark({.legs = {2, 0, 1}}), "a>c>b");
   EXPECT_EQ(text::cure_text({.pins = {2, 1, 0}}), "swap the Hall lines H1 and H3");
 }
@@ -143,7 +143,7 @@ TEST(WiringWords, OfTheRecipeAreItsSteps) {
   EXPECT_EQ(analysis::next_step(WiringDoes::hums), (analysis::Cure{.legs = {1, 0, 2}}));
   EXPECT_THAT(std::string(steps[0].second), HasSubstr("swap any two phase wires"));
   EXPECT_EQ(analysis::next_step(WiringDoes::forward_late), (analysis::Cure{.legs = {1, 2, 0}}));
-  EXPECT_THAT(std::string(steps[1].second), HasSubstr("move all three phase wires on by one leg"));
+  EXPECT_THAT(std::string(steps[1].second), HasSubstr("move all three phase wires by one leg"));
   EXPECT_EQ(analysis::next_step(WiringDoes::backward),
             (analysis::Cure{.legs = {1, 0, 2}, .pins = {0, 2, 1}}));
   EXPECT_THAT(std::string(steps[2].second),

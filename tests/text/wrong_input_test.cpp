@@ -48,9 +48,9 @@ TEST_F(WrongInput, AGoodFileIsToldNothing) { EXPECT_THAT(complaints(head), Eleme
 TEST_F(WrongInput, AMotorTakenForAScenarioIsToldInOneSentence) {
   EXPECT_THAT(
       complaints("name = \"mine\"\npole_pairs = 4\nresistance_ohm = 0.5\n"),
-      ElementsAre("x.toml:1:1: is a motor's file, not a scenario; sixstep new first --motor x.toml writes a "
-                  "scenario that runs it"));
-  EXPECT_THAT(complaints("pole_pairs = 4\n" + head),  // a scenario with a motor's key at the wrong level
+      ElementsAre(
+          "x.toml:1:1: is a motor file, not a scenario; write a scenario for this motor with: sixstep new first --motor x.toml"));
+  EXPECT_THAT(complaints("pole_pairs = 4\n" + head),  // a scenario with a motor's key in the wrong place
               ElementsAre(HasSubstr("x.toml:1:1: pole_pairs is not a key here")));
 }
 
@@ -58,11 +58,10 @@ TEST_F(WrongInput, AScenarioTakenForAMotorIsToldInOneSentence) {
   write("y.toml", head);
   EXPECT_THAT(
       complaints("motor = \"y.toml\"\nduration_s = 0.02\n"),
-      ElementsAre(
-          "y.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name this motor"));
+      ElementsAre("y.toml:1:1: is a scenario, not a motor file; name the scenario's motor, maxon-251601"));
   write("z.toml", "duration_s = 0.02\n");
   EXPECT_THAT(complaints("motor = \"z.toml\"\nduration_s = 0.02\n"),
-              ElementsAre(HasSubstr("is a scenario, not a motor's file; name the file of a motor")));
+              ElementsAre(HasSubstr("is a scenario, not a motor file; name a motor file")));
 }
 
 TEST_F(WrongInput, WhatIsNoUtf8IsTold) {
@@ -92,8 +91,7 @@ TEST_F(WrongInput, TextWhereANumberBelongs) {
   EXPECT_THAT(
       complaints("motor = \"maxon-251601\"\nduration_s = \"20 mm\"\n"),
       ElementsAre(
-          "x.toml:2:14: duration_s = \"20 mm\" carries the unit mm, which is not of the kind of s; units "
-          "that fit: s, ms, us or min"));
+          "x.toml:2:14: duration_s = \"20 mm\" has the unit mm, which cannot be converted to s; units that fit: s, ms, us or min"));
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage_V = \"a lot\"\n"),
       ElementsAre("x.toml:4:13: supply.voltage_V = \"a lot\" must be a number, in V, or one with its unit in "
@@ -154,10 +152,10 @@ TEST_F(WrongInput, FrameMustBeOneOfTheKeysOwn) {
         "inductance_mH = { value = 1, frame = \"star\" }\ninertia_gcm2 = { value = 1, frame = \"phase\" }\n");
   EXPECT_THAT(
       complaints("motor = \"m\"\nduration_s = 0.02\n"),
-      ElementsAre("m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; give the "
-                  "points between which the sheet measures",
-                  "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; this value has one meaning "
-                  "only: leave frame out"));
+      ElementsAre(
+          "m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; give the "
+          "points between which the sheet measures the value",
+          "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; remove frame: this value has only one meaning"));
 }
 
 TEST_F(WrongInput, FlatWidthOfHalfATurn) {
@@ -193,9 +191,7 @@ TEST_F(WrongInput, ReferenceInAnotherModesUnit) {
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"speed\"\n[reference]\nvalue = 955\nunit = \"rpm\"\n"),
       ElementsAre(
-          "x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; "
-          "give the reference in \"rad/s\", or write the unit behind the number, as \"100 rpm\", if it is of that "
-          "kind, or change control.mode"));
+          "x.toml:7:8: reference.unit = \"rpm\" is not the unit of mode \"speed\"; give the reference in \"rad/s\", or the number with its unit, as \"100 rpm\", or change control.mode"));
   EXPECT_THAT(complaints(head + "[control]\nmode = \"current\"\n[reference]\nvalue = 9\nunit = \"rad/s\"\n"),
               ElementsAre("x.toml:7:8: reference.unit = \"rad/s\" is not the unit of mode \"current\"; "
                           "set control.mode = \"speed\", or give the reference in \"A\""));
@@ -206,8 +202,7 @@ TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
       complaints(head + "[control]\nmode = \"current\"\n[control.current]\nsettle_s = 1e-3\ndamping = 0.9\n"
                         "d1 = 4.5\nd0 = -4.04\n"),
       ElementsAre(
-          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s, damping: gains are either given or "
-          "designed; keep one of: d1 and d0 | kp with ki or ki_per_s | settle_s and damping"));
+          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s and damping, which compute the gains; keep only one form: d1 and d0, kp with ki or ki_per_s, or settle_s and damping"));
 }
 
 TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
@@ -220,8 +215,8 @@ TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
 TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
   EXPECT_THAT(
       complaints("motor = \"maxon-251601\"\nduration_s = 20 ms\n"),
-      ElementsAre("x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw "
-                  "'m'; end the line behind the value: its unit is in the key"));
+      ElementsAre(
+          "x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw 'm'; end the line after the value; the key contains the unit"));
 }
 
 /// The parser once assumed that a name starts after a bracket.
@@ -241,8 +236,8 @@ TEST_F(WrongInput, AWrongDurationIsToldAlone) {
 TEST_F(WrongInput, PercentIsNoDuty) {
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 50\n"),
-      ElementsAre("x.toml:6:9: reference.value = 50 must lie from -1 to 1 in duty mode; write 0.5 for 50 "
-                  "%: a duty is the signed share of the period that the switch is on"));
+      ElementsAre(
+          "x.toml:6:9: reference.value = 50 must lie from -1 to 1 in duty mode; write 0.5 for 50 %: a duty is the fraction of the period in which the switch is on, with a sign"));
 }
 
 TEST_F(WrongInput, NoLoopSettlesWithinTwoSamples) {
@@ -250,9 +245,8 @@ TEST_F(WrongInput, NoLoopSettlesWithinTwoSamples) {
       head + "[control]\nmode = \"current\"\n[control.current]\ndamping = 0.9\nsettle_s = ";
   EXPECT_THAT(
       complaints(loop + "59e-6\n"),
-      ElementsAre("x.toml:7:12: control.current.settle_s = 5.9e-05 is shorter than two control periods, "
-                  "the least that any loop takes; write at least 6e-05, better 10 periods, 0.0003; or "
-                  "shorten pwm.period_s"));
+      ElementsAre(
+          "x.toml:7:12: control.current.settle_s = 5.9e-05 is shorter than two control periods, in which no loop can settle; write at least 6e-05, better 10 periods, 0.0003; or shorten pwm.period_s"));
   EXPECT_THAT(complaints(loop + "60e-6\n"), ElementsAre());
 }
 
@@ -280,8 +274,8 @@ TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
-      ElementsAre("x.toml:7:1: require.level is missing, and the reference is of another signal; give the "
-                  "level that the signal is to reach, in its own unit"));
+      ElementsAre(
+          "x.toml:7:1: require.level is missing, and the reference belongs to another signal; give the level that the signal must reach, in the signal's unit"));
 }
 
 TEST_F(WrongInput, FrequentSlipsOfSyntaxHaveTheirCure) {
@@ -304,8 +298,8 @@ TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
               ElementsAre(::testing::HasSubstr("; write unit = \"1\"; ")));
   EXPECT_THAT(
       complaints(head, {.overrides = {{"duration_s.x", "1"}}}),
-      ElementsAre("--set duration_s.x = 1 does not name a key; write --set table.key=value, as in --set "
-                  "supply.voltage_V=12"));
+      ElementsAre(
+          "--set duration_s.x = 1 does not name a key; write --set table.key=value, for example --set supply.voltage_V=12"));
 }
 
 TEST_F(WrongInput, UnreadableFile) {
@@ -327,7 +321,7 @@ TEST_F(WrongInput, AFolderIsNoFile) {
   const base::Result<study::Scenario> result = files::read_scenario(folder_.string());
   ASSERT_FALSE(result);
   EXPECT_THAT(to_string(result.problems().at(0)),
-              HasSubstr("cannot be read: Is a directory; name a file in it"));
+              HasSubstr("cannot be read: Is a directory; name a file in this folder"));
 }
 
 /// The fuzzer found this case: after a key, the parser treated every character from U+00A1 to U+0499 as

@@ -60,8 +60,8 @@ class SingleHeader(unittest.TestCase):
         file = self.folder / "old.cpp"
         file.write_text('#include "sixstep_control.hpp"\n')
         flags = [flag for flag in FLAGS if flag not in ("-std=c++20", "-Werror")]
-        for given, said in ((["-std=c++17"], "is C++20"),
-                            (["-std=c++20", "-D__AVR__", "-D__clang__", "-D__clang_major__=14"], "compile drives wrongly for the AVR")):
+        for given, said in ((["-std=c++17"], "needs C++20"),
+                            (["-std=c++20", "-D__AVR__", "-D__clang__", "-D__clang_major__=14"], "compiles drives wrongly for the AVR")):
             done = subprocess.run([COMPILER, *flags, *given, f"-I{self.folder}", "-fsyntax-only", file], capture_output=True, text=True, check=False)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(said, done.stderr)

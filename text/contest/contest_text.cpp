@@ -141,11 +141,11 @@ std::string missed_speed(const ContestRow& row) {
     const double x = (*row.nominal)->figures[k];
     if (columns[k].holds(x)) continue;
     const auto speed = [](double rad_s) { return quantity_text(rad_s, "rad/s", 4); };
-    return fmt::format("{}: {} in the mean, {} to {} are required", columns[k].name,
+    return fmt::format("{} is {} on average, required are {} to {}", columns[k].name,
                        std::isnan(x) ? std::string("no value") : speed(x),
                        speed(columns[k].min.value_or(0.0)), speed(columns[k].max.value_or(0.0)));
   }
-  return "the run stopped before its end";
+  return "the run ended early";
 }
 
 }  // namespace
@@ -163,29 +163,27 @@ std::vector<std::string> contest_notes(const Contest& c) {
     const base::Result<study::Scenario>& scenario = c.entries[n].scenario;
     const std::string problem = c.rows[n].nominal ? (*c.rows[n].nominal)->problem : std::string();
     if (!scenario)
-      notes.push_back(fmt::format("{} is left out: {}", controller_name(c, n),
+      notes.push_back(fmt::format("{} was not run: {}", controller_name(c, n),
                                   base::to_string(scenario.problems().front())));
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
     else if (c.rows[n].nominal && !c.rows[n].nominal_held)
-      notes.push_back(
-          fmt::format("{} does not hold the required speed, so none of its figures counts as the least: {}",
-                      controller_name(c, n), missed_speed(c.rows[n])));
+      notes.push_back(fmt::format(
+          "{} does not hold the required speed ({}), so that none of its figures counts as the least",
+          controller_name(c, n), missed_speed(c.rows[n])));
     else if (c.rows[n].nominal_held && !analysis::may_win(c, n))
       notes.push_back(fmt::format(
-          "{} starts with a peak of {}, {:.1f} times the current of the torque limit; commutation and ripple "
-          "explain up to {}, so none of its figures counts as the least",
+          "{} starts with a peak of {}, {:.1f} times the current of the torque limit. Commutation and ripple explain at most {}, so that none of its figures counts as the least",
           controller_name(c, n), quantity_text(c.rows[n].values[analysis::peak_figure], "A", 3),
           c.rows[n].values[analysis::peak_figure] / c.bench.design.current_at_full_torque_A,
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)));
     if (scenario && scenario->control.drive == study::FirmwareKind::own)
       notes.push_back(
-          fmt::format("{} runs with the numbers that its own file presets, not with those of a "
-                      "scenario's control.own.number",
+          fmt::format("{} runs with the preset numbers of its file, not with those of control.own.number",
                       controller_name(c, n)));
     if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
       notes.push_back(fmt::format(
-          "{} has no current loop, and the torque limit does not bound its current: its setpoint changes only as fast as that torque allows",
+          "{} has no current loop, so that the torque limit does not limit its current; instead its setpoint changes only as fast as the torque limit allows",
           controller_name(c, n)));
   }
   return notes;
@@ -196,7 +194,7 @@ std::vector<ContestTable> contest_tables(const Contest& c) {
                                 table(c, {}, ContestGroup::steady, nominal_of)};
   if (c.plan.drives == 0) return all;
   all.push_back(table(
-      c, fmt::format("Worst of the nominal motor and {} drives of the sheet's tolerances", c.plan.drives),
+      c, fmt::format("Worst of the nominal motor and {} drives within the sheet's tolerances", c.plan.drives),
       ContestGroup::moving, worst_of));
   all.push_back(table(c, {}, ContestGroup::steady, worst_of));
   return all;
@@ -205,16 +203,15 @@ std::vector<ContestTable> contest_tables(const Contest& c) {
 std::vector<std::string> contest_legend(const Contest& c) {
   return {
       fmt::format(
-          "* least of those that hold the course and start with a peak of at most {}: 1.5 times the torque "
-          "limit's current, and the PWM's ripple",
+          "* least of the controllers that hold the course and start with a peak of at most {}: 1.5 times the current of the torque limit, plus the PWM ripple",
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)),
-      fmt::format("load settles: 0 s if the load step leaves the speed within {:g} % of {} rad/s, {} rad/s",
-                  100 * analysis::settled_part, base::rounded(c.bench.course.high_rad_s, 4),
-                  base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
+      fmt::format(
+          "load settles: 0 s if after the load step the speed stays within {:g} % of {} rad/s, which is {} rad/s",
+          100 * analysis::settled_part, base::rounded(c.bench.course.high_rad_s, 4),
+          base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
       "lowest: slowest speed held against the full load, found by halving the speed",
       fmt::format(
-          "ripple to turn-ons: at the high speed against half of the full load; slow swing, slow ripple: at "
-          "{} rad/s against all of it",
+          "ripple to turn-ons: at the high speed against half of the full load; slow swing, slow ripple: at {} rad/s against the full load",
           base::rounded(c.bench.course.slow_rad_s, 4)),
       fmt::format(
           "tick, flash: {} {}, instructions at worst and bytes; -: not counted; tools/own_cost.sh counts "

@@ -130,17 +130,17 @@ std::vector<std::string> winners(const Contest& c) {
 int less_of(double a, double b) { return are_alike(a, b) ? 0 : a < b ? -1 : 1; }
 
 const char* answer(int ripple, int loss) {
-  if (ripple < 0 && loss < 0) return "field-oriented: smoother, and less heat";
-  if (ripple > 0 && loss > 0) return "six-step: smoother, and less heat";
+  if (ripple < 0 && loss < 0) return "field-oriented has less ripple and less heat";
+  if (ripple > 0 && loss > 0) return "six-step has less ripple and less heat";
   if (ripple < 0)
-    return loss == 0 ? "field-oriented: smoother, at the same heat"
-                     : "field-oriented where torque must be smooth, six-step where heat decides";
+    return loss == 0 ? "field-oriented has less ripple at the same heat"
+                     : "field-oriented has less ripple, six-step less heat";
   if (ripple > 0)
-    return loss == 0 ? "six-step: smoother, at the same heat"
-                     : "six-step where torque must be smooth, field-oriented where heat decides";
-  if (loss == 0) return "either: ripple and heat are alike, and six-step is the smaller program";
-  return loss < 0 ? "field-oriented: less heat, at the same ripple"
-                  : "six-step: less heat, at the same ripple";
+    return loss == 0 ? "six-step has less ripple at the same heat"
+                     : "six-step has less ripple, field-oriented less heat";
+  if (loss == 0) return "both have the same ripple and heat, and six-step is the smaller program";
+  return loss < 0 ? "field-oriented has less heat at the same ripple"
+                  : "six-step has less heat at the same ripple";
 }
 
 /// Compares the best six-step row of each figure with the field-oriented row.

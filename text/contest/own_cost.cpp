@@ -11,8 +11,10 @@ namespace {
 using CountedJson = nlohmann::json;
 
 base::Problem not_counted(std::string limit) {
-  return {
-      .where = {}, .value = {}, .limit = std::move(limit), .cure = "write it by tools/own_cost.sh --json"};
+  return {.where = {},
+          .value = {},
+          .limit = std::move(limit),
+          .cure = "write the count with tools/own_cost.sh --json"};
 }
 
 std::string whole_at(const CountedJson& from, const char* pointer) {
@@ -27,7 +29,7 @@ base::Result<OwnCost> own_cost_of(std::string_view json) {
   const CountedJson all = CountedJson::parse(json, nullptr, false);
   if (!all.is_object() || !all.contains("controller") || !all["controller"].is_string() ||
       !all.contains("cores") || !all["cores"].is_array())
-    return not_counted("is no count of a user's controller");
+    return not_counted("is not a count of a user's controller");
   for (const CountedJson& row : all["cores"]) {
     if (!row.is_object() || row.value("core", CountedJson{}) != contest_core) continue;
     OwnCost out{all["controller"].get<std::string>(),

@@ -67,7 +67,7 @@ std::string timing(const study::Pwm& p) {
   text += p.delay_periods > 0 ? ", answered one period later" : "";
   if (p.delay_periods == 0)
     text += p.sample == study::SampleAt::middle ? ", answered at the next start" : ", answered at once";
-  text += p.timer_Hz > 0 ? fmt::format("; edges on counts of {:.6g} Hz", p.timer_Hz)
+  text += p.timer_Hz > 0 ? fmt::format("; PWM edges rounded to counts of a {:.6g} Hz timer", p.timer_Hz)
                          : "; PWM edges not rounded to timer counts";
   return text +
          (p.minimum_pulse_s > 0 ? fmt::format("; no pulse or gap below {:.6g} s", p.minimum_pulse_s) : "");
@@ -105,9 +105,9 @@ std::string rotor(const study::Sensors& s) {
       "Hall probes {} degrees apart, edges {}, captured at {:.6g} Hz, {}{}",
       sixstep::base::word(study::hall_spacing_choices, s.hall_spacing),
       in_place
-          ? "exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg)"
+          ? "exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg)"
           : "displaced as [sensors] states",
-      s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
+      s.capture_Hz, over, runs_on ? ", angle interpolated between edges" : "");
 }
 
 /// The wiring in words: phases at legs a b c, probes at pins H1 H2 H3.
@@ -147,7 +147,8 @@ std::string assumptions(const ClearanceText& t) {
   text += entry("currents", currents(s.sensors)) + entry("bus", bus(s.sensors)) +
           entry("rotor", rotor(s.sensors)) + entry("wires", wires(s)) + entry("load", load(s.load)) +
           entry("heat", heat(s.heat));
-  if (t.other_scale) text += entry("scale", "the scenario's own; the range below was proved, not run");
+  if (t.other_scale)
+    text += entry("scale", "those of the scenario; the larger range below was proved, not simulated");
   return text;
 }
 
@@ -158,7 +159,7 @@ std::string clearance_lines(const ClearanceText& t) {
   const study::Clearance& c = *t.clearance;
   std::string text;
   if (!c.clear()) {
-    text += "// NOT CLEARED FOR A BRIDGE. Written anyway, for this reason:\n";
+    text += "// NOT CLEARED FOR A BRIDGE. The header was written anyway, for this reason:\n";
     text += fmt::format("//   {}\n// What was overridden:\n", comment_text(t.despite));
     for (const base::Problems* problems : {&c.unmeasured, &c.unheld})
       for (const base::Problem& p : *problems) text += fmt::format("//   {}\n", comment_text(to_string(p)));

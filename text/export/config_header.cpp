@@ -142,9 +142,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   text += core_cost_lines(c);
   for (const std::string& note : notes_for_images(w.scenario)) text += fmt::format("// Note: {}.\n", note);
   text +=
-      "#pragma once\n#if __cplusplus < 201709L && !defined(_MSC_VER)\n"
-      "#error \"C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR\"\n"
-      "#endif\n#include <cstdint>\n\n";
+      "#pragma once\n#if __cplusplus < 201709L && !defined(_MSC_VER)\n#error \"C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR\"\n#endif\n#include <cstdint>\n\n";
   text += position_profile(c) + includes(w, c);
   text += fmt::format("\nnamespace {} {{\n\nusing Scalar = {};\n\n", w.name_space, type);
   const auto base = [](const char* member, double x, const char* unit) {
@@ -199,7 +197,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
            fmt::format(
                "is less than {} {}, the largest of this scenario's reference, limits, source and start",
                sixstep::base::six_digits(asked), unit),
-           "give the largest value that the drive may measure or receive, or leave it out"});
+           "give the largest value that the drive may measure or receive, or remove it from the range"});
   };
   look("current_A", w.range.current_A, least.current_A, "A");
   look("speed_rad_s", w.range.speed_rad_s, least.speed_rad_s, "rad/s");
@@ -256,7 +254,7 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
     return base::Problem{"control.arithmetic",
                          std::string(base::word(study::arithmetic_choices,
                                                 w.arithmetic.value_or(w.scenario.control.arithmetic))),
-                         "has no scaling that is proved for the field-oriented drive",
+                         "is fixed point, for which the field-oriented drive has no proven scaling",
                          "take float or double"};
   if (base::Problems problems = too_small(w, c); !problems.empty()) return problems;
   const design::OperatingRange range = range_of(w, c);
@@ -289,17 +287,17 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
 base::Result<std::string> config_header(const ConfigHeader& w) {
   if (!is_name_space(w.name_space))
     return base::Problem{
-        "--namespace", w.name_space, "is no name of a C++ namespace",
-        "take letters, digits and _, as in product or product::left_wheel; words of C++, std and sixstep "
-        "are taken"};
+        "--namespace", w.name_space, "is not the name of a C++ namespace",
+        "use letters, digits and _, for example product or product::left_wheel, but no C++ keyword, std or sixstep"};
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
                          "set it to duty, current, speed or position"};
   // A header would configure the library's drive, but the run used the user's controller.
   if (w.scenario.control.drive == study::FirmwareKind::own)
-    return base::Problem{"control.drive", "\"own\"",
-                         "has its constants in its own source; a header configures the library's drives only",
-                         "compile that source for the chip"};
+    return base::Problem{
+        "control.drive", "\"own\"",
+        "has its constants in its own source, and a header configures the library's drives only",
+        "compile that source for the chip"};
   const base::Result<study::Compiled> c = study::compile(w.scenario);
   if (!c) return c.problems();
   const study::Arithmetic arithmetic = w.arithmetic.value_or(w.scenario.control.arithmetic);

@@ -86,7 +86,7 @@ class PlantVariables {
 void add_gates(FmiVersion version, PlantVariables& plant) {
   constexpr const char* which[] = {"a_upper", "a_lower", "b_upper", "b_lower", "c_upper", "c_lower"};
   constexpr std::string_view acts =
-      "acts at the communication point at which it was set; dead time is the importer's";
+      "acts at the communication point at which it was set; the importer provides the dead time";
   const FmiVariable like{.name = {}, .kind = FmiKind::boolean, .role = FmiRole::input};
   plant.at(first_gate);
   if (version == FmiVersion::fmi3)
@@ -105,7 +105,8 @@ void add_pair(PlantVariables& plant) {
   plant.input(boolean, "enabled", "", enabled_words);
   plant.input(integer, "source", "",
               "leg whose upper switch carries the current to the motor: 0, 1, 2 are a, b, c");
-  plant.input(integer, "sink", "", "leg whose lower switch carries it back; not that of source", 1.0);
+  plant.input(integer, "sink", "", "leg whose lower switch carries the current back; another leg than source",
+              1.0);
   plant.input(integer, "chopping", "", "off part of the period: 0 soft, 1 hard, 2 complementary");
   plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper one, 1 the lower one");
   plant.input(real, "duty", "1", "duty, 0 to 1");

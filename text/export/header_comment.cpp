@@ -81,7 +81,7 @@ std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
   text += fmt::format("// Made by sixstep {}. Change the scenario, not this file:\n//   {}\n//\n",
                       SIXSTEP_VERSION, comment_text(w.command));
   text +=
-      "// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.\n//\n";
+      "// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack. For the AVR use clang 19 or later.\n//\n";
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
   if (!w.scenario.notes.empty()) text += comment("notes", w.scenario.notes);
   text += comment(

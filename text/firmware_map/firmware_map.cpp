@@ -51,14 +51,15 @@ void check_pins(const MapFile& w, Complaints& c) {
   std::set<std::string> taken;
   for (const auto& [key, pins] : {std::pair{"hall", &w.hall}, {"upper", &w.upper}, {"lower", &w.lower}}) {
     if (pins->size() != 3 || !std::all_of(pins->begin(), pins->end(), is_pin))
-      refuse(c, key, "is not three pins", "name them as the data sheet does: [\"PK0\", \"PK1\", \"PK2\"]");
+      refuse(c, key, "is not three pins",
+             "name the pins as the data sheet does: [\"PK0\", \"PK1\", \"PK2\"]");
     for (const std::string& pin : *pins)
       if (!taken.insert(pin).second)
         refuse(c, key, fmt::format("names {} a second time", pin), "give each line its own pin");
   }
   if (std::any_of(w.hall.begin(), w.hall.end(),
                   [](const std::string& pin) { return pin.rfind("PK", 0) != 0; }))
-    refuse(c, "hall", "must be of port K, whose pin-change interrupt is simulated",
+    refuse(c, "hall", "must be pins of port K, the only port whose pin-change interrupt is simulated",
            "choose three of PK0 to PK7");
 }
 
@@ -67,8 +68,8 @@ void check_inputs(const MapFile& w, Complaints& c) {
   inputs.insert(w.potentiometer);
   const auto is_input = [](double n) { return n >= 0 && n <= most_input && n == static_cast<int>(n); };
   if (w.currents.size() != 3 || inputs.size() != 4 || !std::all_of(inputs.begin(), inputs.end(), is_input))
-    refuse(c, "currents", "is not three inputs of the converter, none of them the potentiometer's",
-           "choose four different ones of 0 to 7");
+    refuse(c, "currents", "must be three inputs of the converter, and none of them the potentiometer's",
+           "choose four different inputs of 0 to 7");
 }
 
 }  // namespace

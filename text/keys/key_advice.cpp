@@ -146,7 +146,7 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
   for (const std::string& candidate : known)
     if (std::find(each.begin(), each.end(), candidate) == each.end()) each.push_back(candidate);
   const std::string all =
-      each.size() > most_listed ? "sixstep help lists them all" : "known are " + join(each);
+      each.size() > most_listed ? "sixstep help lists all keys" : "known are " + join(each);
   return {.limit = "is not a key here", .cure = advice.empty() ? all : std::string(advice)};
 }
 

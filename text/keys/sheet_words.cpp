@@ -93,7 +93,7 @@ constexpr SheetWords elsewhere[] = {
     {"motorregulation", "", "write speed_torque_gradient_rpm_mNm: R/k^2 of 1e3/(Nm s) is 9.549 rpm/mNm"},
     {"angularacceleration alphamax", "", "leave it out: it follows from stall torque and inertia"},
     {"peaktorque maxtorque maximumtorque", "",
-     "leave it out, or write stall_torque_mNm where it is the torque of the held rotor at nominal voltage"},
+     "leave it out, or write stall_torque_mNm if it is the torque of the held rotor at nominal voltage"},
     {"peakcurrent maxcurrent maximumcurrent lcurrentmax currentlim currentlimit", "",
      "write control.limits.current_A in the scenario, because this limit belongs to the drive; for a design without a "
      "scenario give a torque limit, K_t times it"},

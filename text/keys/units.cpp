@@ -112,13 +112,13 @@ base::Problem not_known(const std::string& unit, const std::string& wanted) {
   if (plain_spelling(unit) == "degF")
     return {.limit = "is in degrees Fahrenheit", .cure = "write (F - 32) / 1.8, in " + wanted};
   const std::string near = fitting_like(unit, wanted), fit = units_that_fit(wanted);
-  return {.limit = fmt::format("carries an unknown unit, {}", unit),
+  return {.limit = fmt::format("has the unknown unit {}", unit),
           .cure = near.empty() ? "units that fit: " + fit
                                : fmt::format("did you mean {}? Units that fit: {}", near, fit)};
 }
 
 base::Problem no_plain_number(const std::string& unit, bool known) {
-  return {.limit = fmt::format("carries the {} {}, and this key is a plain number",
+  return {.limit = fmt::format("has the {} {}, and this key is a plain number",
                                known ? "unit" : "unknown unit", unit),
           .cure = "write the number alone, or in %"};
 }
@@ -132,24 +132,27 @@ bool multiplies_minutes(Unit from, Unit to) {
 base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& to, const Wanted& wanted) {
   const std::string fit = units_that_fit(wanted.unit);
   if (wanted.unit == "s" && plain_spelling(unit).ends_with("Hz"))
-    return {.limit = fmt::format("carries the unit {}, and this key is a time", unit),
+    return {.limit = fmt::format("has the unit {}, and this key is a time", unit),
             .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
-  return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", unit, wanted.unit),
-          .cure = multiplies_minutes(from, to)
-                      ? "minutes are a factor here; write per rpm as /rpm or /min-1. Units that fit: " + fit
-                      : "units that fit: " + fit};
+  return {
+      .limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
+      .cure = multiplies_minutes(from, to)
+                  ? "the unit multiplies by minutes; write per rpm as /rpm or /min-1. Units that fit: " + fit
+                  : "units that fit: " + fit};
 }
 
 base::Problem other_measure(const std::string& unit, std::string_view measure, const Wanted& wanted) {
   std::string frames;
   for (const std::string& frame : frames_with(wanted.frames, "")) frames += " \"" + frame + "\"";
-  return {.limit = fmt::format("carries the unit {}, and no {} value belongs here", unit, measure),
-          .cure = frames.empty()
-                      ? fmt::format("write it in {}; of a sine the peak is sqrt 2 times the rms value",
-                                    wanted.unit)
-                      : fmt::format("the frames of this key are{}: convert the value, of a sine the "
-                                    "peak is sqrt 2 times the rms value",
-                                    frames)};
+  return {
+      .limit = fmt::format("has the unit {}, and this key takes no {} value", unit, measure),
+      .cure =
+          frames.empty()
+              ? fmt::format("write the value in {}; the peak of a sine is sqrt 2 times its rms value",
+                            wanted.unit)
+              : fmt::format(
+                    "convert the value to one of the frames{}; the peak of a sine is sqrt 2 times its rms value",
+                    frames)};
 }
 
 double to_power(double x, int power) {
@@ -164,19 +167,15 @@ base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const
                                        const Wanted& wanted, Conversion conversion) {
   if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)
     return base::Problem{
-        .limit =
-            fmt::format("carries the unit {}, and hertz may count turns of the shaft or electrical turns, "
-                        "which are pole pairs times as many",
-                        unit),
+        .limit = fmt::format("has the unit {}, which may count turns of the shaft or electrical turns", unit),
         .cure = fmt::format(
             "write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; units that fit: {}",
             units_that_fit(wanted.unit))};
   if (!wanted.pole_pairs)
     return base::Problem{
-        .limit = fmt::format("carries the unit {}, which counts electrical turns, and the pole pairs are not "
-                             "known here",
-                             unit),
-        .cure = "also give pole_pairs, poles or winding, or convert; units that fit: " +
+        .limit = fmt::format(
+            "has the unit {}, which counts electrical turns, and the pole pairs are not given", unit),
+        .cure = "also give pole_pairs, poles or winding, or convert the value; units that fit: " +
                 units_that_fit(wanted.unit)};
   const double p = *wanted.pole_pairs;
   conversion.multiply *= to_power(p, -power);

@@ -23,7 +23,7 @@ std::string motor_meant(const std::string& name) {
   for (const std::string& motor : all)
     if (word.size() >= fewest_letters && motor.find(word) != std::string::npos) holding.push_back(motor);
   if (holding.empty())
-    return "sixstep motor list shows the built-in motors, sixstep motor new writes a file for another motor";
+    return "see the built-in motors with sixstep motor list, or write a file for another motor with sixstep motor new";
   return "did you mean " + quoted_alternatives(holding) + "?";
 }
 

@@ -25,11 +25,9 @@ const std::vector<MotorStyle>& motor_styles() {
        {"idle_current_A", "idle_voltage_V", "no_load_speed_rpm", "max_speed_rpm"},
        false,
        {{"inductance_uH",
-         "Such sheets lack it. L/R is 0.15 to 0.7 ms for those of sixstep motor list. Measure it with an LCR meter at 1 kHz "
-         "between two terminals, or by a drive's identification."},
+         "Such sheets lack the inductance. L/R is 0.15 to 0.7 ms for those of sixstep motor list. Measure it with an LCR meter at 1 kHz between two terminals, or by a drive's identification."},
         {"inertia_gcm2",
-         "Such sheets lack it. Most of it is the bell: its mass times the square of its mean radius, 0.03 kg at 13 mm make 51 g "
-         "cm2; or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller belongs to the load."}}},
+         "Such sheets lack the inertia. Most of it is that of the bell: mass times the square of the mean radius, 0.03 kg at 13 mm make 51 g cm2; or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller belongs to the load."}}},
       {"servo",
        "torque per ampere rms, back-EMF per 1000 rpm, inertia with and without brake",
        "sine",
@@ -116,15 +114,11 @@ const std::vector<MotorStyle>& motor_styles() {
          "no-load speed over voltage is about the constant of frame = \"six-step\", some percent low; turned by hand with a "
          "voltmeter for alternating voltage between two terminals, rpm over volts rms times 0.707 is that of \"line-peak\""},
         {"resistance_ohm",
-         "Sellers rarely state it. 0.04 to 0.4 ohm between two terminals for 250 to 1500 W at 36 to 48 V: the copper then "
-         "takes 1 to 10 % of the power. Measure it with four wires, 1 A and a voltmeter."},
+         "Sellers rarely state the resistance. 0.04 to 0.4 ohm between two terminals for 250 to 1500 W at 36 to 48 V: the copper then takes 1 to 10 % of the power. Measure it with four wires, 1 A and a voltmeter."},
         {"inductance_mH",
-         "Sellers rarely state it. L/R is 2 to 7 ms for those of sixstep motor list, which drives have identified: 0.2 to 1 mH "
-         "between two terminals. Measure it with an LCR meter at 1 kHz, and take the mean over the rotor's angle."},
+         "Sellers rarely state the inductance. L/R is 2 to 7 ms for those of sixstep motor list, which drives have identified: 0.2 to 1 mH between two terminals. Measure it with an LCR meter at 1 kHz, and take the mean over the rotor's angle."},
         {"inertia_kgm2",
-         "Sellers rarely state it. Mass of the turning parts times the square of their mean radius: 1.5 kg at 63 mm are 0.006 (a "
-         "hoverboard's wheel), 2.5 kg at 110 mm 0.03; with the spoked wheel 0.05 to 0.2. A vehicle's mass belongs to the load: "
-         "m r^2."},
+         "Sellers rarely state the inertia. Mass of the turning parts times the square of their mean radius: 1.5 kg at 63 mm are 0.006 (a hoverboard's wheel), 2.5 kg at 110 mm 0.03; with the spoked wheel 0.05 to 0.2. A vehicle's mass belongs to the load: m r^2."},
         {"no_load_current_mA", "gives the friction; sellers rarely state it, a clamp meter measures it"}}},
       {"linear",
        "force per ampere, pole pitch, moving mass",
@@ -149,8 +143,7 @@ const std::vector<MotorStyle>& motor_styles() {
         {"flux_linkage_mWb",
          "foc_motor_flux_linkage; ODrive gives torque_constant_Nm_A instead, frame = \"peak\""},
         {"inertia_kgm2",
-         "Drives rarely identify it. A ring's is its mass times the square of its mean radius, 0.3 kg at 25 mm make 1.9e-4; a "
-         "solid cylinder's is half of that at its outer radius."}}},
+         "Drives rarely identify the inertia. A ring's is its mass times the square of its mean radius, 0.3 kg at 25 mm make 1.9e-4; a solid cylinder's is half of that at its outer radius."}}},
   };
   return all;
 }

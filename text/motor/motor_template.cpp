@@ -43,7 +43,7 @@ std::string line(const MotorStyle& style, const KeyEntry& given, std::string_vie
   return text + template_line(entry, {.key = key,
                                       .value = empty_value(entry),
                                       .open = needed,
-                                      .more = choice ? "frame: keep the one that the sheet means" : ""});
+                                      .more = choice ? "frame: keep the word that fits the sheet" : ""});
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
     return base::Problem{.where = "--style",
                          .value = std::string(style_name),
                          .limit = fmt::format("is none of {}", fmt::join(template_styles(), ", ")),
-                         .cure = "choose the one whose sheet looks like yours"};
+                         .cure = "choose the style whose sheet looks like yours"};
   const std::vector<KeyEntry> keys = style->linear ? in_linear_words(sheet_keys()) : sheet_keys();
   std::string text = fmt::format(
       "# A motor, to be filled in from its sheet: {}.\n"

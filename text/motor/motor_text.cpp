@@ -215,7 +215,7 @@ std::string verdict_line(const SheetCheck& check) {
        : r.verdict == RelationVerdict::known   ? known
        : r.verdict == RelationVerdict::doubted ? doubted
                                                : broken);
-  if (check.relations.empty()) return "consistent: the sheet prints nothing twice";
+  if (check.relations.empty()) return "consistent: no two values of the sheet can be compared";
   std::string text = fmt::format("{}: {} of {} relations hold",
                                  !check.consistent ? "INCONSISTENT"
                                  : doubted > 0     ? "not contradictory"

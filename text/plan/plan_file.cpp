@@ -50,8 +50,8 @@ analysis::Axis axis_from(const analysis::AxisEntry& entry, const std::string& wh
   const bool range = entry.from || entry.to;
   if (range && !entry.values.empty())
     complaints.later({.where = where + ".values",
-                      .limit = "contradicts from and to: the values are given twice",
-                      .cure = "keep one of the two"});
+                      .limit = "contradicts from and to: give the values only once",
+                      .cure = "keep values, or from and to"});
   if (!range && entry.values.empty())
     complaints.later(
         {.where = where, .limit = "has no values", .cure = "give values = [..], or from, to and points"});
@@ -134,7 +134,7 @@ base::Result<analysis::Axis> range_of(const std::string& key, const std::vector<
     const double count = number_alone(parts[2]).value_or(0.0);
     if (count < 2 || count > 1e9 || count != static_cast<double>(static_cast<std::size_t>(count)))
       return base::Problem{std::string(whole), parts[2], "is not a number of points",
-                           "write a whole number of at least 2 behind the second colon"};
+                           "write a whole number of at least 2 after the second colon"};
     axis.points = static_cast<std::size_t>(count);
   }
   if (parts.size() > 3 && parts[3] != "log" && parts[3] != "linear")
@@ -153,8 +153,8 @@ base::Result<std::string> unit_of_key(const std::string& key) {
   for (const KeyEntry& entry : keys) known.push_back(entry.path);
   const std::string near = nearest(key, known);
   return base::Problem{.value = key,
-                       .limit = "is no key of a scenario",
-                       .cure = near.empty() ? "name one as table.key, as in pwm.period_s"
+                       .limit = "is not a key of a scenario",
+                       .cure = near.empty() ? "name a key as table.key, for example pwm.period_s"
                                             : fmt::format("did you mean {}?", near)};
 }
 
@@ -199,13 +199,15 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
 base::Result<analysis::Axis> axis_of(std::string_view text) {
   const std::size_t cut = text.find('=');
   if (cut == std::string_view::npos || cut == 0 || cut + 1 == text.size())
-    return base::Problem{std::string(text), "", "does not name a key and its values",
-                         "write KEY=FROM:TO:POINTS or KEY=VALUE,VALUE, as in pwm.period_s=20us:100us:9"};
+    return base::Problem{
+        std::string(text), "", "does not name a key and its values",
+        "write KEY=FROM:TO:POINTS or KEY=VALUE,VALUE, for example pwm.period_s=20us:100us:9"};
   const std::string key(text.substr(0, cut));
   const std::string_view values = text.substr(cut + 1);
   const std::vector<std::string> parts = split(values, ':');
   if (parts.size() > 4)
-    return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING", "leave the rest out"};
+    return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING",
+                         "remove the other parts"};
   if (parts.size() > 1) return range_of(key, parts, text);
   analysis::Axis axis{.key = key, .values = split(values, ',')};
   in_keys_unit(axis);

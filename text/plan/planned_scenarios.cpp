@@ -90,7 +90,7 @@ base::Result<study::Scenario> PlannedScenarios::at(const std::vector<std::string
     scenario =
         x ? study::strayed_to(*scenario, plan_.axes[k].key, *x)
           : base::Problem{plan_.axes[k].key, point[k], "is not a number, and only numbers can be spread",
-                          "write numbers, or strays = false"};
+                          "write numbers, or remove strays = true"};
   }
   return scenario;
 }

@@ -20,8 +20,8 @@ std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
     return line ? "a line-to-line voltage; u_ab and u_bc are both needed"
                 : "a voltage of a terminal; u_a, u_b and u_c are all needed";
   if (use.voltages == meaning) return "more than are needed";
-  return line ? "a line-to-line voltage; those of terminals are used"
-              : "a voltage of a terminal; line-to-line voltages are used";
+  return line ? "a line-to-line voltage; the voltages of terminals are used"
+              : "a voltage of a terminal; the line-to-line voltages are used";
 }
 
 }  // namespace

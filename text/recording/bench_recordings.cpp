@@ -66,7 +66,7 @@ base::Problems check_other_times(const Recording& r, const RecordedColumn* time)
       if (std::fabs(column.values[n] - time->values[n]) <= 0.01 * step + 1e-12) continue;
       return {of_recording(
           r, fmt::format("has two times: {} and {} differ in line {}", time->name, column.name, r.line_of(n)),
-          "export all channels with one time, or a file for each channel")};
+          "export all channels with one common time, or each channel to its own file")};
     }
   }
   return {};
@@ -149,8 +149,8 @@ base::Result<Codes> codes_of(const Recording& r, const Picked& picked) {
     const double x = (*values)[n];
     if (!(x >= 0.0 && x <= 7.0 && x == std::floor(x)))
       return of_recording(
-          r, fmt::format("{} {:g} in row {} is no Hall code, 0 to 7", picked.column->name, x, n + 1),
-          "a code is 4 H1 + 2 H2 + H3; three separate lines are columns hall1, hall2, hall3");
+          r, fmt::format("{} {:g} in row {} is not a Hall code, 0 to 7", picked.column->name, x, n + 1),
+          "compute the code as 4 H1 + 2 H2 + H3, or give three columns hall1, hall2, hall3");
     out.push_back(static_cast<std::uint8_t>(x));
   }
   return out;
@@ -191,9 +191,10 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
   if (columns.size() == 1) return codes_of(r, columns[0]);
   if (columns.size() == 3) return codes_of(r, columns);
   const char* lacks = columns.empty() ? "has no columns of Hall lines: it has "
-                                      : "has not three columns of Hall lines: it has ";
-  return of_recording(r, lacks + headings_of(r),
-                      "head them hall1, hall2, hall3, or one of codes hall, or name the columns");
+                                      : "does not have three columns of Hall lines: it has ";
+  return of_recording(
+      r, lacks + headings_of(r),
+      "write the headings hall1, hall2, hall3, or hall for a column of codes, or name the columns");
 }
 
 /// The points between which a log's voltages were measured: as requested, else according to the headings. The
@@ -201,10 +202,11 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
 base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
   if (voltages.between) return *voltages.between;
   if (const std::optional<analysis::EmfBetween> said = between_in(voltages.columns)) return *said;
-  return base::Problem{.where = "between",
-                       .value = "",
-                       .limit = "is missing: the headings do not name the points of the probes",
-                       .cure = "lines is two terminals, star a terminal and any one point"};
+  return base::Problem{
+      .where = "between",
+      .value = "",
+      .limit = "is missing, and the headings do not tell between which points the voltages were measured",
+      .cure = "give lines for two terminals, or star for a terminal and any common point"};
 }
 
 base::Problems take_voltages(const Recording& r, const Voltages& voltages, const Times& times,
@@ -218,8 +220,8 @@ base::Problems take_voltages(const Recording& r, const Voltages& voltages, const
                          fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
                                      lines ? "lines" : "terminals"),
                          lines
-                             ? "u_ab and u_bc are needed; leave out the voltages to use the codes alone"
-                             : "u_a, u_b and u_c are needed; leave out the voltages to use the codes alone")};
+                             ? "give u_ab and u_bc, or remove the voltages to use the Hall codes alone"
+                             : "give u_a, u_b and u_c, or remove the voltages to use the Hall codes alone")};
   out.voltages = lines ? analysis::RecordedVoltages::lines : analysis::RecordedVoltages::terminals;
   for (std::size_t n = 0; n < count; ++n) {
     base::Result<std::vector<double>> values = values_of(r, voltages.columns[n], "V");
@@ -267,12 +269,14 @@ base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchC
     note_rest(r, voltages->columns, times->column, {false, false, false, meaning_of_first(voltages->columns)},
               notes);
   if (voltages->columns.empty())
-    return of_recording(r, "has no column of voltages: it has " + headings_of(r), "name the columns");
+    return of_recording(r, "has no column of voltages: it has " + headings_of(r),
+                        "name the columns of the voltages");
   if (!voltages->between)
-    return base::Problem{.where = "between",
-                         .value = "",
-                         .limit = "is missing: the headings do not name the points of the probes",
-                         .cure = "lines is two terminals, star a terminal and the star point"};
+    return base::Problem{
+        .where = "between",
+        .value = "",
+        .limit = "is missing, and the headings do not tell between which points the voltages were measured",
+        .cure = "give lines for two terminals, or star for a terminal and the star point"};
   out.between = *voltages->between;
   out.t_s = std::move(times->t_s);
   for (const Picked& picked : voltages->columns) {

@@ -61,9 +61,9 @@ base::Problems said_twice(const Recording& r) {
       if (recorded.unit.empty() || recorded.unit == unit) continue;
       found.push_back(of_recording(
           r,
-          fmt::format("has a column \"{}\", in {} by its name and in {} by the unit behind it",
+          fmt::format("has a column \"{}\", which is in {} by its name but in {} by the unit after it",
                       bounded(recorded.heading, 200), unit, recorded.unit),
-          fmt::format("head it {} or {} [{}]", column.name,
+          fmt::format("write the heading {} or {} [{}]", column.name,
                       column.name.substr(0, column.name.size() - unit.size() - 1), recorded.unit)));
     }
   return found;
@@ -82,9 +82,10 @@ base::Result<const study::Column*> trace_column(const std::string& name) {
   const std::string near = nearest_word(name, known);
   return bounded({.where = "columns",
                   .value = name,
-                  .limit = "is no column that a simulation has",
-                  .cure = near.empty() ? "name one of a trace, as speed, i_m, u_ab, duty or bus_V"
-                                       : fmt::format("did you mean {}?", near)});
+                  .limit = "is not a column of the simulation",
+                  .cure = near.empty()
+                              ? "name a column of the trace, for example speed, i_m, u_ab, duty or bus_V"
+                              : fmt::format("did you mean {}?", near)});
 }
 
 bool is_time(const std::string& name) {
@@ -102,7 +103,7 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
   const bool as_headed = formula.column == column->name || formula.column == column->heading;
   if (!as_headed && formula.column.find_first_of("*/+^=") != std::string::npos)
     return of_recording(r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
-                        "constants are numbers and pi, before the column with *, behind it with * or /");
+                        "write constants (numbers or pi) before the column with *, or after it with * or /");
   if (!formula.scaled) {
     Values values = values_of(r, found->front(), wanted);
     if (values && formula.factor != 1.0)
@@ -146,9 +147,8 @@ class LogReader {
     if (!problems_.empty()) return problems_;
     if (out_.trace.columns.size() < 2)
       return of_recording(
-          r_, "has no column that a simulation has: it has " + headings_of(r_),
-          "head the columns as a trace names them, t [us], i_m [mA], duty, speed [rad/s], hall, "
-          "or name them");
+          r_, "has no column of the simulation: it has " + headings_of(r_),
+          "write the headings of a trace (t [us], i_m [mA], duty, speed [rad/s], hall), or name the columns");
     return std::move(out_);
   }
 
@@ -215,14 +215,14 @@ class LogReader {
       if (!found.column || found.column->name == "t_s") {
         out_.not_used.push_back({recorded.name, !recorded.has_numbers() ? "holds no numbers"
                                                 : found.column          ? "another time"
-                                                               : "a simulation has none of that name"});
+                                                               : "the simulation has no such column"});
         continue;
       }
       const auto& columns = out_.trace.columns;
       if (std::any_of(columns.begin(), columns.end(),
                       [&](const study::Column& c) { return c.name == found.column->name; }))
         problems_.push_back(of_recording(r_, fmt::format("has two columns of {}", found.column->name),
-                                         "rename one of them, or name the intended column"));
+                                         "rename one of the two, or name the intended column"));
       else
         add(*found.column, values_of(r_, found.picked, wanted(*found.column)), times.left_out);
     }

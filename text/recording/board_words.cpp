@@ -61,7 +61,7 @@ Notes what_the_board_says(const Recording& recording) {
     if (found.rows == 0) continue;
     if (counts_missed(column))
       out.push_back(
-          fmt::format("{} that the board missed control periods, up to {:g}: what it sent there is late",
+          fmt::format("{} that the board missed control periods, up to {:g}: its values there are late",
                       rows_say(found.rows), found.most));
     else
       out.push_back(fmt::format("{} that the board had a fault, {} {:g} first in line {}",

@@ -65,7 +65,7 @@ base::Problem broken_formula(std::string_view text, std::size_t place) {
       {.where = "columns",
        .value = std::string(text),
        .limit = fmt::format("lacks a constant or a column beside the {} at place {}", text[place], place + 1),
-       .cure = "take it out, or write the constant, as in speed=erpm*2*pi/60/7"});
+       .cure = "remove this sign, or write the constant, for example speed=erpm*2*pi/60/7"});
 }
 
 }  // namespace
@@ -86,9 +86,9 @@ base::Result<ColumnFormula> column_formula(std::string_view text) {
   if (!out.name.empty() && !out.column.empty() && is_finite) return out;
   return bounded({.where = "columns",
                   .value = std::string(text),
-                  .limit = is_finite ? "must be NAME=COLUMN, with constants behind it or none"
+                  .limit = is_finite ? "must be NAME=COLUMN, with or without constants after it"
                                      : "has a factor that is 0 or not finite",
-                  .cure = "write it like time=ms_today/1000 or speed=erpm*2*pi/60/7"});
+                  .cure = "write for example time=ms_today/1000 or speed=erpm*2*pi/60/7"});
 }
 
 }  // namespace text

@@ -28,7 +28,7 @@ std::string places_of(const Recording& r, const std::vector<const RecordedColumn
 base::Problem several(const Recording& r, std::string_view heading,
                       const std::vector<const RecordedColumn*>& columns) {
   return of_recording(r, fmt::format("has {} columns \"{}\"", columns.size(), heading),
-                      "name one by its place: " + places_of(r, columns));
+                      "name one column by its place: " + places_of(r, columns));
 }
 
 std::vector<const RecordedColumn*> columns_like(const Recording& r, const std::string& heading) {
@@ -63,16 +63,16 @@ base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked,
   const std::string belongs = wanted.unit.empty() ? "a plain number" : wanted.unit;
   const RecordedColumn& column = *picked.column;
   if (!column.odd_unit.empty())
-    return of_recording(
-        r,
-        fmt::format("heads {} in \"{}\", which is not a unit; {} belongs there", column.name, column.odd_unit,
-                    belongs),
-        wanted.unit.empty() ? "head it without a unit" : "units that fit: " + units_that_fit(wanted.unit));
+    return of_recording(r,
+                        fmt::format("has the heading {} in \"{}\", which is not a unit; {} is expected",
+                                    column.name, column.odd_unit, belongs),
+                        wanted.unit.empty() ? "write the heading without a unit"
+                                            : "units that fit: " + units_that_fit(wanted.unit));
   if (picked.unit.empty()) return Conversion{};
   base::Result<Conversion> found = conversion(picked.unit, wanted);
   if (!found)
     return of_recording(
-        r, fmt::format("heads {} as {}, where {} belongs", column.name, picked.unit, belongs),
+        r, fmt::format("has the heading {} in {}, but {} is expected", column.name, picked.unit, belongs),
         wanted.unit.empty() ? "name another column" : "name another column; " + found.problems()[0].cure);
   found->ten -= unit_of(picked.unit)->ten;
   return found;
@@ -144,13 +144,13 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
     const BadCell& first = column.bad.front();
     const std::size_t others = column.bad_cells - 1;
     const std::string more = others == 0   ? ""
-                             : others == 1 ? ", nor is 1 more cell below it"
-                                           : fmt::format(", nor are {} more cells below it", others);
+                             : others == 1 ? ", and 1 more cell below is not a number"
+                                           : fmt::format(", and {} more cells below are not numbers", others);
     return bounded(
         {.where = fmt::format("{}:{}:", recording.name, first.line),
          .value = "",
          .limit = bounded(fmt::format("{} \"{}\"", column.name, first.cell), 400) + " is not a number" + more,
-         .cure = "leave such rows out, and write numbers as 0.5 or 5e-1"});
+         .cure = "remove such rows, and write numbers as 0.5 or 5e-1"});
   }
   base::Result<std::vector<double>> out = converted(recording, picked, wanted);
   if (!out) return out;
@@ -161,7 +161,7 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
       return of_recording(
           recording,
           fmt::format("{} {:g} in row {} is too large for any instrument", column.name, (*out)[n], n + 1),
-          "check the unit of its column");
+          "check the unit of this column");
   return out;
 }
 

@@ -19,11 +19,12 @@ std::string_view without_sign(std::string_view number) {
 }
 
 base::Problem in_doubt(const std::string& file, std::size_t line, std::string limit) {
-  return bounded({.where = fmt::format("{}:{}:", file, line),
-                  .value = "",
-                  .limit = std::move(limit),
-                  .cure = "write thousands without a mark between them, 2940, and one decimal mark, or leave "
-                          "the column out"});
+  return bounded(
+      {.where = fmt::format("{}:{}:", file, line),
+       .value = "",
+       .limit = std::move(limit),
+       .cure =
+           "write thousands without a separator, for example 2940, and use one decimal mark, or remove the column"});
 }
 
 }  // namespace
@@ -89,10 +90,10 @@ std::optional<base::Problem> DecimalMarks::doubt(const std::string& file, char s
   if (comma && point) {
     const Cell &late = comma->line < point->line ? *point : *comma,
                &early = comma->line < point->line ? *comma : *point;
-    return in_doubt(file, late.line,
-                    fmt::format("holds {}, and line {} holds {}: one mark is decimal, and the other one's "
-                                "meaning is unclear",
-                                late.text, early.line, early.text));
+    return in_doubt(
+        file, late.line,
+        fmt::format("holds {}, and line {} holds {}: which of the two marks is decimal is unclear", late.text,
+                    early.line, early.text));
   }
   if (comma) return thousands(file, &Column::comma, ',', false);
   return thousands(file, &Column::point, '.', separator != ';');

@@ -69,13 +69,13 @@ WholeRows from_last_start(std::string_view text) {
   if (cut && begins_with_number(text.substr(text.rfind('\n', end - 1) + 1))) {
     text = text.substr(0, end + 1);
     out.notes.push_back(
-        fmt::format("line {} has no end: it may have been cut, and is left out", lines_in(text) + 1));
+        fmt::format("line {} has no end: it may be incomplete and is not used", lines_in(text) + 1));
   }
   const std::size_t from = last_start(text);
   out.lines_before = lines_in(text.substr(0, from));
   if (from > 0)
     out.notes.push_back(
-        fmt::format("begins anew in line {}: the lines above are left out", out.lines_before + 1));
+        fmt::format("begins again in line {}: the lines above are not used", out.lines_before + 1));
   out.text = text.substr(from);
   return out;
 }
@@ -96,7 +96,8 @@ base::Problem of_recording(const Recording& recording, std::string limit, std::s
 
 base::Result<Recording> read_recording(const std::string& name, std::string_view bytes, RowsFrom from) {
   const std::optional<std::string> plain = plain_text(bytes);
-  if (!plain) return of_file(name, "is no text", "export the recording as CSV; gzip -d unpacks a .gz");
+  if (!plain)
+    return of_file(name, "is not a text file", "export the recording as CSV, or unpack a .gz with gzip -d");
   if (plain->find_first_not_of(" \t\n") == std::string::npos)
     return of_file(name, "is empty", "export the recording again: headings, then rows of numbers");
   WholeRows rows{.text = *plain, .lines_before = 0, .notes = {}};

@@ -186,13 +186,13 @@ std::optional<base::Problem> RowReader::wrong_cells() const {
         fmt::format("{}:{}:", out_.name, first_line_),
         more_than_names
             ? fmt::format(
-                  "has {} cells below {} headings: commas are both decimal points and separators here",
+                  "has {} cells below {} headings, because commas are both decimal marks and separators",
                   first_cells_, names_)
-            : "has cells like \"001\": commas are both decimal points and separators here",
-        "export it with semicolons or tabs between cells, or with decimal points");
+            : "has cells like \"001\", because commas are both decimal marks and separators",
+        "export the file with semicolons or tabs between cells, or with decimal points");
   if (wide_line_ == 0) return {};
   return told(fmt::format("{}:{}:", out_.name, wide_line_),
-              fmt::format("has {} cells, and the table {} columns", wide_cells_, out_.columns.size()),
+              fmt::format("has {} cells, but the table has {} columns", wide_cells_, out_.columns.size()),
               "correct that line, or give each column a heading");
 }
 
@@ -200,7 +200,7 @@ base::Result<Recording> RowReader::result() {
   if (values_ > most_values)
     return told(fmt::format("{}:{}:", out_.name, number_),
                 fmt::format("has more than {} million values", most_values / 1'000'000),
-                "cut the recording, leave columns out, or keep every tenth row");
+                "shorten the recording, remove columns, or keep every tenth row");
   if (out_.columns.empty() || out_.rows() == 0)
     return told(number_ > 1 ? out_.name + ":" : fmt::format("{}:{}:", out_.name, number_),
                 "holds no row of numbers",

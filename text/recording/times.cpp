@@ -96,10 +96,10 @@ bool is_a_guess(const Recording& r, const RecordedColumn& column) {
 base::Result<Times> without_column(const Recording& r, std::optional<double> interval_s, Notes& notes) {
   if (interval_s && r.clock && !are_near(*interval_s, r.clock->interval_s))
     return of_recording(
-        r, fmt::format("says \"{}\", and the interval is given as {:.6g} s", r.clock->said, *interval_s),
-        "leave the interval out, or give the file's interval");
+        r, fmt::format("says \"{}\", but the given interval is {:.6g} s", r.clock->said, *interval_s),
+        "do not give the interval, or give the file's interval");
   if (!interval_s)
-    notes.push_back(fmt::format("has no column of time: rows are {:.6g} s apart, as \"{}\" says",
+    notes.push_back(fmt::format("has no column of time; the rows are {:.6g} s apart by \"{}\"",
                                 r.clock->interval_s, r.clock->said));
   const double start_s = interval_s ? 0.0 : r.clock->start_s;
   return Times{.t_s = rows_from(start_s, interval_s.value_or(r.clock ? r.clock->interval_s : 0.0), r.rows()),
@@ -122,15 +122,14 @@ base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn&
     std::vector<double> in_s = *t;
     for (double& x : in_s) x /= unit.per_s;
     if (!go_with(in_s, interval_s)) continue;
-    notes.push_back(
-        fmt::format("{} has no unit: {} is assumed, since its rows then lie one given interval apart",
-                    column.name, unit.name));
+    notes.push_back(fmt::format("{} has no unit; {} is assumed, which agrees with the given interval",
+                                column.name, unit.name));
     return times_at_interval(r, std::move(in_s), column, interval_s, notes);
   }
   if (guessed && !go_with(*t, interval_s)) {
     if (steps_of(*t).even() && std::is_sorted(t->begin(), t->end()))
       notes.push_back(fmt::format(
-          "{} rises by {:.6g} from row to row, but is not used as the time: the interval is given",
+          "{} rises by {:.6g} from row to row, but is not used as the time, because the interval is given",
           column.name, steps_of(*t).middle));
     return without_column(r, interval_s, notes);
   }
@@ -150,7 +149,7 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
   const double interval_s = r.clock->interval_s;
   const bool bare = column.unit.empty();
   if (bare && are_numbers_of_rows(t)) {
-    notes.push_back(fmt::format("{} numbers the rows; they are {:.6g} s apart, as \"{}\" says", column.name,
+    notes.push_back(fmt::format("{} numbers the rows, which are {:.6g} s apart by \"{}\"", column.name,
                                 interval_s, r.clock->said));
     for (std::size_t n = 0; n < t.size(); ++n) t[n] = r.clock->start_s + static_cast<double>(n) * interval_s;
     return t;
@@ -159,20 +158,21 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
   if (steps.middle == 0.0) return t;
   if (bare)
     if (const TimeUnit* const unit = unit_by_clock(t, steps, interval_s); unit && unit->per_s != 1.0) {
-      notes.push_back(fmt::format("{} is in {}, as \"{}\" says", column.name, unit->name, r.clock->said));
+      notes.push_back(fmt::format("{} is in {} by \"{}\"", column.name, unit->name, r.clock->said));
       for (double& x : t) x /= unit->per_s;
       return t;
     }
   if (!contradict(steps, interval_s)) {
     if (steps.even() && !are_near(steps.middle, interval_s))
-      notes.push_back(fmt::format("rows are {:.4g} s apart, and \"{}\" says {:.4g} s", steps.middle,
+      notes.push_back(fmt::format("the rows are {:.4g} s apart, but \"{}\" says {:.4g} s", steps.middle,
                                   r.clock->said, interval_s));
     return t;
   }
-  return of_recording(r,
-                      fmt::format("contradicts itself: {} steps by {:.6g} s, and \"{}\" says {:.6g} s",
-                                  column.name, steps.middle, r.clock->said, interval_s),
-                      "give the column its right unit, as in time [us], or give the interval of the rows");
+  return of_recording(
+      r,
+      fmt::format("contradicts itself: {} rises by {:.6g} s from row to row, but \"{}\" says {:.6g} s",
+                  column.name, steps.middle, r.clock->said, interval_s),
+      "write the right unit in the heading, for example time [us], or give the interval of the rows");
 }
 
 }  // namespace
@@ -193,8 +193,8 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
     return of_recording(
         recording, fmt::format("{} {:.10g} in row {} does not rise", column.name, t[row], row + 1),
         recording.has_headings
-            ? "give the rows in the order of recording, with all digits of the time, or the interval of the rows"
-            : "without headings the first column is used as the time: name the column of the time, or give the interval of the rows");
+            ? "give the rows in the order of recording and with all digits of the time, or give the interval of the rows"
+            : "give headings that name the column of the time, or give the interval of the rows; without headings the first column is the time");
   };
   Times out{.t_s = {}, .left_out = {}, .column = &column};
   for (std::size_t n = 1; n < t.size(); ++n) {
@@ -216,10 +216,11 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
 base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t,
                                       const RecordedColumn& column, double interval_s, Notes& notes) {
   if (!go_with(t, interval_s))
-    return of_recording(recording,
-                        fmt::format("contradicts the interval that is given, {:.6g} s: {} steps by {:.6g} s",
-                                    interval_s, column.name, steps_of(t).middle),
-                        "leave the interval out, or give the column its right unit, as in time [us]");
+    return of_recording(
+        recording,
+        fmt::format("contradicts the given interval of {:.6g} s: {} rises by {:.6g} s from row to row",
+                    interval_s, column.name, steps_of(t).middle),
+        "do not give the interval, or write the right unit in the heading, for example time [us]");
   // The interval is needed only for times with too few digits.
   if (steps_of(t).even() && std::adjacent_find(t.begin(), t.end()) == t.end())
     return rising_times(recording, std::move(t), column, notes);
@@ -232,12 +233,13 @@ base::Result<Times> times_of(const Recording& recording, std::optional<double> i
   if (!column && (interval_s || recording.clock)) return without_column(recording, interval_s, notes);
   if (!column)
     return of_recording(recording, "has no column of time: it has " + headings_of(recording),
-                        "head it time [s], or give the interval of the rows");
+                        "write the heading time [s], or give the interval of the rows");
   base::Result<std::vector<double>> values = values_of(recording, {column, column->unit}, "s");
   if (!values) return values.problems();
   if (column->unit.empty() && !recording.clock && are_numbers_of_rows(*values))
-    return of_recording(recording, fmt::format("numbers its rows in {}", column->name),
-                        "head the column time [s] if these are seconds, or give the interval of the rows");
+    return of_recording(recording,
+                        fmt::format("has no time: its column {} only numbers the rows", column->name),
+                        "write the heading time [s] if these are seconds, or give the interval of the rows");
   base::Result<std::vector<double>> t_s = by_clock(recording, *column, std::move(*values), notes);
   if (!t_s) return t_s.problems();
   return rising_times(recording, std::move(*t_s), *column, notes);

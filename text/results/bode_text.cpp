@@ -61,17 +61,15 @@ std::string why_beside(const BodeStudy& s) {
       end.sensors.rotor == study::RotorSensing::hall && end.control.drive != study::FirmwareKind::sensorless;
   if (hall && s.mode == sixstep::control::Mode::position)
     return fmt::format(
-        "Hall probes resolve the position only in steps of {}, and near standstill their edges hardly show a speed; sensors.rotor = "
-        "\"ideal\" shows the loop without them, and an encoder with pwm.commutation = \"sample\" resolves both finely",
+        "Hall probes resolve the position only in steps of {}, and near standstill their edges hardly show a speed. Set sensors.rotor = \"ideal\" to see the loop without probes, or use an encoder with pwm.commutation = \"sample\"",
         quantity_text(60 / s.pole_pairs, "deg", 3));
   const bool one_way = end.pwm.chopping != sixstep::control::Chopping::complementary &&
                        !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
   if (one_way && s.without_current > least_without_current)
     return fmt::format(
-        "this chopping lets no current flow backwards, and at {:.2g} % of the samples the current is zero: the response upwards "
-        "differs from that downwards; pwm.chopping = \"complementary\" lets it flow",
+        "with this chopping the current cannot reverse, and it is zero at {:.2g} % of the samples. So rising and falling steps have different responses; pwm.chopping = \"complementary\" lets the current reverse",
         100 * s.without_current);
-  return "the response repeats in each period of the multisine and is not linear: commutation, dead time, discontinuous current or a limit";
+  return "the response is not linear, because of commutation, dead time, discontinuous current or a limit";
 }
 
 /// Compares measured and designed loop. A coherence near 1 shows that the responses repeat, but not that the
@@ -142,17 +140,17 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
     notes.push_back(fmt::format(
-        "NOTHING WAS MEASURED: no line has a coherence of {:g}, so commutation, ripple or noise exceeds the response. A larger amplitude helps; a locked rotor has no commutation. If the drive stopped, a run without --bode shows the reason",
+        "NOTHING WAS MEASURED: no line has a coherence of {:g}: commutation, ripple or noise exceeds the response. Give a larger --amplitude, or lock the rotor (it then has no commutation). If the drive stopped, a run without --bode shows the reason",
         analysis::little_coherence));
   else if (few > 0)
     notes.push_back(fmt::format(
-        "{} of {} lines have a coherence below {:g}: commutation, ripple or noise exceeds the response there; a larger amplitude helps",
+        "{} of {} lines have a coherence below {:g}, because commutation, ripple or noise exceeds their response; give a larger --amplitude",
         few, s.points.size(), analysis::little_coherence));
   if (s.lag)
     notes.push_back(fmt::format(
         "the loop includes the delay of {}: at this speed the measured speed is {} late{}",
         sensorless ? "the back-EMF's zero crossings" : "the sensor", quantity_text(s.lag->delay_s(), "s", 3),
-        sensorless ? "" : "; sensors.rotor = \"ideal\" shows the loop without it"));
+        sensorless ? "" : "; set sensors.rotor = \"ideal\" to see the loop without this delay"));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   if (std::isfinite(s.beside))
     notes.push_back(fmt::format("{:.2g} % of the response's rms is at frequencies that were not excited",

@@ -53,7 +53,7 @@ std::string numbers(const CommissionStudy& s) {
     }
   }
   return rows.text() +
-         "Resistance is that of a phase and its leg: a switch, and a diode in dead time. Inductance is a phase's along the magnet. Angles are electrical.\n";
+         "Resistance: of a phase and its leg (a switch, and a diode in the dead time). Inductance: of a phase, along the magnet. Angles are electrical.\n";
 }
 
 /// Explains crossed phases: the chip names a phase by its leg, so that crossed phases change the probes'
@@ -63,7 +63,8 @@ std::string crossed_phases(const sixstep::rig::Wiring& wires) {
   if (wires.phases == WireOrder::abc) return "";
   const bool turns_over = wires.phases != WireOrder::bca && wires.phases != WireOrder::cab;
   return fmt::format("Phases {} are at the legs a b c. The chip names phases and probes by its legs{}.\n",
-                     phases_word(wires), turns_over ? "; its forward is the motor's backward" : "");
+                     phases_word(wires),
+                     turns_over ? "; its forward direction is backward for the motor" : "");
 }
 
 std::string lines(const CommissionStudy& s) {
@@ -85,7 +86,7 @@ std::string lines(const CommissionStudy& s) {
              probes, inverted == "none" ? "" : ", inverted: " + inverted,
              s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
          rows.text() +
-         "A drive takes this table as it is, by as_wired() of hall_survey.hpp. `sixstep motor wiring` lists the wires to move instead.\n" +
+         "A drive uses this table by as_wired() of hall_survey.hpp, without moving a wire. To move wires instead, see `sixstep motor wiring`.\n" +
          crossed_phases(s.subject.wires);
 }
 
@@ -113,13 +114,13 @@ std::string bench(const CommissionStudy& s) {
 const char* fault_words(CommissioningFault fault) {
   switch (fault) {
     case CommissioningFault::offset:
-      return "an amplifier's zero differs from the circuit's";
+      return "the offset of a current amplifier is too large: check the amplifier";
     case CommissioningFault::current:
-      return "the longest vector does not reach the test current: a wire is open, or the bus is too low for this current";
+      return "the longest vector does not reach the test current: check the wires, raise the bus voltage, or lower the test current";
     case CommissioningFault::winding:
-      return "the two levels differ too little to compute a resistance; give more current";
+      return "the two current levels differ too little to compute a resistance: raise the test current";
     case CommissioningFault::not_turned:
-      return "the rotor did not follow, however slowly: free the shaft, or give more current";
+      return "the rotor did not follow even a slow field: free the shaft, or raise the test current";
     case CommissioningFault::none:
       break;
   }
@@ -130,11 +131,11 @@ std::string survey_words(const CommissionStudy& s) {
   switch (s.state.probes.verdict) {
     case HallSurvey::dead_line:
       return "Hall line at H" + inverted_word(s.state.probes.dead_pins) +
-             " never changed: check its probe, its supply and its pull-up";
+             " never changed: check the probe, its supply and the pull-up of this line";
     case HallSurvey::other_codes:
-      return "Hall lines do not show six codes in one order: a shorted line, or probes of another kind";
+      return "Hall lines do not show six codes in one order: check for a shorted line, and the kind of the probes";
     case HallSurvey::not_steady:
-      return "Hall edges of one kind lay too far apart, or were missed: the rotor does not follow the slow field steadily. Causes: cogging, or dead time and diodes at a small vector; give more current";
+      return "Hall edges were missed or do not repeat: the rotor does not follow the slow field steadily, because of cogging, dead time or diodes. Raise the test current";
     case HallSurvey::good:
       break;
   }
@@ -174,8 +175,9 @@ std::string commission_failure(const CommissionStudy& s) {
   if (s.state.phase == CommissioningPhase::failed)
     out = fault_words(s.state.fault);
   else if (!s.done())
-    out = fmt::format("the chip was still {} after {}: the rotor follows too slowly; give more current",
-                      phase_word(s.state.phase), quantity_text(s.seconds, "s", 3));
+    out = fmt::format(
+        "the chip was still {} after {}, because the rotor follows too slowly: raise the test current",
+        phase_word(s.state.phase), quantity_text(s.seconds, "s", 3));
   if (s.lines_found() || s.state.phase < CommissioningPhase::turning ||
       s.state.fault == CommissioningFault::offset || s.state.fault == CommissioningFault::current ||
       s.state.fault == CommissioningFault::winding)
@@ -197,13 +199,12 @@ std::string commission_text(const CommissionStudy& s) {
   out += "\n" + times(s) + "\n";
   if (const std::string why = commission_failure(s); !why.empty()) return out + "NOT FOUND: " + why + "\n";
   return out + (s.holds() ? "All values were found, within their bounds.\n"
-                          : "NOT ALL values lie within their bounds.\n");
+                          : "NOT ALL values are within their bounds.\n");
 }
 
 std::string commission_toml(const CommissionStudy& s) {
   std::string out =
-      "# as a chip found it, between a terminal and the star point, a switch's channel in the resistance; "
-      "bounds are its own\n";
+      "# as the chip measured: between a terminal and the star point, with the channel of a switch in the resistance; bounds are the chip's\n";
   const auto line = [&](const char* key, double x, double bound, const char* more) {
     const analysis::Interval shown = analysis::around(x, bound * x);
     out += fmt::format("{} = {{ value = {}, {}source = \"commissioned\", kind = \"measured\" }}  # {}\n", key,
@@ -217,8 +218,7 @@ std::string commission_toml(const CommissionStudy& s) {
   const sixstep::control::HallLines& found = s.state.probes.lines;
   return out +
          fmt::format(
-             "# [sensors] of a scenario whose legs hang straight\n# hall_lines = \"{}{}{}\"\n# hall_inverted = \"{}\"\n"
-             "# hall_offset_deg = {:.2f}  # +- {:.2f}\n",
+             "# [sensors] of a scenario whose phases a, b, c are at legs a, b, c\n# hall_lines = \"{}{}{}\"\n# hall_inverted = \"{}\"\n# hall_offset_deg = {:.2f}  # +- {:.2f}\n",
              found.probe[0], found.probe[1], found.probe[2], inverted_word(found.inverted),
              s.found.hall_offset_deg, s.bounds.edge_deg);
 }

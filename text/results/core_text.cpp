@@ -19,7 +19,7 @@ double mean(const sixstep::rig::InterruptTimes& t) {
 
 std::string taken(const sixstep::rig::InterruptTimes& t, double clock_Hz) {
   return t.count == 0 ? "never"
-                      : fmt::format("{}, {} in the mean, {} at worst", times(t.count),
+                      : fmt::format("{}, {} on average, {} at worst", times(t.count),
                                     cycles_text(mean(t), clock_Hz), cycles_text(t.most, clock_Hz));
 }
 
@@ -48,20 +48,20 @@ std::string_view last_remark(std::string_view sent) {
 
 std::vector<std::string> chip_texts(const study::ChipReport& c) {
   std::vector<std::string> out;
-  out.push_back(fmt::format("on the {} at {:g} MHz: its control interrupt {}, of a period's {}", c.chip,
+  out.push_back(fmt::format("on the {} at {:g} MHz: the control interrupt runs {}; a period lasts {}", c.chip,
                             c.clock_Hz / 1e6, taken(c.times.control, c.clock_Hz),
                             cycles_text(c.period_s * c.clock_Hz, c.clock_Hz)));
-  out.push_back(fmt::format("its Hall interrupt {}; edges at its pins at most {:.2g} us late",
+  out.push_back(fmt::format("the Hall interrupt runs {}; edges at the pins are at most {:.2g} us late",
                             taken(c.times.hall, c.clock_Hz), c.latest_edge_s * 1e6));
   if (c.overran())
     out.push_back(fmt::format(
-        "OVERRUN: {} of {} periods had no control interrupt, because it takes longer than a period",
+        "OVERRUN: {} of {} periods had no control interrupt, because the interrupt takes longer than a period",
         c.times.periods - c.times.conversions, c.times.periods));
   if (const std::vector<std::string> why = chip_faults(c); !why.empty())
-    out.push_back(
-        fmt::format("FAULT: its gates are off; reason on its serial line: {}", fmt::join(why, ", then ")));
+    out.push_back(fmt::format("FAULT: the chip turned all gates off; reason on its serial line: {}",
+                              fmt::join(why, ", then ")));
   if (const std::string_view last = last_remark(c.sent); last.starts_with(waits_remark))
-    out.push_back(fmt::format("WAITS: it drives only after its setpoint was 0, and waits for {}",
+    out.push_back(fmt::format("WAITS: the chip drives only after its setpoint was 0, and waits for {}",
                               printable(last.substr(waits_remark.size()))));
   return out;
 }
@@ -89,7 +89,7 @@ std::vector<std::string> core_texts(const study::Outcome& outcome) {
   if (!outcome.core) return {};
   return {fmt::format("on the {}: {}{}", outcome.core->core,
                       outcome.core->calls == 1 ? "1 call" : fmt::format("{} calls", outcome.core->calls),
-                      outcome.fault ? "" : ", each answered as by the host, to the bit")};
+                      outcome.fault ? "" : ", each with the same answer as on the host, in every bit")};
 }
 
 }  // namespace text

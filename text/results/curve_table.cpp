@@ -172,14 +172,15 @@ std::string points(const analysis::CurveRequest& request, const analysis::Curve&
 std::string locked(const analysis::OperatingPoint& turning, const Units& u) {
   const analysis::LockedRotor& l = *turning.locked;
   if (l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm) return "";
-  return fmt::format("Locked, the angle decides: {} to {} {}; the row above has the least.\n",
-                     significant(l.least_torque_Nm * u.torque.factor, 4),
-                     significant(l.greatest_torque_Nm * u.torque.factor, 4), u.torque.name);
+  return fmt::format(
+      "Locked rotor: {} to {} {}, depending on the angle; the row above has the least torque.\n",
+      significant(l.least_torque_Nm * u.torque.factor, 4),
+      significant(l.greatest_torque_Nm * u.torque.factor, 4), u.torque.name);
 }
 
 std::string left_out(const analysis::Bench& b) {
   const std::string& words = b.motor.left_to_a_run;
-  return words.empty() ? "" : fmt::format("Not in this curve, and in a run: {}.\n", words);
+  return words.empty() ? "" : fmt::format("This curve neglects what a run simulates: {}.\n", words);
 }
 
 std::string no_load(const analysis::NoLoad& n, const Units& u) {
@@ -189,13 +190,12 @@ std::string no_load(const analysis::NoLoad& n, const Units& u) {
   const std::string in_si =
       u.motion.linear ? "" : fmt::format(" ({} rad/s)", significant(n.point.speed_rad_s, 6));
   return fmt::format(
-      "No load: {}{} {}{} with {} A through the winding, {} A from the supply; a rotor let free "
-      "ran at {} {} ({} s simulated{}).\n",
+      "No load: {}{} {}{} with {} A through the winding and {} A from the supply. A free rotor reached {} {} ({} s simulated{}).\n",
       significant(n.point.speed_rad_s * per_rad_s), unsure, u.speed.name, in_si,
       significant(n.point.winding_current_A, 4), significant(n.point.bus_current_A, 4),
       significant(n.free_speed_rad_s * per_rad_s), u.speed.name, significant(n.free_s, 2),
       n.settled ? ""
-                : fmt::format(", short of 22 time constants of {} s", significant(n.time_constant_s, 2)));
+                : fmt::format(", less than 22 time constants of {} s", significant(n.time_constant_s, 2)));
 }
 
 std::string ideal(const analysis::Bench& b, const Units& u) {
@@ -214,12 +214,12 @@ std::string against(double here, double sheet) {
 std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
   const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
-  std::string text = fmt::format("From no load to that torque the curve falls by {} {}/{}",
+  std::string text = fmt::format("From no load to the nominal torque the curve falls by {} {}/{}",
                                  per_torque(*d.curve), u.speed.name, u.torque.name);
-  if (d.sheet) text += fmt::format(", the two points as printed by {}", per_torque(*d.sheet));
+  if (d.sheet) text += fmt::format(", between the two printed points by {}", per_torque(*d.sheet));
   text += fmt::format("; R/K_t^2 is {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(" (printed as gradient: {})", per_torque(*d.printed));
-  return text + " and leaves out the time that commutation takes.\n";
+  return text + ", which neglects the commutation time.\n";
 }
 
 /// The comparison with the sheet's nominal point, if the curve has that point's voltage. The values are
@@ -235,8 +235,8 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  if (!n.torque_Nm) return text + "; it has no torque, so it is not a point of the curve.\n";
-  if (!n.at_torque) return text + "; the curve never has that torque.\n";
+  if (!n.torque_Nm) return text + "; without a torque this point cannot be compared with the curve.\n";
+  if (!n.at_torque) return text + "; the curve does not reach that torque.\n";
   const analysis::OperatingPoint& p = *n.at_torque;
   text += fmt::format("; at that torque the curve has {}", speed_text(p.speed_rad_s, u));
   if (n.speed_rad_s) text += fmt::format(" ({})", against(p.speed_rad_s, *n.speed_rad_s));
@@ -249,7 +249,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
 std::string lasting(const analysis::Curve& curve, const Units& u) {
   if (!curve.marks.for_ever) return "Even without load the winding becomes too hot.\n";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
-  return fmt::format("The curve itself can be held for ever from {} ({}) on.\n",
+  return fmt::format("The motor can run continuously on this curve from {} ({}) on.\n",
                      speed_text(from.speed_rad_s, u), torque_text(from.shaft_torque_Nm, u));
 }
 
@@ -261,8 +261,7 @@ std::string stands(const std::string& when, const design::ThermalModel& model,
     return fmt::format("{} the winding is above {:g} degC without any current.\n", when,
                        model.max_winding_degC);
   return fmt::format(
-      "{} the winding stays below {:g} degC with {} A ({} at standstill) for ever, {} A for {} s, {} A for {} "
-      "s.\n",
+      "{} the winding stays below {:g} degC with {} A ({} at standstill) continuously, {} A for {} s, {} A for {} s.\n",
       when, model.max_winding_degC, significant(l.continuous_A, 3), torque_text(l.continuous_Nm, u),
       significant(l.short_A[1], 3), analysis::short_times_s[1], significant(l.short_A[0], 3),
       analysis::short_times_s[0]);
@@ -277,11 +276,11 @@ std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& cur
   };
   const double fastest = curve.no_load.point.speed_rad_s;
   if (!(fastest > allowed)) return "";
-  std::string text = fmt::format("The sheet allows {}, and no load lies at {}", speed_text(allowed, u),
+  std::string text = fmt::format("The sheet allows {}, but the no-load speed is {}", speed_text(allowed, u),
                                  speed_text(fastest, u));
   if (past(curve.marks.best_efficiency))
-    text +=
-        fmt::format(", the best efficiency at {}", speed_text(curve.marks.best_efficiency->speed_rad_s, u));
+    text += fmt::format(", and the best efficiency is at {}",
+                        speed_text(curve.marks.best_efficiency->speed_rad_s, u));
   return text + ": points above the sheet's speed limit are not operating points.\n";
 }
 
@@ -291,7 +290,7 @@ std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curv
   if (!curve.by_values) return stands(when, *curve.thermal, r, u) + lasting(curve, u);
   when += fmt::format(" and the worse ends of the motor file's ranges ({})", curve.worse_ends);
   return stands(when, *curve.thermal, r, u) + lasting(curve, u) +
-         "All these limits, and the columns cont. and held, are at the worse ends.\n" +
+         "All these limits, and the columns cont. and held, are for the worse ends.\n" +
          stands("By the motor file's values themselves", *curve.by_values, r, u);
 }
 
@@ -309,7 +308,7 @@ std::string certainty(const analysis::Curve& curve, const Units& u) {
           ? fmt::format("Mean torque within +- {} at {} % ({} batches)", torque_text(width, u, 2),
                         per_cent * analysis::confidence_level, analysis::batches)
           : fmt::format("Steady currents within {:.1g} A", bound);
-  if (!precise) text += ", at some points wider than requested";
+  if (!precise) text += ", at some points less exactly than requested";
   return text + fmt::format("; the energy balance closes to {:.1g}.\n", residual);
 }
 

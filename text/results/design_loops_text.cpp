@@ -61,7 +61,7 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
                         sixstep::base::six_digits(loop.gains.d1 + loop.gains.d0));
   if (thesis)
     text +=
-        "  (the thesis's gains follow from the poles that it prints; these give a faster loop than it requires)\n";
+        "  (the thesis computes its gains from the poles that it prints, which give a faster loop than it requires)\n";
   return text;
 }
 
@@ -128,7 +128,8 @@ std::string figures_text(const DriveDesign& d) {
                                            : "without bound";
   });
   return std::string("\nLoops, with the hold of the PWM and the loops within") +
-         (sensed ? "; with an ideal speed, except where its sensor is named\n" : "\n") + rows.text();
+         (sensed ? "; with an ideal speed, except in lines that name the speed's sensor\n" : "\n") +
+         rows.text();
 }
 
 std::string sensing_text(const DriveDesign& d) {
@@ -152,7 +153,7 @@ std::string sensing_text(const DriveDesign& d) {
   const std::string words = sixstep::design::edges_words(d.spec.rotor);
   return (d.spec.rotor.hall ? "\nSpeed from Hall edges, " + words.substr(6) : "\nSpeed from the " + words) +
          "\n" + steps.text() +
-         "\nFastest settling time that leaves the speed loop 45 degrees of phase, by the lowest speed to be held\n" +
+         "\nFastest settling time that leaves the speed loop 45 degrees of phase, for each lowest speed\n" +
          table.text();
 }
 
@@ -162,7 +163,7 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
   for (const DerivationStep& step : steps)
     rows.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
   return "\nWithout a rotor sensor: threshold, lowest speed, start, highest speed\n" + rows.text() +
-         "  these runs have Hall edges in place of zero crossings; run the scenario itself to simulate the start\n";
+         "  these runs use Hall edges in place of zero crossings; run the scenario itself to simulate the start\n";
 }
 
 /// A sentence on a nominal speed above the speed that commutation allows.
@@ -171,8 +172,7 @@ std::string nominal_above(const DriveDesign& d, const sixstep::design::Sheet& sh
   const double nominal = sheet.nominal_speed_rpm->value / sixstep::base::rpm_per_rad_s;
   return nominal > d.commutation_limit_rad_s
              ? fmt::format(
-                   "; the sheet's nominal speed, {:.3g} rad/s, is above it: the curve has the "
-                   "speed that the model reaches",
+                   "; the sheet's nominal speed, {:.3g} rad/s, is above this speed; sixstep curve shows the speed that the model reaches",
                    nominal)
              : "";
 }
@@ -182,11 +182,11 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
       "\nLimits at the nominal current of {}{}\n"
       "  current ripple      {} peak to peak at worst (duty {}); below a mean current of {} {}\n",
       quantity_text(d.nominal_current_A, "A"),
-      d.nominal_printed ? "" : ", a tenth of the stall current: the sheet names none",
+      d.nominal_printed ? "" : ", a tenth of the stall current, because the sheet names no nominal current",
       quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
       quantity_text(d.ripple.continuous_above_A, "A", 3),
-      d.spec.chopping == sixstep::control::Chopping::complementary ? "it reverses within each period"
-                                                                   : "it is discontinuous");
+      d.spec.chopping == sixstep::control::Chopping::complementary ? "the current reverses within each period"
+                                                                   : "the current is discontinuous");
   const Motion motion = sixstep::design::motion_of(d.motor);
   // Speeds of rotary motors are in the hundreds, those of linear motors around 1, and need digits after the
   // point.
@@ -199,9 +199,9 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
     text += fmt::format("{}{:.1f} V at {}", n ? ", " : "",
                         sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w), speed(w, 0));
   }
-  text += motion.words(fmt::format(
-      " rad/s; none above {} rad/s, without the time that commutation takes (sixstep curve has it)\n",
-      speed(d.headroom_end_rad_s, 0)));
+  text += motion.words(
+      fmt::format(" rad/s; none above {} rad/s, without commutation time (with it: sixstep curve)\n",
+                  speed(d.headroom_end_rad_s, 0)));
   const std::string held = fmt::format("{:.3g} E + 3 R i = U with E and R of a phase",
                                        sixstep::design::commutation_emfs(d.motor.machine));
   text += d.commutation_limit_rad_s > 0

@@ -50,13 +50,12 @@ std::string motor_words(const sixstep::design::MotorModel& m) {
 
 std::string designed_motor_line(const DriveDesign& d, const study::Scenario& s) {
   const std::string chopping(sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping));
-  return fmt::format(
-      "{} on {} V: {}\n"
-      "control and PWM period {}, {} chopping, a command counts {}\n",
-      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(d.bus_V),
-      motor_words(d.motor), quantity_text(d.spec.period_s, "s"), chopping,
-      sixstep::design::late_words(d.spec.late_periods()) +
-          (d.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
+  return fmt::format("{} on {} V: {}\ncontrol and PWM period {}, {} chopping, a command acts {}\n",
+                     visible(s.sheet.name.empty() ? s.motor : s.sheet.name),
+                     sixstep::base::six_digits(d.bus_V), motor_words(d.motor),
+                     quantity_text(d.spec.period_s, "s"), chopping,
+                     sixstep::design::late_words(d.spec.late_periods()) +
+                         (d.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
 }
 
 std::string simulated_text(const analysis::DesignStudy& s) {
@@ -102,7 +101,7 @@ std::string robust_text(const analysis::Robustness& r, const DriveDesign& d) {
   for (const RobustFigure& f : r.figures) add_robust(rows, f, 4);
   for (const RobustFigure& f : r.phases) add_robust(rows, f, 3);
   return fmt::format(
-             "\nTolerances: the controller as designed, on {} motors with one deviation or several (phase margins {})\n",
+             "\nTolerances: the designed controller on {} motors with one or several deviations (phase margins {})\n",
              r.runs, sixstep::design::late_words(d.spec.later_periods())) +
          rows.text();
 }
@@ -119,7 +118,7 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
                                               counted(static_cast<std::size_t>(p.runs), "simulation"),
                                               rising ? braking : linear, rising ? linear : braking));
   if (p.gain_rad_s_per_deg < p.nominal)
-    text += fmt::format("  the sheet's nominal motor allows {} {}; its tolerances do not\n",
+    text += fmt::format("  the nominal motor allows {} {}, but motors within the tolerances do not\n",
                         sixstep::base::six_digits(p.nominal * gain.factor), gain.linear);
   return text;
 }
@@ -173,7 +172,7 @@ std::string conditions(const analysis::DesignStudy& s) {
                          ? "with the " + sixstep::design::edges_words(d.spec.rotor)
                      : !d.spec.rotor.hall   ? motion.words("with an ideal rotor sensor")
                      : s.sensorless.empty() ? "with Hall probes"
-                                            : "with back-EMF crossings taken for Hall edges";
+                                            : "with Hall edges in place of zero crossings";
   if (d.spec.rotor.hall && d.loops.size() > 1 && d.spec.mode == Mode::speed)
     text += fmt::format(", down to {}",
                         quantity_text(d.lowest_speed_rad_s, std::string(motion.unit("rad/s").linear), 3));
@@ -254,7 +253,7 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s, bool of_a_
   }
   if (!of_a_board && s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)
     lines.push_back(
-        "bridge.dead_time_s: usual for gate drivers of small bridges, and simulated here; write the value that yours need");
+        "bridge.dead_time_s: simulated with the usual value of small bridges; write the value of your gate drivers");
   return lines;
 }
 

@@ -53,8 +53,7 @@ std::string channels_section(const EmfResult& r) {
   for (const analysis::EmfChannelResult& c : r.channels)
     if (analysis::may_be_clipped(c))
       out += fmt::format(
-          "  {} stays at its greatest value for {:.2g} % of a period: was it clipped? The upper ends of the "
-          "constants allow for it\n",
+          "  {} stays at its greatest value for {:.2g} % of a period, and may be clipped; the upper bounds of the constants include this\n",
           visible(c.name), to_percent * c.clipped);
   return out;
 }
@@ -90,7 +89,7 @@ std::string constants_section(const EmfResult& r) {
   }
   std::string out = rows.text();
   if (r.pole_pairs == 0)
-    out += "  per electrical rad/s; the pole pairs, or the shaft's speed, make them constants per turn\n";
+    out += "  per electrical rad/s; give the pole pairs or the shaft's speed for constants per turn\n";
   if (!star)
     out += "  values of a phase, without harmonics of order 3, 9, 15, which cancel between two terminals\n";
   return out;
@@ -111,7 +110,7 @@ std::string harmonics_section(const EmfResult& r) {
     rows.add({std::to_string(h.order), measured_text(part), bounds_text(part),
               fmt::format("{:.2g}", to_percent * h.floor),
               !h.stands_out ? ""
-              : common      ? "not from the motor: it cancels between lines"
+              : common      ? "not from the motor, because it cancels between two terminals"
                             : fmt::format("{:+.2g} %", to_percent * h.in_phase)});
   }
   std::string out = rows.text();
@@ -132,7 +131,8 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
   for (const analysis::FrameReading& r : c.readings)
     if (r.fits) fitting += (fitting.empty() ? "" : ", ") + std::string(r.frame);
   if (printed && printed->fits)
-    return "fits" + (fitting == printed->frame ? std::string() : "; so do, within the tolerance: " + fitting);
+    return "fits" +
+           (fitting == printed->frame ? std::string() : "; within the tolerance these fit, too: " + fitting);
   if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", to_percent * tolerance);
   if (!printed) return "names no frame; fits " + fitting;
   return "CONTRADICTS: reads like " + fitting;
@@ -142,7 +142,7 @@ std::string sheet_section(const MeasuredEmf& m) {
   if (m.sheet.empty()) return "";
   std::string out = fmt::format("\nCompared with the sheet of {}, within {:g} %\n", visible(m.sheet),
                                 to_percent * m.tolerance);
-  if (m.checks.empty()) out += "  it prints no back-EMF value that can be compared\n";
+  if (m.checks.empty()) out += "  the sheet has no back-EMF value that can be compared\n";
   for (const analysis::FrameCheck& c : m.checks) {
     out +=
         fmt::format("  {} = {:g} {}: {}\n", visible(c.key), c.printed, c.unit, check_words(c, m.tolerance));

@@ -28,8 +28,7 @@ std::string field_motor_line(const FieldStudy& f) {
   const sixstep::plant::Shaft& shaft = f.design.motor.shaft;
   const study::Scenario& s = f.scenario;
   return fmt::format(
-      "{} on {} V: {}, p = {}, psi = {} V s, J = {} g cm2, B = {} N m s\n"
-      "field-oriented, control and PWM period {}, a command counts {}\n",
+      "{} on {} V: {}, p = {}, psi = {} V s, J = {} g cm2, B = {} N m s\nfield-oriented, control and PWM period {}, a command acts {}\n",
       visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(f.design.bus_V),
       winding(f.machine), sixstep::base::six_digits(f.machine.pole_pairs),
       sixstep::base::six_digits(f.machine.magnet_V_s / f.machine.pole_pairs),
@@ -75,7 +74,8 @@ std::string field_design_text(const FieldStudy& f, bool colour) {
   if (!f.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : f.warnings)
     text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", visible(w.what), visible(w.cure));
-  return text + "\nsixstep run tests the scenario with all switching; its --bode measures the loop\n";
+  return text +
+         "\nTest the scenario with all switching by sixstep run; measure the loop by sixstep run --bode\n";
 }
 
 }  // namespace text

@@ -35,19 +35,19 @@ std::string heading(const std::string& name, const HallIdentity& f) {
   out += "\n";
   if (f.glitches > 0) out += fmt::format("  {} taken out\n", count(f.glitches, "glitch", "glitches"));
   if (f.skipped > 0)
-    out += fmt::format("  {} passed between two rows: sample faster, or turn more slowly\n",
+    out += fmt::format("  {} passed between two rows: sample faster, or turn the shaft more slowly\n",
                        count(f.skipped, "sector", "sectors"));
   if (f.left_out > 0)
-    out += fmt::format("  {} left out, out of place by more than five deviations\n",
+    out += fmt::format("  {} not used, more than five deviations out of place\n",
                        count(f.left_out, "edge", "edges"));
   if (f.voltages_left_out > 0)
-    out += fmt::format("  {} of the voltages left out, out of place by more than five deviations\n",
+    out += fmt::format("  {} of the voltages not used, more than five deviations out of place\n",
                        count(f.voltages_left_out, "reading", "readings"));
   if (f.place && f.place->at_turns > 0)
-    out += fmt::format("  {} not used, for the rotor turned back beyond {}\n",
+    out += fmt::format("  {} not used, because the rotor turned back after {}\n",
                        count(f.place->at_turns, "edge", "edges"), f.place->at_turns == 1 ? "it" : "them");
   if (f.unused > 0)
-    out += fmt::format("  {} behind the first {} not used\n", count(f.unused, "edge", "edges"), edges);
+    out += fmt::format("  {} after the first {} not used\n", count(f.unused, "edge", "edges"), edges);
   return out;
 }
 
@@ -90,7 +90,7 @@ void add_jitter(Rows& rows, const HallIdentity& f) {
     add(rows, "jitter", f.jitter_deg, 1.0, "deg rms");
   else
     rows.add({"jitter", fmt::format("<= {:.2g} deg rms", f.jitter_deg.high), "",
-              f.place ? "" : "it includes the rotor's own speed variation"});
+              f.place ? "" : "includes the rotor's own speed variation"});
 }
 
 std::string wires_section(const HallIdentity& f) {
@@ -98,7 +98,7 @@ std::string wires_section(const HallIdentity& f) {
   rows.add({"Wires", "", "sure"});
   rows.add({"never seen", never_seen(f) + ": " + spacing_words(f), certainty_text(f.mask_probability)});
   if (!f.place) {
-    rows.add({"order", "codes alone do not show it: also record u_ab and u_bc", ""});
+    rows.add({"order", "not known from codes alone: also record u_ab and u_bc", ""});
     return rows.text();
   }
   const IdentifiedPlace& p = *f.place;
@@ -126,12 +126,12 @@ std::string numbers_section(const HallIdentity& f) {
     if (p.hysteresis_deg)
       add(rows, "hysteresis", *p.hysteresis_deg, 1.0, "deg");
     else if (p.both_ways)
-      rows.add({"hysteresis", "not found: turn by more than one turn before turning back", ""});
+      rows.add({"hysteresis", "not found: turn the shaft by more than one turn before turning back", ""});
   }
   add_jitter(rows, f);
   if (f.place) {
     const IdentifiedPlace& p = *f.place;
-    if (p.delay_s) add(rows, "delay", *p.delay_s, 1e6, "us", "of the lines behind the voltages");
+    if (p.delay_s) add(rows, "delay", *p.delay_s, 1e6, "us", "of the lines after the voltages");
     add(rows, "flux linkage", p.flux_linkage_Vs, 1e3, "mWb",
         fmt::format("{:.4g} % of the voltages' power comes from the rotor", 100.0 * p.explained));
   }

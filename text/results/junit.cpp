@@ -53,12 +53,12 @@ JunitSuite junit_suite(const std::string& name, const study::Outcome& outcome) {
 JunitSuite junit_suite(const std::string& name, const analysis::Series& series) {
   std::string broken;
   if (!series.faults.empty())
-    broken += fmt::format("{} stopped by a fault, the first of them run {}: {}", series.faults.size(),
+    broken += fmt::format("{} stopped by a fault, first run {}: {}", series.faults.size(),
                           series.faults.front().number, series.faults.front().problem);
   if (!series.refused.empty())
     broken +=
-        fmt::format("{}{} could not run, the first of them run {}: {}", broken.empty() ? "" : "; ",
-                    series.refused.size(), series.refused.front().number, series.refused.front().problem);
+        fmt::format("{}{} could not run, first run {}: {}", broken.empty() ? "" : "; ", series.refused.size(),
+                    series.refused.front().number, series.refused.front().problem);
   JunitSuite suite{name, {whole_run(broken)}};
   for (const analysis::SpreadFigure& f : series.figures) {
     if (!f.column.required) continue;

@@ -24,9 +24,8 @@ std::string bounds(const analysis::FigureColumn& f) {
 }
 
 std::string limits(const OptimumStory& s, const analysis::Optimum& best) {
-  if (!best.holds) return "  no point was found at which every requirement holds; this is the nearest\n";
-  if (best.limits.empty())
-    return best.converged ? "  nothing limits it: the minimum lies inside all ranges\n" : "";
+  if (!best.holds) return "  no tried point holds every requirement; this is the nearest point\n";
+  if (best.limits.empty()) return best.converged ? "  no limit: the minimum is inside all ranges\n" : "";
   std::vector<std::string> words;
   for (const analysis::Limit& limit : best.limits)
     words.push_back(limit.of_key
@@ -62,9 +61,9 @@ std::string optimum_text(const OptimumStory& s, const analysis::Optimum& best) {
   }
   text += limits(s, best);
   if (!best.converged)
-    text += fmt::format(
-        "  not converged after {} points: a larger value of evaluations in the plan may find a better one\n",
-        best.evaluations);
+    text +=
+        fmt::format("  not converged after {} points: raise evaluations in the plan to find a better point\n",
+                    best.evaluations);
   text += " ";
   for (std::size_t k = 0; k < best.point.size(); ++k)
     text += fmt::format(" --set {}={}", s.plan.axes[k].key, best.point[k]);

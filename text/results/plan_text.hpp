@@ -25,7 +25,7 @@ std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario, const an
 std::string drawn_text(const std::vector<DriveSpread>& spread, const std::string& not_drawn);
 
 inline constexpr const char* too_few_points =
-    "too few points: an index is negative or above its total, or the first order adds up to more than 1";
+    "too few points for exact indices: an index is negative or above its total, or the first orders add up to more than 1; raise the number of points";
 
 /// A plan and its results. `each` visits the rows, with their points, in the order of their numbers.
 struct PlanStory {

@@ -84,8 +84,8 @@ const char* one_of(const analysis::Plan& plan) { return plan.axes.empty() ? "dri
 std::string casualties(const std::vector<analysis::Casualty>& which, const char* what,
                        const analysis::Plan& plan) {
   if (which.empty()) return "";
-  return fmt::format("  {} {}, the first of them {} {}: {}\n", which.size(), what, one_of(plan),
-                     which[0].number, visible(which[0].problem));
+  return fmt::format("  {} {}, first {} {}: {}\n", which.size(), what, one_of(plan), which[0].number,
+                     visible(which[0].problem));
 }
 
 constexpr std::size_t most_numbers = 8;

@@ -29,7 +29,7 @@ std::string commutation_text() {
               fmt::format(" {}  {}  {}", code >> 2, code >> 1 & 1, code & 1), fmt::format("{}", code),
               std::string(leg_names[high]), std::string(leg_names[low]), std::string(leg_names[floating])});
   }
-  return "The drive's commutation, forward; backward high and low change places\n" + rows.text();
+  return "The drive's commutation, forward; backward swaps high and low\n" + rows.text();
 }
 
 /// One row per order of the phases, one column per order of the Hall lines.
@@ -72,15 +72,14 @@ std::string symptoms(const WiringStudy& s, const base::Motion& motion) {
   const analysis::Symptom hum = s.symptom(WiringDoes::hums);
   if (hum.swing_Hz > 0)
     text += motion.words(fmt::format(
-        "A humming motor swings by {} at {:.0f} Hz, in the mean, about one of two angles in each electrical turn.\n",
+        "On average, a humming motor swings by {} at {:.0f} Hz about one of two angles in each electrical turn.\n",
         way_text(s, hum.swing_deg), hum.swing_Hz));
   const WiringCase* const early = s.example(WiringDoes::forward_early);
   if (!early) return text;
   const auto of = [](double part) { return std::lround(100 * part); };
   return text +
          motion.words(fmt::format(
-             "Early and late: each pair is driven 60 degrees before or behind its turn. At every edge the torque falls to {} %, and\n"
-             "with nothing on the shaft it draws {} % of the stalled current by theory, where straight wires draw {} %.\n",
+             "Early and late: each pair is driven 60 degrees too early or too late. At every edge the torque falls to {} %.\nWithout a load the motor draws {} % of the stalled current by theory, and {} % with straight wires.\n",
              of(early->theory.least_part), of(early->theory.idle_current_part),
              of(s.cases.front().theory.idle_current_part)));
 }
@@ -107,7 +106,7 @@ std::string recipe() {
 /// Whether theory and measurement agree. The measurement does not use the theory, so that this is a result.
 std::string agreement(const WiringStudy& s) {
   if (s.agreeing() == s.cases.size())
-    return fmt::format("All {} move in simulation as theory predicts.\n", s.cases.size());
+    return fmt::format("All {} wirings move in simulation as theory predicts.\n", s.cases.size());
   std::string text;
   for (const WiringCase& c : s.cases)
     if (!c.agrees())
@@ -115,7 +114,7 @@ std::string agreement(const WiringStudy& s) {
                           hall_lines_word(c.wiring), does_text(c.theory.does), does_text(c.measured.does));
   return text +
          fmt::format(
-             "{} of {} move in simulation as theory predicts; friction or cogging holds the others at this current: raise it.\n",
+             "{} of {} move in simulation as theory predicts; friction or cogging holds the others. Give a larger --current.\n",
              s.agreeing(), s.cases.size());
 }
 
@@ -132,7 +131,7 @@ std::string wiring_text(const WiringStudy& s) {
   text += "\nThe fewest wires to move until it runs FORWARD: phases" + columns;
   text += grid(s, [](const WiringCase& c) { return cure_mark(c.cures.front()); });
   text +=
-      "b-c: swap the wires at legs b and c; a>b>c: the wire at a goes to b, that at b to c, that at c to a.\n";
+      "b-c: swap the wires at legs b and c; a>b>c: move the wire at a to b, the wire at b to c, the wire at c to a.\n";
   return text + "\n" + recipe();
 }
 

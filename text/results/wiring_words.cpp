@@ -33,7 +33,7 @@ std::vector<std::size_t> round(const analysis::Moves& moves) {
 std::string moves_text(const analysis::Moves& moves, const Names& names, const char* wires) {
   const std::vector<std::size_t> way = round(moves);
   if (way.size() == 2) return fmt::format("swap the {} {} and {}", wires, names[way[0]], names[way[1]]);
-  return fmt::format("move the {} on: {} to {}, {} to {}, {} to {}", wires, names[way[0]], names[way[1]],
+  return fmt::format("move the {}: {} to {}, {} to {}, {} to {}", wires, names[way[0]], names[way[1]],
                      names[way[1]], names[way[2]], names[way[2]], names[way[0]]);
 }
 
@@ -92,8 +92,9 @@ std::string_view short_does_text(WiringDoes does) {
 std::string_view next_step_text(WiringDoes does) {
   if (does == WiringDoes::forward) return "Leave it.";
   if (does == WiringDoes::backward) return "Swap phases a and b, Hall lines H2 and H3.";
-  if (does == WiringDoes::hums || does == WiringDoes::unclear) return "Swap any two phase wires: it runs.";
-  return "Move all three phase wires on, once or twice.";
+  if (does == WiringDoes::hums || does == WiringDoes::unclear)
+    return "Swap two phase wires; then the motor runs.";
+  return "Shift all three phase wires, once or twice.";
 }
 
 std::string_view does_name(WiringDoes does) {
@@ -113,7 +114,7 @@ std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
   const std::string current =
       ratio < 100 ? times(ratio) + " times the current" : "more than 100 times the current";
   if (does == WiringDoes::hums) return fmt::format("jerks, stops, hums; {}", current);
-  if (analysis::direction_of(does) == 0) return "does not do the same from every start";
+  if (analysis::direction_of(does) == 0) return "behaves differently from start to start";
   return fmt::format("runs rough; {}", current);
 }
 
@@ -135,9 +136,9 @@ std::string cure_mark(const analysis::Cure& c) {
 
 std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
   static constexpr std::pair<std::string_view, std::string_view> steps[] = {
-      {"it jerks and hums", "swap any two phase wires; then it runs"},
+      {"it jerks and hums", "swap any two phase wires; then the motor runs"},
       {"it runs rough",
-       "move all three phase wires on by one leg; still rough: once more; then it runs well, the other way"},
+       "move all three phase wires by one leg, if still rough once more; then it runs well, the other way"},
       {"it runs well, but backward",
        "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or invert the reference"},
   };
@@ -145,8 +146,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
 }
 
 std::string_view recipe_note() {
-  return "Three of the six orders of the phase wires hum, two run rough in one direction, and one runs well in the other. If two "
-         "Hall lines are swapped, the order that runs well runs backward; changing phase wires alone does not cure it.";
+  return "With three of the six orders of the phase wires the motor hums, with two it runs rough in one direction, and with one it runs well in the other. If two Hall lines are swapped, this one runs backward, and moving phase wires alone cannot correct it.";
 }
 
 std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {
@@ -163,9 +163,9 @@ std::string wiring_speed_text(const analysis::WiringStudy& s, double rad_s) {
 
 std::vector<std::string> wiring_scenario_lines() {
   return {
-      "A motor starts from rest, with straight wires. To cross them:",
+      "The motor starts from rest, with straight wires. To cross wires:",
       "  [bridge] phases = \"bac\", [sensors] hall_lines = \"132\"",
-      "A motor that runs well still accelerates at the end of this run; the table has its settled speed."};
+      "A motor that runs well still accelerates at the end of this run; the table has the settled speed."};
 }
 
 std::string bench_text(const analysis::WiringStudy& s) {
@@ -174,7 +174,7 @@ std::string bench_text(const analysis::WiringStudy& s) {
   const base::Result<design::MotorModel> motor = design::motor_model(s.subject.sheet);
   const bool rubs = !motor || motor->shaft.coulomb_Nm > 0 || motor->shaft.B_Nm_s > 0;
   return motion_of(s).words(fmt::format(
-      "{:.6g} V, duty {:.4g}, nothing on the shaft{}; stalled it draws {:.4g} A{}, at full duty {:.4g} A",
+      "{:.6g} V, duty {:.4g}, no load{}; the stalled motor draws {:.4g} A{}, at full duty {:.4g} A",
       b.voltage_V, b.duty, rubs ? "" : ", no friction (the motor file names none)", b.current_A, is,
       b.current_A / b.duty));
 }

@@ -68,7 +68,7 @@ class RowsOf {
     }
     if (!r_.has_headings)
       return at_line(r_.line_of(0), "has no headings",
-                     fmt::format("the first line must name \"{}\"", *column));
+                     fmt::format("write headings in the first line, one of them \"{}\"", *column));
     const base::Result<std::vector<Picked>> found = columns_called(r_, {*column});
     if (!found) return found.problems();
     return found->front();
@@ -81,7 +81,7 @@ class RowsOf {
       names += fmt::format("{}\"{}\"", n == 1 ? "" : ", ", r_.columns[n].name);
     const std::string keep = fmt::format("keep two columns: {}", first_.row);
     return at_line(r_.line_of(0), fmt::format("has {} columns: {}", r_.columns.size(), names),
-                   r_.has_headings && first_.selects ? "name the column that is meant" : keep);
+                   r_.has_headings && first_.selects ? "name the wanted column" : keep);
   }
 
   /// Reports cells that are not numbers, each line once.
@@ -99,8 +99,8 @@ class RowsOf {
     const double at = not_nearly(t);
     const bool rises = rows_.times_s.empty() ? at >= 0.0 : at > rows_.times_s.back();
     if (!rises)
-      return say(row, fmt::format("{} {} does not rise", first_.word, at),
-                 fmt::format("sort the rows, from 0 {} on", first_.unit));
+      return say(row, fmt::format("{} {} is not above the row before", first_.word, at),
+                 fmt::format("sort the rows; the first may be 0 {}", first_.unit));
     rows_.times_s.push_back(at);
     rows_.values.push_back(not_nearly(y));
   }
@@ -110,7 +110,7 @@ class RowsOf {
     range.least = 0.0;
     if (range.holds(x)) return true;
     const std::string in = unit.empty() ? "" : ", in " + unit;
-    say(row, fmt::format("{} {} {}{}", what, x, limit_of(range), in), "check the unit of its column");
+    say(row, fmt::format("{} {} {}{}", what, x, limit_of(range), in), "check the unit of this column");
     return false;
   }
 

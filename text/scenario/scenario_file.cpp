@@ -73,8 +73,8 @@ void read_rows(const Document& document, const std::string& path, sixstep::contr
     complaints.later(std::move(problem));
   };
   if (!r.times_s.empty() || !r.values.empty())
-    return complain(
-        {.limit = "contradicts times_s and values: the rows are given twice", .cure = "keep one of the two"});
+    return complain({.limit = "contradicts times_s and values: give the rows only once",
+                     .cure = "keep file, or times_s and values"});
   const toml::node* node = document.find(key);
   if (!node) return;
   const base::Result<NamedText> file =
@@ -118,9 +118,10 @@ void load_controller(const Document& document, const Resolve& resolve, study::Ow
     own.loaded = file->controller;
     return;
   }
-  base::Problem problem = file ? base::Problem{.limit = "is machine code, which is not loaded here",
-                                               .cure = "run it by the program on this machine"}
-                               : file.problems().front();
+  base::Problem problem =
+      file ? base::Problem{.limit = "is a compiled controller, which is not loaded here",
+                           .cure = "run the scenario with the sixstep program on this machine"}
+           : file.problems().front();
   problem.where = key;
   complaints.later(std::move(problem));
   complaints.told_elsewhere(key);
@@ -138,8 +139,8 @@ base::Problems apply_overrides(Document& document, const std::vector<Setting>& o
     if (path_words(setting.path) == std::vector<std::string>{"extends"})
       return {{.where = "--set extends",
                .value = setting.text,
-               .limit = "comes too late: the files are joined already",
-               .cure = "write extends in the scenario"}};
+               .limit = "cannot be set: the files are joined before --set",
+               .cure = "write extends in the scenario file"}};
   return document.set(overrides);
 }
 

@@ -60,8 +60,8 @@ void read_shape(const Document& document, const std::string& path, const Resolve
     complaints.told_elsewhere(path);
   };
   if (!sheet.back_emf_angle_deg.empty() || !sheet.back_emf_shape.empty())
-    return complain({.limit = "contradicts back_emf_angle_deg and back_emf_shape: the points are given twice",
-                     .cure = "keep one of the two"});
+    return complain({.limit = "contradicts back_emf_angle_deg and back_emf_shape: give the points only once",
+                     .cure = "keep the file, or the two lists"});
   const base::Result<NamedText> file =
       find_text(resolve, {Naming::Kind::rows, sheet.back_emf_file, document.file_of(*node, path)});
   if (!file) return complain(file.problems().front());

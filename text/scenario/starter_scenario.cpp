@@ -127,7 +127,7 @@ std::string torque_limit_origin(const study::Scenario& s) {
   const double usual = design::usual_torque_limit_Nm(*motor, s.supply.voltage_V);
   if (!(std::fabs(*limit - usual) < 0.01 * usual)) return "";
   return fmt::format(
-      "The sheet names no nominal current: control.speed.torque_limit_Nm is the torque of a quarter of the stall current, {} A. Check that bridge and winding withstand it; give nominal_current_A in the motor file, or the allowed torque.",
+      "The sheet names no nominal current: control.speed.torque_limit_Nm is the torque of a quarter of the stall current, {} A. Check that bridge and winding withstand this current, or give nominal_current_A in the motor file, or the allowed torque.",
       base::rounded(usual / motor->K_t_Nm_A, 4));
 }
 
@@ -242,11 +242,9 @@ std::string starter_note(const study::Scenario& scenario) { return torque_limit_
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
   return fmt::format("#:schema {}\n", scenario_schema_file) +
-         wrapped_comment(fmt::format("sixstep run {} runs this and judges it; --html also writes the report. "
-                                     "Lines behind a # show the defaults: remove the # to change one; nan "
-                                     "means that there is no default: replace it by a number. Details: "
-                                     "sixstep help TABLE and sixstep help KEY.",
-                                     shell_word(options.file))) +
+         wrapped_comment(fmt::format(
+             "sixstep run {} simulates this scenario and checks its requirements; --html also writes the report. Lines after a # show the defaults: to change a value, remove the #. Where the value is nan there is no default: write a number. Details: sixstep help TABLE and sixstep help KEY.",
+             shell_word(options.file))) +
          Starter(scenario, options.full).text();
 }
 

@@ -39,8 +39,8 @@ class Complaints {
   /// Reports a key or a word at `path` that only the other kind of motor has.
   void other_motion(std::string_view path, const std::string& instead) {
     later({.where = std::string(path),
-           .limit = linear_motor_ ? "is for turning motors, and this motor is linear"
-                                  : "is for linear motors, and this motor turns",
+           .limit = linear_motor_ ? "applies to rotary motors only, and this motor is linear"
+                                  : "applies to linear motors only, and this motor is rotary",
            .cure = "write " + instead});
   }
 

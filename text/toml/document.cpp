@@ -159,10 +159,11 @@ base::Problems Document::set(std::span<const Setting> settings) {
     const std::vector<std::string> words = path_words(setting.path);
     const std::string line = fmt::format("x = {}", setting.text);
     if (words.size() > deepest || nests_too_deep("", line)) {
-      problems.push_back(bounded({.where = fmt::format("--set {}", setting.path),
-                                  .value = setting.text,
-                                  .limit = "nests too deep",
-                                  .cure = "write --set table.key=value, as in --set supply.voltage_V=12"}));
+      problems.push_back(
+          bounded({.where = fmt::format("--set {}", setting.path),
+                   .value = setting.text,
+                   .limit = "nests too deep",
+                   .cure = "write --set table.key=value, for example --set supply.voltage_V=12"}));
       continue;
     }
     toml::parse_result parsed = toml::parse(line);
@@ -186,7 +187,7 @@ base::Problems Document::set(std::span<const Setting> settings) {
       problems.push_back({.where = fmt::format("--set {}", setting.path),
                           .value = setting.text,
                           .limit = "does not name a key",
-                          .cure = "write --set table.key=value, as in --set supply.voltage_V=12"});
+                          .cure = "write --set table.key=value, for example --set supply.voltage_V=12"});
       continue;
     }
     settings_.push_back(setting);

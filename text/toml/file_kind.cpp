@@ -41,11 +41,11 @@ std::optional<base::Problem> taken_for(FileKind wanted, const Document& document
   const auto name = document.root()["motor"].value<std::string>();
   return base::Problem{
       .where = fmt::format("{}:1:1:", document.name()),
-      .limit = scenario ? "is a motor's file, not a scenario" : "is a scenario, not a motor's file",
-      .cure = scenario ? fmt::format("sixstep new first --motor {} writes a scenario that runs it",
+      .limit = scenario ? "is a motor file, not a scenario" : "is a scenario, not a motor file",
+      .cure = scenario ? fmt::format("write a scenario for this motor with: sixstep new first --motor {}",
                                      document.name())
-              : name   ? fmt::format("its motor is {}: name this motor", *name)
-                       : std::string("name the file of a motor, or a built-in one of sixstep motor list")};
+              : name   ? fmt::format("name the scenario's motor, {}", *name)
+                       : std::string("name a motor file, or a built-in motor of sixstep motor list")};
 }
 
 }  // namespace text

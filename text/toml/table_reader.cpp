@@ -54,7 +54,7 @@ const toml::array* TableReader::find_tables(std::string_view key, const base::Ab
     complaints_.value(
         *node, at(key),
         {.limit = fmt::format("has {} tables; at most {} are allowed", node->as_array()->size(), most_tables),
-         .cure = "remove some; put rows of a reference into a file, with shape = \"csv\""});
+         .cure = "remove some tables; write a long reference as a file, with shape = \"csv\""});
     return nullptr;
   }
   if (!node) return nullptr;
@@ -173,7 +173,7 @@ void TableReader::read(std::string_view given, std::vector<double>& member, cons
   if (!items) {
     complaints_.value(*node, at(key),
                       {.limit = "must be a list of numbers",
-                       .cure = node->is_number() ? "write it in brackets, also one value: [10]"
+                       .cure = node->is_number() ? "write a single value in brackets, too: [10]"
                                                  : "write numbers in brackets: [10, 20]"});
     return;
   }
@@ -197,8 +197,9 @@ void TableReader::read(std::string_view key, std::vector<std::string>& member, c
     return;
   }
   if (!items) {
-    complaints_.value(*node, at(key),
-                      {.limit = "must be a list of words", .cure = "write it in brackets: [\"a\", \"b\"]"});
+    complaints_.value(
+        *node, at(key),
+        {.limit = "must be a list of words", .cure = "write words in brackets: [\"a\", \"b\"]"});
     return;
   }
   member.clear();

@@ -105,8 +105,8 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
     }
     if (!about.unit_of.empty())
       return base::Problem{
-          .limit = fmt::format("is in the unit of {}, which is not a number here", about.unit_of),
-          .cure = "name a number of the scenario, as supply.voltage_V"};
+          .limit = fmt::format("is in the unit of {}, which has no numeric value here", about.unit_of),
+          .cure = "name a key of the scenario with a number, for example supply.voltage_V"};
     return base::Problem{.limit = "is in the unit of control.mode, and this mode has none",
                          .cure = "set control.mode, or write a number without quotes"};
   }

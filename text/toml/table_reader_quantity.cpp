@@ -23,7 +23,7 @@ std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key
     if (used)
       complaints_.value(*node, at(spelling.key),
                         {.limit = fmt::format("is given already, as {}", used->key),
-                         .cure = "they are the same value: keep one of the two lines"});
+                         .cure = "keep one of the two keys, which have the same meaning"});
     else
       used = spelling;
   };
@@ -81,7 +81,7 @@ void TableReader::interval(const toml::node& node, const std::string& path, cons
   if (!(low <= out.value && out.value <= high))
     return complaints_.value(
         node, path,
-        {.limit = fmt::format("does not hold the value, {}", shortest(out.value)),
+        {.limit = fmt::format("does not contain the value, {}", shortest(out.value)),
          .cure = "write the least and the largest value of all sources, including this value"});
   out.range = base::Interval{base::times_ten_to(low, ten), base::times_ten_to(high, ten)};
 }
@@ -154,8 +154,8 @@ void TableReader::frame_of_unit(const toml::node& node, const std::string& path,
   complaints_.value(
       node, path,
       {.limit = quantity.frame.empty()
-                    ? fmt::format("is {}, and its frame is missing", measure)
-                    : fmt::format("is {}, and its frame is \"{}\"", measure, quantity.frame),
+                    ? fmt::format("is {}, and the frame is missing", measure)
+                    : fmt::format("is {}, but the frame is \"{}\"", measure, quantity.frame),
        .cure = fmt::format("write frame = {}{}", quoted_alternatives(fit),
                            quantity.frame.empty() ? "" : ", or the unit without " + std::string(measure))});
 }
@@ -170,11 +170,11 @@ void TableReader::frame(const toml::node& node, const std::string& path, const b
     return;
   if (frames.empty())
     complaints_.value(node, path + ".frame",
-                      {.limit = "is not needed", .cure = "this value has one meaning only: leave frame out"});
+                      {.limit = "is not needed", .cure = "remove frame: this value has only one meaning"});
   else
     complaints_.value(node, path + ".frame",
                       {.limit = fmt::format("must be {}", quoted_alternatives(frames)),
-                       .cure = "give the points between which the sheet measures"});
+                       .cure = "give the points between which the sheet measures the value"});
 }
 
 }  // namespace text

@@ -25,7 +25,7 @@ def value_text(value: Any) -> str:
     if isinstance(value, (int, float)):
         text = repr(value)
         return {"inf": "inf", "-inf": "-inf", "nan": "nan"}.get(text, text)
-    raise TypeError(f"a value of type {type(value).__name__} has no place in a scenario; give a number, text, list or dict")
+    raise TypeError(f"a value of type {type(value).__name__} cannot be a value of a scenario; give a number, text, list or dict")
 
 
 def setting_text(value: Any) -> str:

@@ -78,7 +78,7 @@ class Env:
         if not self._target and reward is None:
             raise ValueError("this mode has no measured value that follows its setpoint; give reward, or target")
         if self._target and self._target not in self.observed:
-            raise ValueError(f'target = "{self._target}" is not observed; take one of {", ".join(self.observed)}')
+            raise ValueError(f'target = "{self._target}" is not observed; use one of {", ".join(self.observed)}')
         self._reward = reward
         self._core = _core.Environment(scenario._core, drives, action, workers or os.cpu_count() or 1)
         most = self._core.most_current_A if action == "current" else 1.0
@@ -139,7 +139,7 @@ class Env:
     def value(cls, seen: Array, name: str) -> Array:
         """A column of the observation by its name."""
         if name not in cls.observed:
-            raise ValueError(f"{name} is not observed; take one of {', '.join(cls.observed)}")
+            raise ValueError(f"{name} is not observed; use one of {', '.join(cls.observed)}")
         column: Array = seen[:, cls.observed.index(name)]
         return column
 

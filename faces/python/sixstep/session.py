@@ -117,7 +117,7 @@ class Session:
     def save(self) -> bytes:
         """The session as bytes: the scenario, its changes and the instant, from which `restore` simulates it again."""
         if self._controller is not None:
-            raise ValueError("a session with a controller in Python cannot be saved: its state is not in the session")
+            raise ValueError("a session with a controller in Python cannot be saved: the controller's state is not in the session")
         s = self._scenario
         return json.dumps({"sixstep": _core.version, "scenario": [s._name, s._source, s._settings, s._data_dir],
                            "changes": self._changes, "time_s": self.time}).encode()

@@ -32,7 +32,7 @@ class Busy {
   explicit Busy(std::atomic<bool>& busy) : busy_(busy) {
     if (busy_.exchange(true))
       throw py::value_error(
-          "the session is in use, by another thread or by the controller that calls it; give each a copy()");
+          "the session is in use, by another thread or by its own controller; give each thread a copy()");
   }
   ~Busy() { busy_ = false; }
   Busy(const Busy&) = delete;
@@ -74,7 +74,7 @@ class Session {
   std::unique_ptr<Session> copied() {
     if (controller_)
       throw py::value_error(
-          "a session with a controller in Python cannot be copied: the copy would share its state");
+          "a session with a controller in Python cannot be copied: the copy would share the controller's state");
     const Busy busy(busy_);
     return std::unique_ptr<Session>(new Session(open(), columns_, *rows_, part_s_));
   }

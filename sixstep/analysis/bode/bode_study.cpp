@@ -56,13 +56,16 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
     problems.push_back({"control.mode", s.control.mode == Mode::off ? "off" : "duty",
-                        "has no loop to measure", "measure current, speed or position"});
+                        "has no loop to measure",
+                        "set control.mode = \"current\", \"speed\" or \"position\""});
   if (s.control.slew)
-    problems.push_back({"control.slew", "", "ramps the setpoint, which would hide the loop behind it",
-                        "remove it for this measurement"});
+    problems.push_back(
+        {"control.slew", "",
+         "limits how fast the setpoint changes, so that the response of the loop cannot be measured",
+         "remove it for this measurement"});
   if (s.control.position.profile.on && s.control.mode == Mode::position)
     problems.push_back({"control.position.profile", "",
-                        "shapes the setpoint, which would hide the loop behind it",
+                        "shapes the setpoint, so that the response of the loop cannot be measured",
                         "remove it for this measurement"});
   if (problems.empty()) append(problems, still_moving(run));
   return problems;
@@ -141,7 +144,7 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
       s,
       {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = order.keep_going, .keep_books = false});
   if (session && !session->advance(b.begin_s))
-    return base::Problem{"duration_s", "", "is not reached: the run ends before it, or was interrupted",
+    return base::Problem{"duration_s", "", "is not reached: the run ended earlier or was interrupted",
                          "run the scenario without the measurement to find the cause"};
   return session;
 }
@@ -156,7 +159,7 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
     const double t_s = b.begin_s + static_cast<double>(n) * b.period_s;
     const bool goes_on = session.advance(t_s);
     if (!goes_on && n + 1 < (1 + periods) * N)
-      return base::Problem{"reference", "", "with the multisine on it ended the run early",
+      return base::Problem{"reference", "", "with the added multisine ended the run early",
                            "choose a smaller amplitude"};
     output.push_back(controlled(session.present().signals, b));
     if (carries_no_current(session.present().signals)) ++without;
@@ -183,12 +186,13 @@ base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& o
   const double way = (means.back() - means.front()) / static_cast<double>(periods - 1);
   if (!(std::fabs(way) > most_way * b.amplitude)) return {};
   const std::string unit = " " + std::string(study::reference_unit(b.mode));
-  return {{"duration_s", base::written(duration_s),
-           "ends while the drive still moves towards " + base::six_digits(b.stands_at) + unit +
-               ": in the measurement it went from " + base::three_digits(means.front()) + " to " +
-               base::three_digits(means.back()) + unit + ", " + base::three_digits(std::fabs(way)) +
-               " in each period of a multisine of +-" + base::three_digits(b.amplitude) + unit,
-           "lengthen duration_s until it is constant, or set a final reference that the drive can reach"}};
+  return {
+      {"duration_s", base::written(duration_s),
+       "ends while the drive still moves towards " + base::six_digits(b.stands_at) + unit +
+           ": during the measurement the controlled value went from " + base::three_digits(means.front()) +
+           " to " + base::three_digits(means.back()) + unit + ", by " + base::three_digits(std::fabs(way)) +
+           " in each period of a multisine of +-" + base::three_digits(b.amplitude) + unit,
+       "lengthen duration_s until the controlled value is constant, or set a final reference that the drive can reach"}};
 }
 
 double amplitude_of(const BodeOrder& order, double stands_at) {

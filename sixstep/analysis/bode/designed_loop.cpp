@@ -17,12 +17,15 @@ using control::Mode;
 /// The reason why the loop is not linear. Empty if every block is linear while no limit acts.
 std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
                             const control::DriveConfig<double>& drive) {
-  if (drive.current_control == control::CurrentControl::hysteresis) return "the current is held in a band";
-  if (c.field && c.field->finite_set.on) return "the currents are held by choosing among the legs' states";
+  if (drive.current_control == control::CurrentControl::hysteresis)
+    return "the current loop is a hysteresis, which is not linear";
+  if (c.field && c.field->finite_set.on)
+    return "finite-set control chooses among the legs' states, which is not linear";
   if (s.control.mode == Mode::current) return "";
   if (drive.extras.on && drive.extras.predicts_current)
     return "a linear loop with a predicted current exists for the current loop only";
-  if (drive.speed_control == control::SpeedControl::duty) return "the speed controller sets the duty itself";
+  if (drive.speed_control == control::SpeedControl::duty)
+    return "the speed controller sets the duty directly, without a current loop";
   if (s.control.mode == Mode::position && drive.extras.on && drive.extras.speed_law != control::SpeedLaw::pi)
     return "the inner speed controller is not the PI in velocity form";
   if (c.field && c.field->per_ampere.k_per_A != 0)

@@ -108,9 +108,10 @@ study::Scenario on_bench(const CommissionSubject& subject, double voltage_V, dou
 
 base::Problems unfit(const CommissionSubject& subject) {
   if (subject.sheet.kind == design::MotorKind::linear)
-    return {{"kind", "linear",
-             "cannot be commissioned: the field turns many times each way, and a track is too short",
-             "measure R, L and back-EMF on a bench"}};
+    return {
+        {"kind", "linear",
+         "cannot be commissioned: the test moves the field over many pole pitches each way, and a track is too short",
+         "measure R, L and back-EMF on a bench"}};
   if (subject.sheet.connection == design::WindingConnection::delta)
     return {{"connection", "delta",
              "cannot be commissioned: the chip identifies the values of a star, and the loop current of a "
@@ -162,11 +163,13 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
   const double I = subject.current_A.value_or(
       base::shortened(std::min(2 * nominal.A, most_A / 2), 2, base::Towards::down));
   if (!(I > 0.0 && I <= most_A))
-    return base::Problem{"current_A", base::written(I),
-                         "must be above 0 and at most the " + base::rounded(most_A, 4) +
-                             " A at which the bus drives the motor at rest and its rotor stays in the field",
-                         nominal.printed ? "remove it for twice the sheet's nominal current"
-                                         : "remove it for the default, at most half of that bound"};
+    return base::Problem{
+        "current_A", base::written(I),
+        "must be above 0 and at most " + base::rounded(most_A, 4) +
+            " A, which the bus can drive and at which the rotor stays aligned with the field",
+        nominal.printed
+            ? "remove it: the default is twice the sheet's nominal current, at most half of that bound"
+            : "remove it: the default is at most half of that bound"};
   return TestCurrentFrom{I, from};
 }
 
@@ -180,12 +183,12 @@ base::Problems too_weak(const CommissionBench& b, const design::MotorModel& moto
              "pulls the rotor with " + base::rounded(1e3 * torque, 3) + " mNm against " +
                  base::rounded(1e3 * against, 3) +
                  " mNm of friction and cogging: the rotor does not align with the field",
-             "give a test current with more than three times that torque"}};
+             "raise the test current until its torque is above 10/3 of friction and cogging"}};
   if (!(b.longest_s < most_s))
     return {{"current_A", base::written(b.wish.test_A),
-             "makes a test of up to " + base::rounded(b.longest_s, 3) +
-                 " s, because the rotor swings that long in its field",
-             "give more current, or check the units of the motor's inertia and torque constant"}};
+             "makes the test last up to " + base::rounded(b.longest_s, 3) + " s, more than " +
+                 base::rounded(most_s, 3) + " s: the rotor takes too long to come to rest in the field",
+             "raise the test current, or check the units of the motor's inertia and torque constant"}};
   return {};
 }
 
@@ -197,7 +200,7 @@ base::Result<CommissionBench> commission_bench(const CommissionSubject& subject)
   if (base::Problems found = unfit(subject); !found.empty()) return found;
   base::Problems wrong =
       base::out_of_range("hall_offset_deg", subject.hall_offset_deg, base::between(-180, 180), "deg",
-                         "give the common angle by which all edges come late, in electrical degrees");
+                         "give the angle by which all Hall edges come late, in electrical degrees");
   if (!wrong.empty()) return wrong;
   const base::Result<double> V = voltage_of(subject, *motor);
   if (!V) return V.problems();

@@ -117,8 +117,9 @@ base::Result<CommissionStudy> study_commission(const CommissionOrder& order) {
     const double t_s = row_s * static_cast<double>(n);
     if (t_s > s.bench.longest_s) break;
     if (sim::run(rig, sim::to_instant(t_s), none).stop != sim::Stop::end)
-      return base::Problem{"motor", s.subject.motor, "ends the run of the test before the chip does",
-                           "check its sheet"};
+      return base::Problem{"motor", s.subject.motor,
+                           "stopped the simulated test before the chip had finished",
+                           "check the values of the motor's sheet"};
     note(rig, s.bench, t_s, s);
   }
   s.state = rig.firmware().found();

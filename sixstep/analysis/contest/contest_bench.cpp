@@ -49,7 +49,8 @@ base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, 
   if (!first) return first;
   if (!(first->headroom_end_rad_s > 0.0))
     return base::Problem{"voltage_V", base::rounded(first->bus_V, 4),
-                         "drives the nominal current at no speed", "give a higher bus voltage in V"};
+                         "cannot drive the nominal current, not even at standstill",
+                         "give a higher bus voltage in V"};
   if (c.settle_s || !is_grave(*first)) return first;
   const double chosen_s = first->spec.settle_s.value_or(10e-3);
   for (const double times : {2.0, 5.0, 10.0, 20.0}) {
@@ -57,8 +58,10 @@ base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, 
     base::Result<design::DriveDesign> next = design::design_drive(motor, spec);
     if (next && !is_grave(*next)) return next;
   }
-  return base::Problem{"the motor", c.motor, "has no speed loop that its Hall probes allow",
-                       "run a design of it to find the reason, or give a settling time"};
+  return base::Problem{
+      "the motor", c.motor,
+      "has no usable speed loop with Hall probes, not even with 20 times the design's settling time",
+      "design the speed loop of this motor to find the reason, or give a settling time"};
 }
 
 Course course_of(const design::DriveDesign& d) {
@@ -183,9 +186,10 @@ std::vector<std::string> rules_of(const ContestBench& b) {
               design::nominal_current_words(b.design) + ", " + n(b.design.nominal_current_A) + " A",
           "one high speed, " + n(b.course.high_rad_s) + " rad/s: " + n(high_part) +
               " of the highest speed at which the bus drives this current",
-          "one course: to the high speed against " + n(b.course.load_Nm * 500) + " mN m, at " +
-              n(b.course.load_at_s * 1e3) + " ms " + n(b.course.load_Nm * 1e3) + " mN m, at " +
-              n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) + " rad/s"};
+          "one course: a start to the high speed against " + n(b.course.load_Nm * 500) +
+              " mN m, a load step to " + n(b.course.load_Nm * 1e3) + " mN m at " +
+              n(b.course.load_at_s * 1e3) + " ms, a deceleration to " + n(b.course.slow_rad_s) +
+              " rad/s at " + n(b.course.slow_at_s * 1e3) + " ms"};
 }
 
 }  // namespace
@@ -206,8 +210,8 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
     return base::Problem{"the motor", spec.motor,
-                         "is a linear motor, and the controllers are compared on a rotary one",
-                         "run its designs one by one"};
+                         "is a linear motor, and the comparison takes rotary motors only",
+                         "design each controller separately"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> d = drive_design(*motor, spec);

@@ -27,9 +27,10 @@ void check_pace(const Bench& b, base::Problems& problems) {
   };
   if (plant::field_at(m, b.voltage_V) > plant::fastest_field_rad_s)
     refuse("voltage_V", b.voltage_V,
-           "lets the field turn at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
-               " electrical rad/s, and no motor's is above " + base::rounded(plant::fastest_field_rad_s, 3),
-           "lower it, or check the unit of the motor's torque constant");
+           "makes the field turn at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
+               " electrical rad/s, and no motor reaches more than " +
+               base::rounded(plant::fastest_field_rad_s, 3),
+           "lower the voltage, or check the unit of the motor's torque constant");
   if (plant::winding_rate(m, b.devices) > plant::fastest_answer_1_s)
     refuse("on_resistance_ohm", b.devices.R_on_ohm,
            "makes the time constant of winding and bridge shorter than 100 ns",
@@ -53,7 +54,7 @@ base::Problems check(const Bench& b) {
   hold("voltage_V", b.voltage_V, base::above(0), "V", "give the bus voltage in volts");
   if (!(base::between(-1, 1).holds(b.duty) && std::fabs(b.duty) >= least_duty))
     problems.push_back({"duty", base::written(b.duty), "must be in (0, 1]",
-                        "1 is the full voltage; without any the motor only brakes"});
+                        "give a duty of 1e-6 to 1; 1 is the full voltage"});
   hold("pwm_period_s", b.pwm_period_s, {0, 1, false, true}, "s",
        "give the PWM period in seconds, as 50e-6 for 20 kHz");
   hold("on_resistance_ohm", b.devices.R_on_ohm, base::from(0), "ohm",

@@ -25,8 +25,8 @@ base::Problems check_temperatures(const CurveRequest& r) {
                                                          {"housing_degC", r.motor_degC.housing_degC}};
   for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's limit
     if (!base::between(-200, 500).holds(degC))
-      problems.push_back(
-          {name, base::written(degC), "must be a temperature, -200 to 500 degC", "data sheets mean 25"});
+      problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
+                          "give the temperature in degC; data sheets refer to 25"});
   if (auto lost = design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC);
       problems.empty() && lost)
     problems.push_back(std::move(*lost));
@@ -42,13 +42,13 @@ base::Problems check(const CurveRequest& r) {
     for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)
     problems.push_back({"duty", base::written(r.bench.duty), "must be in (0, 1]",
-                        "a curve is taken forwards: backwards it is the same"});
+                        "give the duty without its sign: the backward curve is the same"});
   if (r.points < 2)
     problems.push_back({"points", std::to_string(r.points), "must be at least 2",
-                        "a curve needs standstill, no load and some points between"});
+                        "give at least 2: standstill and no load"});
   if (r.points > most_points)
     problems.push_back({"points", std::to_string(r.points), "must be at most " + std::to_string(most_points),
-                        "a page shows some hundred; each is simulated and stored"});
+                        "give fewer points; a page shows some hundred"});
   return problems;
 }
 

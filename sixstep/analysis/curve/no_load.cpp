@@ -48,7 +48,7 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   if (!search.take(0.0, low)) return false;
   if (!(low.torque > 0)) {
     search.problems = {{"duty", base::written(b.duty),
-                        "gives no torque beyond the motor's own friction: the rotor stays where it is",
+                        "gives no torque beyond the motor's own friction: the rotor does not turn",
                         "raise the duty or the voltage"}};
     return false;
   }
@@ -60,7 +60,7 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
     low = high;
   }
   search.problems = {{"speed", base::written(high.speed) + " rad/s",
-                      "is reached without load and the torque is still positive",
+                      "is more than seven times the ideal no-load speed, and the torque is still positive",
                       "check the sheet's torque constant and friction"}};
   return false;
 }

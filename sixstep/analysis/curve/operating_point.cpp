@@ -31,7 +31,7 @@ base::Problem ended_early(double speed, sim::Stop stop) {
   if (stop == sim::Stop::end || stop == sim::Stop::observer) return interrupted_work();
   return {"speed " + base::written(speed) + " rad/s", "",
           stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                       : "events repeat without time going on",
+                                       : "switching events repeat without end at one instant",
           "this is a defect of sixstep: please report it with the motor file"};
 }
 

@@ -22,24 +22,25 @@ base::Problems check_built_speed(double electrical_Hz, int pole_pairs) {
   const std::string pairs = with_pairs(pole_pairs);
   if (pole_pairs == 0 && electrical_Hz > most_built_Hz)
     return {{.where = "time",
-             .limit = "makes " + base::six_digits(electrical_Hz) +
-                      " Hz of the voltage, and no brushless machine is built for more than " +
-                      base::six_digits(most_built_Hz),
+             .limit = "gives the voltage a frequency of " + base::six_digits(electrical_Hz) +
+                      " Hz, and no brushless machine is built for more than " +
+                      base::six_digits(most_built_Hz) + " Hz",
              .cure = "check the unit of time and the time from row to row"}};
   if (pole_pairs > 0 && rpm > built_shaft_rpm.high)
-    return {{.where = "time",
-             .limit = "makes " + base::six_digits(rpm) + " rpm" + pairs +
-                      ", and no brushless machine is built for more than " +
-                      base::six_digits(built_shaft_rpm.high),
-             .cure = "check the unit of time, the time from row to row, and whether the pole pairs are "
-                     "more"}};
+    return {
+        {.where = "time",
+         .limit = "gives the shaft " + base::six_digits(rpm) + " rpm" + pairs +
+                  ", and no brushless machine is built for more than " +
+                  base::six_digits(built_shaft_rpm.high) + " rpm",
+         .cure =
+             "check the unit of time, the time from row to row, and whether the motor has more pole pairs"}};
   if (rpm < built_shaft_rpm.low)
     return {{.where = "time",
-             .limit = "makes " + base::three_digits(rpm) + " rpm" + pairs +
+             .limit = "gives the shaft " + base::three_digits(rpm) + " rpm" + pairs +
                       (pole_pairs == 0 ? " at the most" : "") + ", and a motor below " +
                       base::written(built_shaft_rpm.low) + " rpm has too little back-EMF to measure",
              .cure = std::string("check the unit of time and the time from row to row") +
-                     (pole_pairs > 1 ? ", and whether the pole pairs are fewer" : "")}};
+                     (pole_pairs > 1 ? ", and whether the motor has fewer pole pairs" : "")}};
   return {};
 }
 
@@ -48,14 +49,15 @@ base::Problems check_built_constant(double line_peak_V_s, double electrical_Hz, 
   if (built_line_mV_s.holds(mV_s)) return {};
   const bool low = mV_s < built_line_mV_s.low;
   const std::string pairs = pole_pairs < 2 ? ""
-                            : low          ? ", or the pole pairs are more"
-                                           : ", or the pole pairs are fewer";
+                            : low          ? ", or the motor has more pole pairs"
+                                           : ", or the motor has fewer pole pairs";
   return {{.where = "voltage",
-           .limit = "over speed is " + base::three_digits(mV_s) + " mV s/rad, line peak at " +
+           .limit = "divided by the speed is " + base::three_digits(mV_s) + " mV s/rad, line peak at " +
                     base::three_digits(electrical_Hz) + " Hz" + with_pairs(pole_pairs) +
                     ", and no brushless machine is built with " +
                     (low ? "less than " + base::written(built_line_mV_s.low)
-                         : "more than " + base::six_digits(built_line_mV_s.high)),
+                         : "more than " + base::six_digits(built_line_mV_s.high)) +
+                    " mV s/rad",
            .cure = std::string("check the units of time and voltage and the probe's factor: ") +
                    (low ? "the voltage is read too small, or the time too short"
                         : "the voltage is read too great, or the time too long") +

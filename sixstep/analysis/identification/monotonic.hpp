@@ -29,13 +29,13 @@ inline base::Problems check_column(const std::string& name, const std::vector<do
     return {{.where = name,
              .value = std::to_string(values.size()) + " values",
              .limit = "must be one for each of " + std::to_string(rows) + " times",
-             .cure = "give columns of one length"}};
+             .cure = "give columns of equal length"}};
   const auto wrong = std::find_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); });
   if (wrong == values.end()) return {};
   return {{.where = name,
            .value = base::written(*wrong),
            .limit = "in row " + std::to_string(wrong - values.begin() + 1) + " is not a number",
-           .cure = "leave such rows out"}};
+           .cure = "remove such rows"}};
 }
 
 }  // namespace sixstep::analysis

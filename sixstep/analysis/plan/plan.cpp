@@ -80,10 +80,10 @@ class Checker {
       add("points", "0", "leaves no point to run", "give the number of points");
     if (plan_.sampling == Sampling::saltelli && plan_.drives > 0)
       add("drives", std::to_string(plan_.drives), "vary at random, and Sobol indices need planned points",
-          "vary these values over their range, with strays = true");
+          "vary these values as keys of [[vary]] over their ranges, with strays = true");
     if (problems_.empty() && too_many())
-      add("points", "", "give more than a thousand million runs, the limit of a plan",
-          "take fewer values, points or drives");
+      add("points", "", "make more than a thousand million runs, the limit of a plan",
+          "give fewer values, points or drives");
     return std::move(problems_);
   }
 
@@ -95,17 +95,18 @@ class Checker {
     const auto here = plan_.axes.begin() + static_cast<std::ptrdiff_t>(n);
     if (a.key.empty()) return add(where + "key", "", "is missing", "name it as table.key");
     if (std::any_of(plan_.axes.begin(), here, same))
-      return add(where + "key", a.key, "is varied already", "give it all its values at once");
+      return add(where + "key", a.key, "is varied already", "give all values of this key in one entry");
     if (!a.values.empty()) return;
     if (!std::isfinite(a.from) || !std::isfinite(a.to))
-      return add(where + "from", base::written(a.from), "and its other end are not a range",
-                 "give two numbers");
+      return add(where + "from", base::written(a.from), "and the other end do not make a range",
+                 "give two finite numbers");
     if (a.spacing == Spacing::logarithmic && !(a.from > 0.0 && a.to > 0.0))
       return add(where + "from", base::written(std::min(a.from, a.to)),
-                 "has no logarithm: ends of a logarithmic range are above 0", "space it linearly");
+                 "must be above 0, like both ends of a logarithmic range",
+                 "give ends above 0, or set spacing = \"linear\"");
     if (plan_.sampling == Sampling::grid && a.points < 2)
-      return add(where + "points", std::to_string(a.points), "remove one end of the range",
-                 "give 2 points or more");
+      return add(where + "points", std::to_string(a.points), "must be at least 2, for both ends of the range",
+                 "give at least 2 points");
   }
 
   bool too_many() const {

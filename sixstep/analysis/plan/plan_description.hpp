@@ -31,10 +31,10 @@ struct PlanEntry {
 };
 
 inline constexpr base::Choice<Sampling> sampling_choices[] = {
-    {"grid", Sampling::grid, "every value of each key with every one of the others"},
+    {"grid", Sampling::grid, "every combination of the values of all keys"},
     {"latin-hypercube", Sampling::latin_hypercube,
      "each key's range divided into as many parts as points, one point in each part"},
-    {"sobol", Sampling::sobol, "a sequence that fills the ranges evenly, whatever its length"},
+    {"sobol", Sampling::sobol, "a sequence that fills the ranges evenly for any number of points"},
     {"monte-carlo", Sampling::monte_carlo, "at random"},
     {"saltelli", Sampling::saltelli,
      "for Sobol indices, which show the keys on which a figure depends: points times (keys + 2) runs"},
@@ -72,17 +72,18 @@ inline void describe(base::Visitor& v, PlanEntry& s) {
       {.meaning = "drives of the series that [[spread]] describes, at each point; 0: the drive as written",
        .range = base::between(0, 1e9)});
   v.value("seed", s.seed,
-          {.meaning = "another series of drives and of points that are drawn", .range = base::from(0)});
+          {.meaning = "seed of the drawn drives and points: another number gives another series",
+           .range = base::from(0)});
   v.value("sheet_tolerances", s.sheet_tolerances,
           {.meaning =
                "whether drives also vary by the usual tolerances of resistance, inductance, torque constant "
                "and of the places of Hall edges, for values that [[spread]] does not have"});
   v.value(
       "minimise", s.minimise,
-      {.meaning =
-           "label of the figure that is to be small, for design with optimise: every requirement held by every drive"});
-  v.value("evaluations", s.evaluations,
-          {.meaning = "points that are tried for it, at most", .range = base::between(1, 1e6)});
+      {.meaning = "label of the figure that a design minimises, while every drive holds every requirement"});
+  v.value(
+      "evaluations", s.evaluations,
+      {.meaning = "largest number of points that the optimisation tries", .range = base::between(1, 1e6)});
   v.list("vary", s.vary, {.meaning = "keys that differ from point to point"});
 }
 

@@ -94,7 +94,7 @@ base::Result<RunRecord> RunRecord::of(TableColumns columns, RunValues values) {
           so_many(values.figures.size(), "measured values"),
       "do not fit the table, which has " + so_many(c.keys.size(), "varied, ") +
           so_many(c.strayed.size(), "strayed and ") + so_many(c.figures.size(), "measured columns"),
-      "report this with its command"};
+      "this is a defect of sixstep: please report it with the command"};
 }
 
 RunRecord RunRecord::without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
@@ -121,11 +121,13 @@ RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector
   if (planned && same_keys(planned->strayed, columns->strayed))
     for (std::size_t n = 0; n < values.strayed.size(); ++n) values.strayed[n] = planned->strayed[n].value;
   else if (planned)
-    return *without_figures("this run has other random values than the table's other runs");
+    return *without_figures(
+        "the random values of this run are of other keys than those of the table's other runs");
   if (!result) return *without_figures(base::to_string(result.problems().front()));
   std::optional<std::vector<double>> figures = figures_of(*result, *columns);
   if (!figures)
-    return *without_figures("this run has other figures than the table's other runs, or other units");
+    return *without_figures(
+        "the figures of this run, or their units, differ from those of the table's other runs");
   values.end = result->fault ? RunEnd::fault : RunEnd::whole;
   if (result->fault) values.problem = base::to_string(*result->fault);
   values.remarks = result->remarks;

@@ -168,8 +168,9 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   for (const auto& [spec, next] : dear)
     if (rescued(spec, next)) return {words_of_change(order.spec, spec), false};
   if (!nominal.empty())
-    return {nominal + ", as far as the sheet's motor alone shows: its tolerances take longer to simulate",
-            true};
+    return {
+        nominal + ", tested with the sheet's nominal motor only: the tolerances take too long to simulate",
+        true};
   return out;
 }
 
@@ -179,17 +180,17 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   DesignOrder next = order;
   next.subject.step = base::shortened(0.9 * (held - first), 2, base::Towards::down);
   TrialBudget budget{rescue_periods};
-  if (!holds(next, order.spec, budget))
-    return "only a smaller step, a higher voltage or less load makes it usable";
+  if (!holds(next, order.spec, budget)) return "give a smaller step, a higher voltage or less load";
   return "usable with step = " + base::written(*next.subject.step);
 }
 
 /// Text for the case that all tried changes failed.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
-  std::string text = "no tried change makes it usable: chopping, period, sensor, slower loops, less torque";
-  if (too_long) text += "; changes that take longer to simulate were left out";
+  std::string text =
+      "none of the tried changes makes the design usable: another chopping, period or sensor, slower loops, less torque";
+  if (too_long) text += "; changes that take longer to simulate were not tried";
   if (d.spec.settle_s && d.settle_by_torque_s > *d.spec.settle_s)
-    text += "; torque limit and inertia need settle_s = " +
+    text += "; this torque limit and inertia need settle_s = " +
             base::written(base::shortened(d.settle_by_torque_s, 2, base::Towards::up));
   return text;
 }
@@ -213,16 +214,16 @@ std::string board_is_the_cause(const DesignOrder& order) {
   const bool crossed =
       board.sensors.hall_lines != usual.sensors.hall_lines || board.bridge.phases != usual.bridge.phases;
   if (crossed && holds_on(straight))
-    return "the wiring is the cause (sensors.hall_lines, bridge.phases): with straight wires it is usable";
+    return "correct the wiring (sensors.hall_lines, bridge.phases): with straight wires the design is usable";
   if (!board.sensors.current_bandwidth_Hz ||
       !holds_on([](study::Scenario& s) { s.sensors.current_bandwidth_Hz.reset(); }))
     return {};
   for (const double times : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0})
     if (const double wider_Hz = times * *board.sensors.current_bandwidth_Hz;
         holds_on([wider_Hz](study::Scenario& s) { s.sensors.current_bandwidth_Hz = wider_Hz; }))
-      return "the current's amplifier is the cause: usable with sensors.current_bandwidth_Hz = " +
+      return "the current amplifier is too slow: the design is usable with sensors.current_bandwidth_Hz = " +
              base::written(wider_Hz);
-  return "the current's amplifier is the cause: without its lag it is usable";
+  return "the current amplifier is too slow: the design is usable without the amplifier's lag";
 }
 
 /// Finds changes that make an unusable design usable.

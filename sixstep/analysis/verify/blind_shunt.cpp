@@ -47,20 +47,21 @@ void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
   if (s.scenario.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const double unseen_A = unseen_current_A(s.design, s.scenario);
   if (unseen_A == 0.0) return;
-  const std::string blind = "with the rotor at rest one shunt measures no current below " +
-                            base::three_digits(unseen_A) + " A: its pulse is too short";
-  design::Warning w{.what = blind + ", and smaller currents are not controlled",
-                    .cure = "measure the phases' currents, or shorten the cause: " + hiding(s.scenario),
+  const std::string blind = "with the rotor at rest a single shunt measures no current below " +
+                            base::three_digits(unseen_A) + " A, because the pulse is too short";
+  design::Warning w{.what = blind + "; smaller currents are not controlled",
+                    .cure = "measure the phase currents, or reduce " + hiding(s.scenario),
                     .of = design::Concern::shunt};
   if (s.design.spec.mode == control::Mode::current && std::fabs(s.scenario.reference.value) < unseen_A) {
-    w.what =
-        blind + ", and the step commands " + base::three_digits(std::fabs(s.scenario.reference.value)) + " A";
+    w.what = blind + "; the step commands only " + base::three_digits(std::fabs(s.scenario.reference.value)) +
+             " A";
     w.grave = true;
   }
   if (s.design.spec.mode == control::Mode::speed && s.allowed_swing_rad_s)
     if (const std::optional<double> swing = idle_swing(order, s); swing && *swing > *s.allowed_swing_rad_s) {
-      w.what = "without a load the speed swings by " + base::three_digits(*swing) + " rad/s, and may by " +
-               base::three_digits(*s.allowed_swing_rad_s) + ": " + blind;
+      w.what = "without a load the speed swings by " + base::three_digits(*swing) +
+               " rad/s, more than the allowed " + base::three_digits(*s.allowed_swing_rad_s) +
+               " rad/s: " + blind;
       w.grave = true;
     }
   s.warnings.push_back(w);

@@ -120,13 +120,12 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
   }
   if (board.control.drive == study::FirmwareKind::sensorless)
     out.lost =
-        "control.drive = \"sensorless\" of the board's scenario is left out: the loops were run with Hall edges "
-        "where crossings would be";
+        "control.drive = \"sensorless\" of the board's scenario is left out: the loops were tested with Hall edges in place of zero crossings";
   else if (!out.kept.empty()) {
     std::string reason = against(s, study.outcome, &out.differs);
     if (reason.empty()) reason = trips_within_tolerances(study, s);
     if (!reason.empty())
-      out.lost = "of the board's scenario are left out: " + out.kept + "; with them " + reason;
+      out.lost = "these keys of the board's scenario are left out: " + out.kept + "; with them " + reason;
   }
   if (out.lost.empty()) {
     study::Scenario in_its_numbers = s;

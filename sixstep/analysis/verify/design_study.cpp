@@ -31,13 +31,13 @@ base::Problems too_long(const study::Scenario& s) {
   if (s.duration_s / s.pwm.period_s <= most_periods) return {};
   return {{"the test", base::three_digits(s.duration_s) + " s",
            "is longer than two million control periods: the drive is too slow for this period",
-           "give more torque_limit_Nm, a higher lowest_speed_rad_s or a longer period_s"}};
+           "raise torque_limit_Nm or lowest_speed_rad_s, or lengthen period_s"}};
 }
 
 /// Finds a position's gain, and writes it into the design.
 base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   if (!(s.design.loop("position").gains.d1 > 0.0))
-    return {{"mode", "position", "finds no gain without overshoot: the inner speed loop is unstable",
+    return {{"mode", "position", "has no gain without overshoot: the inner speed loop is unstable",
              "design the speed loop slower (settle_s) or the current loop faster (current_settle_s, "
              "bandwidth_rad_s)"}};
   if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;

@@ -117,12 +117,12 @@ void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
 
 void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   const design::FieldMachine& m = f.machine;
-  f.axes = {
-      {"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
-      {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
-      {"p L_d", "decoupling: voltage across over speed and i_d", c.current.d_V_s_A, "V s/A"},
-      {"p L_q", "decoupling: voltage along over speed and i_q", c.current.q_V_s_A, "V s/A"},
-      {"n T p", "angle that the magnet turns until a command acts, over the speed", c.advance.rad_s, "s"}};
+  f.axes = {{"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
+            {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
+            {"p L_d", "decoupling: voltage across the magnet over speed and i_d", c.current.d_V_s_A, "V s/A"},
+            {"p L_q", "decoupling: voltage along the magnet over speed and i_q", c.current.q_V_s_A, "V s/A"},
+            {"n T p", "angle by which the magnet turns until a command acts, over the speed", c.advance.rad_s,
+             "s"}};
   if (!c.current.decouples) f.axes.erase(f.axes.begin() + 2, f.axes.begin() + 4);
   if (c.per_ampere.k_per_A != 0)
     f.axes.push_back({"k", "(L_q - L_d)/(2 psi), most torque per ampere", c.per_ampere.k_per_A, "1/A"});
@@ -134,15 +134,15 @@ void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   }
   if (!(c.weakening.most_A > 0)) return;
   f.axes.push_back({"K", "weakening, per sample", c.weakening.K_A_per_V, "A/V"});
-  f.axes.push_back(
-      {"psi/L_d", "above it more current against the magnet needs more voltage", most_weakening_A(m), "A"});
+  f.axes.push_back({"psi/L_d", "current against the magnet above which weakening needs more voltage",
+                    most_weakening_A(m), "A"});
 }
 
 void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   const double I = f.design.nominal_current_A;
-  f.limits = {{"U_s/sqrt 3", "the circle, the largest phase voltage in every direction", circle_V(f), "V"},
-              {"w_0", "above it the magnet's back-EMF alone is larger than the circle", base_speed_rad_s(f),
-               "rad/s"}};
+  f.limits = {
+      {"U_s/sqrt 3", "the circle, the largest phase voltage in every direction", circle_V(f), "V"},
+      {"w_0", "speed at which the magnet's back-EMF reaches the circle", base_speed_rad_s(f), "rad/s"}};
   if (I > 0) {
     f.limits.push_back({"i_q",
                         f.design.spec.mode == Mode::current ? "the sheet's nominal current"
@@ -202,10 +202,10 @@ void look_at_separation(FieldStudy& f) {
 
 void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s, FieldStudy& f) {
   if (asked_rad_s > base_speed_rad_s(f) && !(c.weakening.most_A > 0))
-    f.warnings.push_back({"the reference is " + base::three_digits(asked_rad_s) +
-                              " rad/s, and the bus has no voltage above " +
-                              base::three_digits(base_speed_rad_s(f)) + " rad/s",
-                          "give control.field.weakening_A, or raise supply.voltage_V", false});
+    f.warnings.push_back({"the reference is " + base::three_digits(asked_rad_s) + " rad/s, and above " +
+                              base::three_digits(base_speed_rad_s(f)) +
+                              " rad/s the back-EMF alone exceeds the bus voltage",
+                          "set control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
 /// Adds the lag of the estimated speed: w_n^2/(s + w_n)^2 for a tracking loop with damping 1.

@@ -61,7 +61,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
   const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
   if (!(least > 0.0))
-    return base::Problem{"voltage_V", "", "does not turn the rotor: at half the voltage friction holds it",
+    return base::Problem{"voltage_V", "", "is too low: at a duty of 1/2 friction holds the rotor",
                          "give a higher bus voltage in V"};
   s.motor = spec.motor;
   s.sheet = spec.sheet;
@@ -76,9 +76,9 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   const double tau = motor.shaft.J_kg_m2 / (K * K / commutating + motor.shaft.B_Nm_s);
   if (!(10 * tau < longest_run_up_s))
     return base::Problem{"the motor", spec.motor,
-                         "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
-                         "check the inertia and the torque constant of its sheet"};
-  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // when the window begins, exp(-9) of the run-up remains
+                         "takes " + base::rounded(10 * tau, 3) + " s to run up, more than the allowed 600 s",
+                         "check the inertia and the torque constant of the motor's sheet"};
+  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the run-up is left when the window begins
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
       measure(study::MetricKind::mean, study::Signal::speed, calm, "speed at the end");
@@ -167,7 +167,7 @@ bool runs_and_passes(const study::Scenario& s) {
 /// the motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
-  std::string more = "a design shows more";
+  const std::string more = "a design of the motor shows the cause";
   DesignOrder order = order_of(spec);
   order.tolerances.clear();
   TrialBudget budget{trial_periods};
@@ -233,7 +233,7 @@ void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
     return;
   }
   study::Requirement& mean = middle.require.front();
-  mean.measure.label = "mean of the last ten periods, dead time in it";
+  mean.measure.label = "mean of the last ten periods, dead time included";
   if (mean.max)
     *mean.max += s.bridge.dead_time_s / 2 * s.supply.voltage_V / (2 * study.design.motor.machine.L_H);
   if (stands && runs_and_passes(middle)) {
@@ -278,7 +278,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
       if (study->usable() && study->outcome.passed()) {
         study::Scenario s = own_scenario(spec, *study);
         if (runs_and_passes(s)) return s;
-        why = "with its values rounded for a file, its run misses its requirements";
+        why = "with the values rounded for a file, the run does not hold its requirements";
       }
       for (const design::Warning& w : study->warnings)
         if (w.grave) why = w.what;
@@ -310,9 +310,9 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
   for (const study::Verdict& v : outcome->verdicts)
     if (!v.ok)
       return base::Problem{"the motor", spec.motor,
-                           "differs from the prediction of its sheet: the " + v.figure + " is " +
+                           "does not run as its sheet predicts: the " + v.figure + " is " +
                                base::three_digits(v.measured) + " " + v.unit,
-                           "start with another mode; the torque-speed curve of the motor shows more"};
+                           "start with another mode, or compare with the torque-speed curve of the motor"};
   return s;
 }
 

@@ -38,9 +38,9 @@ void look_at_high_speed(const DesignOrder& order, DesignStudy& s) {
   if (!ideal || !held) return;
   if (!(std::fabs(*held - *ideal) > design::settling_band(s.design) * asked)) return;
   grain->grave = true;
-  grain->what += ": a run with a reference of " + base::three_digits(asked) + " rad/s holds " +
-                 base::three_digits(*held) + " rad/s, with ideal sensors " + base::three_digits(*ideal) +
-                 " rad/s";
+  grain->what += ". In a run with a reference of " + base::three_digits(asked) + " rad/s the mean speed is " +
+                 base::three_digits(*held) + " rad/s; with ideal sensors it is " +
+                 base::three_digits(*ideal) + " rad/s";
 }
 
 }  // namespace sixstep::analysis

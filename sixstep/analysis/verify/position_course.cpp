@@ -71,7 +71,7 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
       {settling, fastest,
        (forth_and_back / 2 > to_top
             ? "full torque up to " + of_top + " and down again"
-            : std::string("full torque, half of the way forward and half of it braking")) +
+            : std::string("full torque: accelerating for half of the way, braking for the other half")) +
            std::string(hall     ? "; simulated: to within three Hall steps"
                        : counts ? "; simulated: to within 1 %, or three steps of the sensor"
                                 : "; simulated: to within 0.05 %")},

@@ -36,13 +36,13 @@ base::Problem none_found(const design::DesignSpec& spec, const DesignSubject& su
                          const std::string& who) {
   const bool encoder_helps = spec.rotor.hall && decodes_encoders(subject.board);
   return {"mode", "position",
-          "finds no gain without overshoot: " + who + " tried down to gains that take too long",
-          std::string("give more torque_limit_Nm, or a smaller step") +
+          "has no gain without overshoot for " + who + "; smaller gains take too long to simulate",
+          std::string("raise torque_limit_Nm, or give a smaller step") +
               (encoder_helps ? ", or rotor = encoder instead of Hall probes" : "")};
 }
 
-constexpr const char* the_drive = "the drive was";
-constexpr const char* all_motors = "the motors of the tolerances were";
+constexpr const char* the_drive = "the nominal motor";
+constexpr const char* all_motors = "all motors within the tolerances";
 
 /// Runs the move with a gain, and judges only the overshoot.
 class Trial {

@@ -32,10 +32,10 @@ void look_at_reach(DesignStudy& s) {
   const std::string target = "the step's target of " + base::rounded(levels[1], 4) + " rad/s";
   const bool stands = swing->measured < missed;
   warn(s, design::Concern::reach,
-       stands ? target + " is out of reach: against " + base::three_digits(s.scenario.load.torque_Nm) +
-                    " N m on a bus of " + base::three_digits(s.design.bus_V) + " V the speed stays at " +
+       stands ? target + " is out of reach: with a load of " + base::three_digits(s.scenario.load.torque_Nm) +
+                    " N m and a bus of " + base::three_digits(s.design.bus_V) + " V the speed stays at " +
                     base::rounded(held, 4) + " rad/s"
-              : target + " is not reached by the end of the run: there the speed is about " +
+              : target + " is not reached by the end of the run: the speed is then about " +
                     base::rounded(held, 4) + " rad/s and still moves by " +
                     base::three_digits(swing->measured) + " rad/s",
        true);
@@ -51,7 +51,7 @@ constexpr const char* within = "within the tolerances";
 /// Text for the worst motor within the tolerances, and for the single tolerance with the largest effect.
 std::string with_which(const RobustFigure& f) {
   const bool one = f.culprit.empty() || f.culprit == f.at;
-  return ": with " + f.at + (one ? "" : ", chiefly for " + f.culprit);
+  return ": with " + f.at + (one ? "" : ", mainly because of " + f.culprit);
 }
 
 /// True with hard chopping: the mean voltage then drives the motor only above a duty of one half.
@@ -73,19 +73,18 @@ void look_at_settling(DesignStudy& s) {
   if (drowned(s))
     warn(
         s, design::Concern::settling,
-        "the commutations' ripple in speed, " +
+        "the speed ripple of the commutations, " +
             base::three_digits(figure_of(s.outcome, "speed ripple")->measured) +
-            " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling time says nothing",
+            " rad/s, exceeds 2 % of the largest step at which no limit acts: the settling time cannot be measured",
         false);
   else if (!std::isfinite(c->measured))
-    warn(s, design::Concern::settling, in_simulation(s) + " it never settles", true);
+    warn(s, design::Concern::settling, in_simulation(s) + " the loop never settles", true);
   else if (c->measured > 1.25 * c->value)
     warn(s, design::Concern::settling,
-         "in the simulation it settles in " + base::three_digits(1e3 * c->measured) + " ms, designed were " +
-             base::three_digits(1e3 * c->value) + " ms" +
-             (from_half_the_bus(s)
-                  ? ": from rest the integral must reach half the bus before hard chopping drives"
-                  : ""),
+         "in the simulation the loop settles in " + base::three_digits(1e3 * c->measured) +
+             " ms instead of the designed " + base::three_digits(1e3 * c->value) + " ms" +
+             (from_half_the_bus(s) ? ": with hard chopping the integral must first reach half the bus voltage"
+                                   : ""),
          false);
 }
 
@@ -109,8 +108,8 @@ void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when
   const double step = std::fabs(levels[1] - levels[0]);
   if (!(overshoot > step)) return;
   warn(s, design::Concern::settling,
-       when + " a step of the speed overshoots by " + base::three_digits(100 * overshoot / step) +
-           " % of it" + where,
+       when + " a step of the speed overshoots by " + base::three_digits(100 * overshoot / step) + " %" +
+           where,
        true);
 }
 
@@ -155,7 +154,7 @@ void look_at_worst_move(DesignStudy& s, const RobustFigure& f, const std::string
   const double allowed = unit.factor * allowed_overshoot_deg(s.design, s.scenario.reference.value);
   if (f.figure == "overshoot" && f.worst > allowed)
     warn(s, design::Concern::requirement,
-         std::string(within) + " it overshoots by " + base::three_digits(f.worst) + " " +
+         std::string(within) + " the position overshoots by " + base::three_digits(f.worst) + " " +
              std::string(unit.linear) + where,
          true);
   if (f.figure == swing_at_target && s.usable()) look_at_rest(s, f.worst, within, where);
@@ -171,7 +170,7 @@ void look_at_worst(DesignStudy& s, const RobustFigure& f) {
              where,
          true);
   if (f.figure == "settling time" && !drowned(s) && lost)
-    warn(s, design::Concern::settling, within + (" it never settles" + where), true);
+    warn(s, design::Concern::settling, within + (" the loop never settles" + where), true);
   if (f.figure == settling_of_start && lost && s.usable())
     warn(s, design::Concern::settling, within + (" the start from rest never settles" + where), true);
   if (f.figure == "overshoot" && s.usable()) look_at_overshoot(s, f.worst, within, where);

@@ -46,9 +46,10 @@ base::Problems set_current(const WiringSubject& subject, WiringBench& b) {
   b.current_A = subject.current_A.value_or(printed ? nominal_A : stall_A / 10);
   if (!(b.current_A > 0.0 && b.current_A <= stall_A))
     return {{"current_A", base::written(b.current_A),
-             "must be above 0 and at most the " + base::rounded(stall_A, 4) +
-                 " A that the bus drives through the stalled motor",
-             "remove it for the sheet's nominal current"}};
+             "must be above 0 and at most " + base::rounded(stall_A, 4) +
+                 " A, which the bus drives through the stalled motor",
+             printed ? "remove it: the default is the sheet's nominal current"
+                     : "remove it: the default is a tenth of that current"}};
   b.duty = b.current_A / stall_A;
   return {};
 }
@@ -118,9 +119,9 @@ base::Result<WiringBench> wiring_bench(const WiringSubject& subject) {
   const double longest = std::max(b.free_s, b.turned_from_s + b.turned_s);
   if (!(longest <= most_periods * study::Pwm{}.period_s))
     return base::Problem{"current_A", base::written(b.current_A),
-                         "makes a test of " + base::rounded(longest, 3) +
-                             " s, and that 252 times: the motor is too slow with it",
-                         "give more current, or check the units of the motor's inertia and torque constant"};
+                         "makes each of the 252 runs last " + base::rounded(longest, 3) +
+                             " s: the motor is too slow with this current",
+                         "raise the current, or check the units of the motor's inertia and torque constant"};
   return b;
 }
 

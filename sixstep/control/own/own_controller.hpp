@@ -24,7 +24,7 @@ struct OwnFunctions {
   using Config = typename Class::Config;
   using State = typename Class::State;
   static_assert(__is_trivially_copyable(Config) && __is_trivially_copyable(State),
-                "they are moved about as bytes");
+                "the program copies config and state as bytes");
 
   static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {
     auto& own = *static_cast<Config*>(config);

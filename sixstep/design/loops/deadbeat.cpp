@@ -35,7 +35,7 @@ base::Result<Deadbeat> deadbeat(const DeadbeatSpec& spec) {
        {"t_w", "from a sample to its answer", wait_s, "s"},
        {"a", "exp(-R T_s / L)", whole.decay, ""},
        {"b", "(1 - a) / R", whole.A_per_V, "A/V"},
-       {"1/b", "volts that move the current by 1 A in a period", V_per_A, "V/A"},
+       {"1/b", "voltage that changes the current by 1 A in a period", V_per_A, "V/A"},
        {"a_w", "exp(-R t_w / L)", wait.decay, ""},
        {"b_w", "(1 - a_w) / R", wait.A_per_V, "A/V"},
        {"g/b", "correction voltage per ampere of prediction error", spec.correction * V_per_A, "V/A"}}};

@@ -71,10 +71,10 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
 void look_at_grain(const DriveDesign& d, Collector& out) {
   if (!is_grainy(d)) return;
   out.add(Concern::grain,
-          "at " + base::three_digits(d.high_speed_rad_s) + " rad/s the measured speed jumps by " +
-              base::three_digits(d.speed_step_rad_s) + " rad/s at a time, of which the speed loop makes " +
-              base::rounded(100.0 * d.speed_step_part, 3) + " % of the torque limit and the current loop " +
-              base::three_digits(d.speed_step_V) + " V at once, where the bus has " +
+          "at " + base::three_digits(d.high_speed_rad_s) + " rad/s one step of the measured speed is " +
+              base::three_digits(d.speed_step_rad_s) + " rad/s. Each step changes the torque reference by " +
+              base::rounded(100.0 * d.speed_step_part, 3) + " % of the torque limit, and the voltage by " +
+              base::three_digits(d.speed_step_V) + " V; the bus has " +
               base::three_digits(std::fmax(d.high_speed_left_V, 0.0)) + " V left");
 }
 
@@ -88,17 +88,17 @@ void look_at_steps(const DriveDesign& d, Collector& out) {
   const std::string step = base::three_digits(60.0 / d.motor.machine.pole_pairs * deg.factor) +
                            (d.motor.kind == MotorKind::linear ? " mm" : " degrees");
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
-    out.add(Concern::rest, "within a Hall step of " + step +
-                               " of its target the drive measures its speed only every " +
-                               milliseconds(blind_s) + " (1/K_p), and the speed loop tolerates a delay of " +
-                               milliseconds(*stands) + ": it comes to within a few steps and never rests");
+    out.add(Concern::rest, "within one Hall step (" + step +
+                               ") of the target the drive measures its speed only every " +
+                               milliseconds(blind_s) + " (1/K_p), later than the " + milliseconds(*stands) +
+                               " that the speed loop tolerates: the rotor never comes to rest");
 }
 
 void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (loop.gains.d1 <= 0.0 && loop.name == "current")
-    out.add(Concern::sign, "the current loop is asked to be slower than the motor's own L/R, " +
+    out.add(Concern::sign, "the current loop is designed to be slower than the motor's own L/R, " +
                                milliseconds(d.motor.machine.L_H / d.motor.machine.R_ohm) +
-                               ": its proportional gain is negative");
+                               ", which makes the proportional gain negative");
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
@@ -132,8 +132,9 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
   // period.
   const double allowed_s = period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, allowed_A);
   if (grave)
-    what += ": " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
-            " mH of choke in each line leave " + base::three_digits(100 * greatest_ripple) + " %";
+    what += "; a choke of " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
+            " mH in each motor lead reduces the ripple to " + base::three_digits(100 * greatest_ripple) +
+            (d.nominal_printed ? " % of the nominal current" : " % of that current");
   out.add(Concern::ripple, std::move(what), grave);
 }
 
@@ -141,11 +142,12 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   const double top =
       d.motor.no_load_speed_rad_s > 0.0 ? d.motor.no_load_speed_rad_s : d.bus_V / d.motor.K_t_Nm_A;
   if (d.spec.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
-    out.add(Concern::braking,
-            "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) +
-                " A" + (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") +
-                " above " + base::three_digits(d.braking_limit_rad_s) +
-                " rad/s, (i/K_t) R: the motor brakes through the lower switches");
+    out.add(
+        Concern::braking,
+        "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) + " A" +
+            (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
+            base::three_digits(d.braking_limit_rad_s) +
+            " rad/s, (i/K_t) R: above this speed the lower switches short the motor, and the current is larger");
 }
 
 /// Checks the voltage that a step needs: the first command after a step of the nominal current i is d1 i.
@@ -153,8 +155,9 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
     out.add(Concern::voltage, "a step of " + std::string(nominal_current_words(d)) + " needs " +
-                                  base::three_digits(first_V) + " V at once, and the bus has " +
-                                  base::three_digits(d.bus_V) + " V: it settles later than designed");
+                                  base::three_digits(first_V) + " V at once, but the bus has only " +
+                                  base::three_digits(d.bus_V) +
+                                  " V: the current settles later than designed");
   if (d.headroom_end_rad_s <= 0.0)
     out.add(Concern::voltage,
             "the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",
@@ -164,7 +167,7 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
 void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.placed || !loop.figures.stable) return;
   if (loop.placed->settle_s < 10.0 * d.spec.period_s)
-    out.add(Concern::pace, "the " + loop.name + " loop is to settle within " +
+    out.add(Concern::pace, "the " + loop.name + " loop is designed to settle within " +
                                milliseconds(loop.placed->settle_s) + ", " +
                                base::three_digits(loop.placed->settle_s / d.spec.period_s) +
                                " control periods, fewer than ten");

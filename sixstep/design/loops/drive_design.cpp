@@ -118,7 +118,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
       return base::Problem{
           "bandwidth_rad_s", base::written(*w.bandwidth_rad_s),
           "must be below the limit from the current loop's lag, " + base::written(1.0 / lag) + " rad/s",
-          "lower it; a third of that has the most phase to spare"};
+          "lower it; at a third of this limit the rule leaves 53 degrees of phase"};
     return by_rule("speed", "symmetrical optimum",
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
   }
@@ -251,12 +251,14 @@ void add_speed_step(DriveDesign& d, double crossover) {
   if (!(d.speed_step_rad_s > 0.0)) return;
   d.sensing.push_back(
       {"w_high", "0.9 of the speed where \"voltage left\" ends, two digits", d.high_speed_rad_s, "rad/s"});
-  d.sensing.push_back({"dw_high", "a step of the measured speed there", d.speed_step_rad_s, "rad/s"});
-  d.sensing.push_back({"d1 dw", "of the torque limit: the change of the speed loop's command by that step",
-                       d.speed_step_part, ""});
-  d.sensing.push_back({"du", "that part of T_max/K_t times the current loop's d1", d.speed_step_V, "V"});
   d.sensing.push_back(
-      {"u_left", "of the bus at w_high and half the nominal current", d.high_speed_left_V, "V"});
+      {"dw_high", "one step of the measured speed at that speed", d.speed_step_rad_s, "rad/s"});
+  d.sensing.push_back({"d1 dw", "change of the torque reference by that step, as a part of the torque limit",
+                       d.speed_step_part, ""});
+  d.sensing.push_back({"du", "change of the voltage: d1 dw times T_max/K_t times the current loop's d1",
+                       d.speed_step_V, "V"});
+  d.sensing.push_back({"u_left", "voltage that the bus has left at w_high and half the nominal current",
+                       d.high_speed_left_V, "V"});
 }
 
 void add_sensing(DriveDesign& d) {
@@ -371,8 +373,9 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec
 
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg) {
   DriveDesign d = design;
-  d.loops.back() = position_loop(gain_rad_s_per_deg, "largest gain under the limits",
-                                 "largest that overshoots by 1 % of the move or three sensor steps at most");
+  d.loops.back() =
+      position_loop(gain_rad_s_per_deg, "largest gain under the limits",
+                    "largest gain whose overshoot is at most 1 % of the move or three sensor steps");
   finish(d);
   return d;
 }

@@ -40,17 +40,19 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
                         double natural_rad_s, FieldEstimate& out) {
   control::EstimatorConfig<double>& c = out.config;
   if (m.L_d_H == m.L_q_H)
-    return {{"control.field.angle", "\"injection\"",
-             "finds the magnet's axis by L_d and L_q, and this rotor's are the same",
-             "give the sheet d_axis_inductance_mH and q_axis_inductance_mH, or set angle = \"observer\""}};
+    return {
+        {"control.field.angle", "\"injection\"",
+         "finds the magnet's axis by the difference of L_d and L_q, and both inductances are equal",
+         "give d_axis_inductance_mH and q_axis_inductance_mH in the motor file, or set angle = \"observer\""}};
   const double turns = m.L_d_H < m.L_q_H ? m.L_q_H / m.L_d_H - 1 : 1 - m.L_q_H / m.L_d_H;
   const double part = saturation_A > 0 ? std::min({0.2, turns / 2, s.current_A / saturation_A}) : 0.0;
   if (part < least_saturation)
     return {{"control.field.angle", "\"injection\"",
-             saturation_A > 0 ? "distinguishes north from south by less than 1 % of the current's response"
-                              : "distinguishes north from south by saturation, and the sheet gives none",
+             saturation_A > 0
+                 ? "distinguishes north from south by less than 1 % of the current's response"
+                 : "distinguishes north from south by saturation, and the sheet has no saturation_current_A",
              saturation_A > 0 ? "allow more current, or set angle = \"observer\""
-                              : "give the sheet saturation_current_A, or set angle = \"observer\""}};
+                              : "give saturation_current_A in the motor file, or set angle = \"observer\""}};
   const double most_V = 0.25 * s.bus_V * by_root_3, gentle_V = 0.2 * s.current_A * m.L_d_H / s.period_s;
   const double V = s.injection_V.value_or(std::min(most_V, gentle_V));
   const double Y_D = (1 / m.L_d_H - 1 / m.L_q_H) / 2;
@@ -61,7 +63,7 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
              static_cast<std::uint16_t>(std::min<std::uint32_t>(settle + 8, 10000)), 64};
   out.steps.insert(out.steps.end(),
                    {{"V", "injected along the axis", V, "V"},
-                    {"V T/L_d", "the current's change by it", V * s.period_s / m.L_d_H, "A"},
+                    {"V T/L_d", "change of the current by V", V * s.period_s / m.L_d_H, "A"},
                     {"I_n", "current along the axis and against it, to find north", c.north.current_A, "A"},
                     {"I_n/I_sat", "relative change of the response at this current", part, ""}});
   return {};
@@ -99,11 +101,12 @@ void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& ou
              std::max<std::int64_t>(1, static_cast<std::int64_t>(rad_s2 * s.period_s * per_rad_s)),
              static_cast<std::int64_t>(c.high_rad_s * per_rad_s),
              ticks_of(10 / pull_rad_s(m, c), s.period_s)};
-  out.steps.insert(out.steps.end(),
-                   {{"I", "current that aligns the rotor and then turns it", I, "A"},
-                    {"t_align", "time until the rotor is at rest", align_s, "s"},
-                    {"t_ramp", "time until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
-                    {"T_start", "greatest load that it starts against", start_load_part * most_Nm, "N m"}});
+  out.steps.insert(
+      out.steps.end(),
+      {{"I", "current that aligns the rotor and then turns it", I, "A"},
+       {"t_align", "time until the rotor is at rest", align_s, "s"},
+       {"t_ramp", "time until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
+       {"T_start", "greatest load against which the drive starts", start_load_part * most_Nm, "N m"}});
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ Problems check(const ZohPlant& plant, double settle_s, double damping, double pe
     found.push_back({"settle_s", written(settle_s), "must be above 0", "give the settling time in seconds"});
   if (!(damping > 0.0 && damping <= 1.0))
     found.push_back({"damping", written(damping), "must be above 0 and at most 1",
-                     "the rule places a conjugate pair; 0.9 is the thesis's choice"});
+                     "give a damping up to 1; the thesis uses 0.9"});
   if (!(plant.b0 != 0.0 && plant.b0 - plant.b0 == 0.0 && plant.a0 - plant.a0 == 0.0))
     found.push_back({"plant.b0", written(plant.b0), "must be finite and not 0",
                      "check resistance, inductance, inertia and torque of the motor"});

@@ -140,19 +140,19 @@ base::Problem too_strong(const Basis& b, const PulseStart& s) {
   const std::string makes = "makes pulses of " + base::rounded(s.greatest_A, 3) + " A";
   if (s.greatest_A <= b.limit_A)
     return {"period_s", base::rounded(spec.period_s, 4),
-            "makes pulses too long: they turn the rotor by " + base::rounded(s.turned_deg, 3) +
-                " electrical degrees, or outlast 2 L/R",
-            "sample more often, or start by alignment"};
+            "makes the pulses too long: they turn the rotor by " + base::rounded(s.turned_deg, 3) +
+                " electrical degrees, or last longer than 2 L/R",
+            "shorten the period, or start by alignment"};
   if (b.limit_A == spec.most_A)
-    return {"overload", "",
-            "starts with " + base::rounded(b.limit_A, 3) + " A, and one control period " + makes,
-            "raise it, sample more often, or start by alignment"};
+    return {"overload", "", "allows " + base::rounded(b.limit_A, 3) + " A, and one control period " + makes,
+            "raise overload, shorten the period, or start by alignment"};
   if (spec.saturation_A > 0.0 && b.limit_A == base::root_3 / 2 * spec.saturation_A / 2)
     return {"period_s", base::rounded(spec.period_s, 4),
-            makes + ", and above " + base::rounded(b.limit_A, 3) + " A the model of saturation ends",
-            "sample more often, or start by alignment"};
-  return {"current_range_A", base::rounded(spec.current_range_A, 4), "is passed: one control period " + makes,
-          "widen it, sample more often, or start by alignment"};
+            makes + ", and the model of saturation holds up to " + base::rounded(b.limit_A, 3) + " A",
+            "shorten the period, or start by alignment"};
+  return {"current_range_A", base::rounded(spec.current_range_A, 4),
+          "is exceeded: one control period " + makes,
+          "widen the range, shorten the period, or start by alignment"};
 }
 
 base::Problems problems_of(const MotorModel& motor, const PulseSpec& spec) {
@@ -201,8 +201,8 @@ base::Result<PulseStart> pulse_start(const MotorModel& motor, const PulseSpec& s
   }
   if (least_read_counts(b, ticks) < least_counts)
     return base::Problem{"current_range_A", base::rounded(spec.current_range_A, 4),
-                         "is too wide to read pulses of " + base::rounded(out.current_A, 3) + " A",
-                         "narrow it, take a finer converter, or start by alignment"};
+                         "is too wide to measure pulses of " + base::rounded(out.current_A, 3) + " A",
+                         "narrow the range, use a converter with more bits, or start by alignment"};
   out.steps = steps_of(b, out);
   return out;
 }

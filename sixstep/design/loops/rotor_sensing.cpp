@@ -90,7 +90,7 @@ bool one_edge_at(const RotorSensing& sensing, double pole_pairs, double speed_ra
 void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
               std::vector<DerivationStep>& steps) {
   steps.push_back({"delay", formula, lag.delay_s(), "s"});
-  steps.push_back({"phase", "w_c times it, phase loss from the sensor",
+  steps.push_back({"phase", "w_c times the delay, phase loss from the sensor",
                    crossover_rad_s * lag.delay_s() * 180 / base::pi, "deg"});
 }
 
@@ -122,13 +122,12 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
     steps.push_back(
         {"k", "number of edges over which the speed is averaged", static_cast<double>(sensing.edges), ""});
   if (sensing.stray_rad > 0.0)
-    steps.push_back({"dw", "w_low s/(k pi/3), k sectors that are s off by probes beside their places",
+    steps.push_back({"dw", "w_low s/(k pi/3), s: error of k sectors from misplaced probes",
                      speed_rad_s * sensing.stray_rad / (std::max(sensing.edges, 1) * base::pi / 3), "rad/s"});
   else if (one_edge_at(sensing, pole_pairs, speed_rad_s, crossover_rad_s))
     steps.push_back(
         {"dw_3",
-         "w_low 6/60, the error if neighbouring edges lie 3 deg off to opposite sides; these probes have "
-         "none",
+         "w_low 6/60, the error if neighbouring edges are misplaced by 3 deg to opposite sides; this design assumes none",
          speed_rad_s * 6 / 60, "rad/s"});
   if (sensing.timeout_s > 0.0)
     steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that does not read as 0",

@@ -17,11 +17,12 @@ constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the 
 /// rails within half of the on-time.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
-  return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
-          "lets the terminals reach their rails within " + base::rounded(2e6 * b.settle_s(), 4) +
-              " us, 7 time constants, and the least on-time has " + base::rounded(1e6 * b.least_on_s(), 4) +
-              " us",
-          "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
+  return {
+      "terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
+      "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
+          " us (7 time constants), longer than the least on-time of " +
+          base::rounded(1e6 * b.least_on_s(), 4) + " us",
+      "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or raise lowest_part, the speed of the hand-over"};
 }
 
 /// Problem of the comparators' low-pass. Without a low-pass, comparators switch at each edge of the pulse;
@@ -32,23 +33,25 @@ base::Problem badly_filtered(const SensorlessBasis& b) {
                             " Hz";  // still sufficient after rounding
   if (!(c.bandwidth_Hz > 0.0))
     return {"comparators.bandwidth_Hz", "",
-            "is missing, and comparators without a low-pass turn over at each edge of the pulse",
-            "give it; " + least + " is slow enough here, and fast enough"};
+            "is missing: comparators without a low-pass switch at each edge of the pulse",
+            "set it to " + least};
   return {"comparators.bandwidth_Hz", base::rounded(c.bandwidth_Hz, 4),
-          c.against_half_bus ? "is not settled within half of the least on-time"
-                             : "has not recovered from the freewheel by the crossing at no-load speed",
-          c.against_half_bus ? "raise it to " + least + ", or hand over at a higher lowest_part"
+          c.against_half_bus
+              ? "is too low: the low-pass does not settle within half of the least on-time"
+              : "is too low: at no-load speed the low-pass still shows the freewheel at the crossing",
+          c.against_half_bus ? "raise it to " + least + ", or raise lowest_part, the speed of the hand-over"
                              : "raise it to " + least};
 }
 
 base::Problem hidden_below(const SensorlessBasis& b) {
   const double comparators = b.comparators_V();
-  const std::string hides = "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) + " rad/s";
+  const std::string hides = "hides the back-EMF below " + base::rounded(b.lowest_rad_s, 4) +
+                            " rad/s, more than half the no-load speed";
   if (comparators > b.threshold_V)
-    return {"comparators", base::rounded(comparators, 4) + " V off", hides,
-            "take comparators with less offset and hysteresis"};
+    return {"comparators", base::rounded(comparators, 4) + " V of error", hides,
+            "use comparators with less offset and hysteresis"};
   return {"adc_noise_V", base::rounded(b.spec.adc_noise_V, 4), hides,
-          "take a finer or quieter converter, or dividers that are more alike"};
+          "use a converter with more bits or less noise, or dividers with less mismatch"};
 }
 
 }  // namespace
@@ -129,8 +132,8 @@ base::Problems out_of_reach(const SensorlessBasis& b) {
   const SensorlessSpec& spec = b.spec;
   if (!(b.ramp_rad_s2() > 0.0))
     return {{"greatest_load", base::rounded(spec.greatest_load, 4),
-             "is more than the start's current moves: " + base::rounded(b.start_A, 4) + " A",
-             "raise overload, or start against less"}};
+             "is more load than the starting current of " + base::rounded(b.start_A, 4) + " A can accelerate",
+             "raise overload, or lower greatest_load"}};
   if (b.lowest_rad_s > 0.5 * b.no_load_rad_s) return {hidden_below(b)};
   if (spec.comparators.followed &&
       !(b.comparator_lag_s > 0.0 && b.comparator_lag_s <= b.longest_comparator_lag_s()))

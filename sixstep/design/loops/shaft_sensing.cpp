@@ -31,7 +31,7 @@ void add_absolute(const ShaftSensing& s, double speed, std::vector<DerivationSte
   steps.push_back({"T", "k T_s, averaging time of a speed", speed_age(s, speed).mean_s, "s"});
   steps.push_back({"t_l", "age of the latched code when it is read", s.latency_s, "s"});
   steps.push_back({"dw", "(2 pi/2^n)/(k T_s), a count", speed_jitter_rad_s(s, speed), "rad/s"});
-  steps.push_back({"w_min", "the same: slower ones read as 0 now and then", lowest_told_rad_s(s), "rad/s"});
+  steps.push_back({"w_min", "as dw: slower speeds sometimes read as 0", lowest_told_rad_s(s), "rad/s"});
 }
 
 void add_resolver(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {

@@ -35,7 +35,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
         "add mode = speed, or take pole-placement or cancellation");
   if (w.delay_periods < 0 || w.delay_periods > 1)
     add("delay_periods", std::to_string(w.delay_periods), "must be 0 or 1",
-        "0: a command counts at once, 1: from the next period on");
+        "give 0 if a command acts at once, 1 if it acts from the next period on");
   if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
     add("bandwidth_rad_s", base::written(*w.bandwidth_rad_s), "is not used by pole placement",
         "give settle_s, or take method = cancellation");
@@ -48,8 +48,9 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   hold("period_s", w.period_s, {0, 1, false, true}, "s", "give the control period in seconds");
   hold("settle_s", w.settle_s, above(0), "s", "give the settling time in seconds");
   hold("current_settle_s", w.current_settle_s, above(0), "s", "give the settling time in seconds");
-  hold("damping", w.damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
-  hold("current_damping", w.current_damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
+  hold("damping", w.damping, {0, 1, false, true}, "", "give a damping up to 1; the thesis uses 0.9");
+  hold("current_damping", w.current_damping, {0, 1, false, true}, "",
+       "give a damping up to 1; the thesis uses 0.9");
   hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give it in N m");
   hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
   const double bus_V = w.voltage_V.value_or(motor.nominal_voltage_V);
@@ -63,11 +64,12 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
                                                                   *w.lowest_speed_rad_s > most)
     found.push_back(
         {"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
-         "leaves no room for a step down to it: on this bus at most " + base::three_digits(most) +
-             " rad/s may be the lowest, with a fifth of it above against half the torque of the nominal current",
+         "is too high for the test, a step down to it from 1.2 times this speed: on this bus at most " +
+             base::three_digits(most) + " rad/s",
          "lower it, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
-    add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
+    add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6",
+        "give 1 to 6, or leave it out for an adaptive number");
   const bool encoder = w.rotor.shaft.kind == ShaftSensorKind::encoder;
   const double capture_Hz = encoder ? w.rotor.shaft.capture_Hz : w.rotor.capture_Hz;
   if (encoder || capture_Hz != 0.0)

@@ -67,10 +67,11 @@ base::Result<SpeedLawDesign> state_feedback(const SpeedLawSpec& s) {
   c.b = plant.b0;
   c.c = s.lag_periods / (1.0 + s.lag_periods);
   if (!(d.pole < c.a))
-    return base::Problem{"settle_s", written(s.settle_s),
-                         "is longer than the settling time by friction alone, " +
-                             base::rounded(time_constants_to_settle / s.fades_1_s, 4) + " s",
-                         "give a shorter one, or take disturbance-rejection, which does not need friction"};
+    return base::Problem{
+        "settle_s", written(s.settle_s),
+        "is longer than the settling time by friction alone, " +
+            base::rounded(time_constants_to_settle / s.fades_1_s, 4) + " s",
+        "give a shorter settling time, or take disturbance-rejection, whose model has no friction"};
   if (!(c.c < c.a))
     return base::Problem{"lag_periods", written(s.lag_periods),
                          "samples of torque delay are more than the time constant of the speed itself",

@@ -17,13 +17,13 @@ base::Problems mistakes(const TrackingSpec& spec) {
       problems.push_back({where, base::written(value), "must be above 0 and finite", cure});
   };
   above_0("bandwidth_rad_s", spec.bandwidth_rad_s, "give the bandwidth of the angle's tracking loop");
-  above_0("damping", spec.damping, "1 has no overshoot of its own");
+  above_0("damping", spec.damping, "give the damping; with 1 the loop does not overshoot");
   above_0("period_s", spec.period_s, "give the time between two samples");
   if (problems.empty() && spec.bandwidth_rad_s * spec.period_s >= base::pi)
     problems.push_back(
         {"bandwidth_rad_s", base::written(spec.bandwidth_rad_s),
          "must be below half the sampling frequency, " + base::written(base::pi / spec.period_s),
-         "sample more often or lower it"});
+         "lower it, or sample more often"});
   return problems;
 }
 

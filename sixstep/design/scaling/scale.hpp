@@ -58,7 +58,7 @@ class Scale {
     if (designed != 0 && kept.raw == 0)
       proof_.problems.push_back({path(f), base::written(designed),
                                  "is below the last bit of the setpoint's sum",
-                                 "take 32 bits or slew in a slower tick"});
+                                 "use a 32-bit format, a faster slew rate or a longer control period"});
   }
   void ticks(const Field&, double designed, control::TickRatio<Scalar>& kept, Base base) {
     kept = control::TickRatio<Scalar>(designed / value(base));
@@ -160,7 +160,7 @@ bool Scale<Scalar>::prove(const control::AdcConfig<double>& adc, const AdcUse& u
   const double most = static_cast<double>(control::detail::greatest<typename Scalar::Storage>);
   if (8 * furthest > most)
     proof_.problems.push_back({name, at_least(furthest) + " counts", "in eighths are above " + at_most(most),
-                               "take 32 bits, or convert fewer bits"});
+                               "use a 32-bit format, or a converter with fewer bits"});
   proof_.fits(name.c_str(), 8 * (furthest - tolerance) * std::fabs(adc.per_eighth), value(use.base));
   return true;
 }

@@ -71,7 +71,7 @@ struct Proof {
     if (K_i != 0 && std::fabs(K_i_pu) < vanishes)
       problems.push_back(
           {name + ".K_i", at_most(K_i_pu),
-           "per unit leaves an error of one digit unseen: it must reach " + at_least(vanishes),
+           "per unit is too small: an error of one digit has no effect below " + at_least(vanishes),
            "take 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
                at_least(vanishes / std::fabs(K_i_pu))});
     fits((name + ".limit").c_str(), c.limit, out);

@@ -80,14 +80,14 @@ bool are_points(SheetReader& reader) {
   else if (angle.size() < 2 || angle.size() > most_shape_points)
     reader.problem("back_emf_angle_deg", std::to_string(angle.size()) + " values",
                    "must be 2 to " + std::to_string(most_shape_points) + " points of one electrical turn",
-                   "one point per degree is enough");
+                   "give 2 points or more; one per degree is enough");
   else
     for (std::size_t n = 0; n < angle.size(); ++n) {
       const double next = n + 1 < angle.size() ? angle[n + 1] : angle[0] + 360.0;
       if (angle[n] >= 0.0 && angle[n] < 360.0 && next - angle[n] >= least_shape_step_deg) continue;
       reader.problem("back_emf_angle_deg", base::written(angle[n]),
-                     "must lie in [0, 360), and the next, " + base::written(next) + ", at least " +
-                         base::written(least_shape_step_deg) + " behind it",
+                     "must lie in [0, 360) and at least " + base::written(least_shape_step_deg) +
+                         " deg before the next angle, " + base::written(next),
                      "sort the points by angle; the table continues periodically");
       return false;
     }
@@ -133,18 +133,17 @@ std::optional<ShapeFactors> read_shape_table(SheetReader& reader) {
   }
   if (std::abs(mean) > most_shape_mean * range) {
     reader.problem("back_emf_shape", "",
-                   "has the mean " + rounded(mean, 6) +
-                       " over the turn, and a winding's flux comes back: at most " +
-                       rounded(most_shape_mean, 1) + " of its " + rounded(range) + " peak to peak",
+                   "has the mean " + rounded(mean, 6) + " over the turn; at most " +
+                       rounded(most_shape_mean, 1) + " times its peak-to-peak value of " + rounded(range) +
+                       " is allowed",
                    "subtract " + rounded(mean, 6) + " from every value");
     return {};
   }
   const ShapeFactors factors = table_factors(reader.sheet.back_emf_angle_deg, value);
   if (factors.sector_mean > least_shape_torque * factors.line_peak) return factors;
   reader.problem("back_emf_shape", "",
-                 "makes " + rounded(factors.sector_mean) +
-                     " as the mean torque per ampere of the sectors' pairs, where " +
-                     rounded(factors.line_peak) + " is its peak",
+                 "gives a mean torque per ampere of only " + rounded(factors.sector_mean) +
+                     " over the sectors of the driven pairs, with a peak of " + rounded(factors.line_peak),
                  "count the angles so that the middle of phase a's positive half wave lies at 60 degrees");
   return {};
 }

@@ -89,8 +89,8 @@ class Lines final : public base::Visitor {
     for (const Reason& reason : reasons)
       if (reason.key == key) return std::string(reason.why);
     if (constants_.K_e_V_s)
-      return "another print of the torque constant, which is read from " + constants_.K_e_V_s->from;
-    return "not enough to go with it";
+      return "a second value of the torque constant, which the model takes from " + constants_.K_e_V_s->from;
+    return "the other values that this line needs are missing";
   }
   /// A no-load point determines the friction only if the point is complete and no other line gives the
   /// friction.
@@ -114,7 +114,8 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
       std::string known;
       for (const Relation& r : check.relations) known += (known.empty() ? "" : ", ") + r.name;
       problems.push_back({"known_deviation", "\"" + name + "\"", "names no relation of this sheet",
-                          known.empty() ? "remove it: the sheet prints nothing twice" : "it has: " + known});
+                          known.empty() ? "remove it: no two values of this sheet can be compared"
+                                        : "name one of these: " + known});
     } else if (relation->verdict == RelationVerdict::holds) {
       problems.push_back({"known_deviation", "\"" + name + "\"", "names a relation that holds", "remove it"});
     } else {
@@ -125,7 +126,7 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
 
 /// The limit as text: "makes R J/K_t^2 440 s, and next to no motor is above 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
-  return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and next to no motor is above " +
+  return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and almost no motor is above " +
          rounded(usual_s, 3) + " s";
 }
 
@@ -160,7 +161,7 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
                    : "check the unit of the inertia, then those of torque constant and resistance");
     else
       doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            "check the units of the rotor's measures, then those of torque constant and resistance");
+            "check the units of the rotor's dimensions, then those of torque constant and resistance");
   }
 }
 
@@ -226,8 +227,9 @@ std::string contradiction_words(const SheetCheck& check) {
     names += (n == 0 ? "" : n + 1 == broken.size() ? " and " : ", ") + broken[n];
   return "the motor's sheet contradicts itself: " + names +
          (broken.size() == 1 ? " disagrees" : " disagree") +
-         " with its other values; correct its file, or name " + (broken.size() == 1 ? "it" : "them") +
-         " in known_deviation if the maker prints " + (broken.size() == 1 ? "it" : "them") + " so";
+         " with the other values; correct the motor file, or name " +
+         (broken.size() == 1 ? "this relation" : "these relations") +
+         " in known_deviation if the maker's sheet has these values";
 }
 
 }  // namespace sixstep::design

@@ -74,7 +74,7 @@ void read_axes(SheetReader& reader) {
   const std::optional<double> L_d = SheetReader::positive(*d, -3), L_q = SheetReader::positive(*q, -3);
   if (!L_d || !L_q) return;
   if (*L_d != *L_q) {
-    reader.out.L_H = Constant{(*L_d + *L_q) / 2.0, "L_d and L_q, phase: their mean; a run has both"};
+    reader.out.L_H = Constant{(*L_d + *L_q) / 2.0, "L_d and L_q, phase: their mean; a run uses both"};
   } else {
     reader.out.L_H = Constant{*L_d, "L_d = L_q, phase: as it is"};
   }

@@ -15,7 +15,7 @@ void describe_words(base::Visitor& v, Sheet& s) {
   v.value("not_simulatable_because", s.not_simulatable_because,
           {.meaning = "missing or doubtful values, where simulatable = false"});
   v.value("known_deviation", s.known_deviation,
-          {.meaning = "relations between its values that this sheet is known to break"});
+          {.meaning = "relations between values that this sheet is known to break"});
 }
 
 void describe_torque_constant(base::Visitor& v, Sheet& s) {

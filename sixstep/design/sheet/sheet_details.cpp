@@ -26,8 +26,8 @@ void read_harmonics(SheetReader& reader) {
   if (s.harmonic_orders.empty()) return;
   if (s.back_emf != BackEmfShape::sine)
     reader.problem("harmonic_orders", "",
-                   s.back_emf == BackEmfShape::table ? "go beside a sine, and back_emf is a table"
-                                                     : "go beside a sine, and back_emf is a trapezoid",
+                   s.back_emf == BackEmfShape::table ? "apply to a sine only, and back_emf is \"table\""
+                                                     : "apply to a sine only, and back_emf is \"trapezoid\"",
                    "write back_emf = \"sine\"");
   if (s.harmonic_orders.size() > most_harmonics)
     reader.problem("harmonic_orders", std::to_string(s.harmonic_orders.size()) + " values",
@@ -35,7 +35,7 @@ void read_harmonics(SheetReader& reader) {
   for (const double order : s.harmonic_orders)
     if (!is_whole(order) || std::fmod(order, 2.0) != 1.0 || order < 3 || order > highest_order) {
       reader.problem("harmonic_orders", base::written(order), "must be an odd number from 3 to 23",
-                     "even ones are not there where north and south poles are alike");
+                     "give odd orders from 3 to 23; equal north and south poles cause no even ones");
       return;
     }
 }
@@ -48,8 +48,7 @@ void read_table_keys(SheetReader& reader) {
                     : !s.back_emf_angle_deg.empty() ? "back_emf_angle_deg"
                     : !s.back_emf_shape.empty()     ? "back_emf_shape"
                                                     : nullptr;
-  if (key)
-    reader.problem(key, "", "applies to a table only, and back_emf is none", "write back_emf = \"table\"");
+  if (key) reader.problem(key, "", "applies to back_emf = \"table\" only", "write back_emf = \"table\"");
 }
 
 void read_deviations(SheetReader& reader) {
@@ -104,21 +103,22 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
                    "write cogging_orders = [48] and cogging_mNm = [8]");
   if (!s.cogging_phase_deg.empty() && s.cogging_phase_deg.size() != s.cogging_orders.size())
     reader.problem("cogging_phase_deg", std::to_string(s.cogging_phase_deg.size()) + " values",
-                   "needs one for each of the " + count + " cogging_orders", "or remove it: all begin at 0");
+                   "needs one for each of the " + count + " cogging_orders",
+                   "give one phase for each order, or remove it: the default is 0");
   if (s.cogging_orders.size() > most_cogging)
     reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
                    "keep the largest");
   for (const double order : s.cogging_orders)
     if (s.kind == MotorKind::linear && (!is_whole(order) || std::fmod(order, 2.0) != 0.0)) {
-      reader.problem("cogging_orders", base::written(order),
-                     "must be an even number: periods per two pole pitches",
-                     "the magnets' pull is alike under north and south");
+      reader.problem(
+          "cogging_orders", base::written(order), "must be an even number of periods per two pole pitches",
+          "give an even number: the cogging force repeats at every pole, so two pole pitches hold an even number of periods");
       return;
     } else if (!is_whole(order) || (pole_pairs && std::fmod(order, 2.0 * *pole_pairs) != 0.0)) {
       reader.problem("cogging_orders", base::written(order),
                      "must be a multiple of the number of poles" +
                          (pole_pairs ? ", " + std::to_string(2 * *pole_pairs) : std::string()),
-                     "it is the least common multiple of slots and poles, or a multiple of that");
+                     "give the least common multiple of slots and poles, or a multiple of it");
       return;
     }
 }

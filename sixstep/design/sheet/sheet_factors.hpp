@@ -18,8 +18,8 @@ inline constexpr Factor well_known_factors[] = {
     {1.4142135623730951, "a factor sqrt 2: peak against rms?"},
     {2.449489742783178, "a factor sqrt 6: line peak against phase rms?"},
     {1.5, "a factor 3/2: torque of the q axis against one phase's EMF?"},
-    {10.0, "a factor 10: the point, or the unit?", false},
-    {1000.0, "a factor 1000: the unit?", false},
+    {10.0, "a factor 10: a misplaced decimal point, or a wrong unit?", false},
+    {1000.0, "a factor 1000: a wrong unit?", false},
 };
 
 /// Text for a ratio that is a well-known factor within the rounding, at least half a percent; the nearest two

@@ -43,16 +43,16 @@ void read_split(SheetReader& reader, const Point& first) {
   if (!second) return;
   Friction& f = reader.out.friction;
   if (second->speed_rad_s == first.speed_rad_s)
-    return reader.problem("second_no_load_speed_rpm", "", "is the first point's speed",
+    return reader.problem("second_no_load_speed_rpm", "", "is equal to the speed of the first no-load point",
                           "give a point at another voltage, or leave it out");
   const double B = (second->loss_Nm - first.loss_Nm) / (second->speed_rad_s - first.speed_rad_s);
   const double T_c = first.loss_Nm - B * first.speed_rad_s;
   if (B < 0.0 || T_c < 0.0)
     return reader.wrong(
         "second_no_load_current_mA", *s.second_no_load_current_mA,
-        "would make friction negative with the first point: B = " + rounded(B) +
+        "gives, with the first point, a negative friction: B = " + rounded(B) +
             " Nm s, T_c = " + rounded(T_c * 1e3) + " mNm",
-        "measure both points again, each after the same time of running, or leave the second out");
+        "measure both points again, each after the same running time, or leave the second point out");
   f.split_viscous_Nm_s = B;
   f.split_coulomb_Nm = T_c;
 }
@@ -123,7 +123,7 @@ void choose(SheetReader& reader, const std::optional<Point>& point) {
     return check_iron(reader);
   }
   f.B_Nm_s = f.iron.B_Nm_s;
-  f.from = iron ? "the iron's alone" : "no friction: the sheet is silent";
+  f.from = iron ? "the iron's alone" : "no friction: the sheet gives none";
   if (s.coulomb_friction_mNm)
     f.from = SheetReader::key_of("coulomb_friction_mNm", *s.coulomb_friction_mNm) +
              (iron ? " and the iron's" : " alone");

@@ -20,7 +20,7 @@ std::optional<Constant> printed_inertia(SheetReader& reader) {
     reader.wrong("inertia_with_brake_gcm2", *braked,
                  "is less than the rotor's own, " + SheetReader::key_of("inertia_gcm2", *rotor) + " = " +
                      reader.value_of("inertia_gcm2", *rotor),
-                 "the brake only adds: swap the two");
+                 "swap the two values: a brake adds inertia");
   if (s.with_brake ? !J_b : !J) return {};
   const std::string_view key = s.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2";
   const Quantity& printed = s.with_brake ? *braked : *rotor;
@@ -33,7 +33,7 @@ bool has_body(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const auto needs = [&](const char* key, const char* other) {
     reader.problem(key, "", std::string("needs ") + other + " beside it",
-                   "J = pi/2 rho l (r^4 - r_i^4) takes both, or give inertia_gcm2 alone");
+                   "give all values of J = pi/2 rho l (r^4 - r_i^4), or inertia_gcm2 alone");
     return false;
   };
   if (!s.rotor_radius_mm && !s.rotor_length_mm) {
@@ -45,7 +45,7 @@ bool has_body(SheetReader& reader) {
   if (!s.rotor_radius_mm) return needs("rotor_length_mm", "rotor_radius_mm");
   if (!s.rotor_length_mm) return needs("rotor_radius_mm", "rotor_length_mm");
   if (s.rotor == RotorPlace::outer && !s.rotor_inner_radius_mm)
-    return needs("rotor_radius_mm", "rotor_inner_radius_mm, for rotor is \"outer\",");
+    return needs("rotor_radius_mm", "rotor_inner_radius_mm (because rotor = \"outer\")");
   if (s.rotor_inner_radius_mm && !(s.rotor_inner_radius_mm->value < s.rotor_radius_mm->value)) {
     reader.wrong("rotor_inner_radius_mm", *s.rotor_inner_radius_mm,
                  "must be below " + SheetReader::key_of("rotor_radius_mm", *s.rotor_radius_mm) + " = " +
@@ -89,7 +89,7 @@ void read_inertia(SheetReader& reader) {
   }
   const bool brake_only = !s.with_brake && s.inertia_with_brake_gcm2;
   reader.missing(s.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2",
-                 brake_only ? "the sheet gives it with brake only: write with_brake = true"
+                 brake_only ? "write with_brake = true: the sheet gives the inertia with brake only"
                             : "give the rotor's moment of inertia");
 }
 

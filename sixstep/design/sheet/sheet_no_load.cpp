@@ -129,7 +129,7 @@ class NoLoad {
                       "",
                       false};
     if (!printed) without_current(I, sides);
-    if (!turns) sides.remark = "R I_0 is all of the voltage: with this current it does not turn";
+    if (!turns) sides.remark = "R I_0 uses up the whole voltage: with this current the motor does not turn";
     found_.push_back(std::move(sides));
   }
 
@@ -137,12 +137,13 @@ class NoLoad {
   /// is at least the printed part.
   void without_current(const Term& I, NoLoadSides& sides) const {
     if (I.value > 0.0)
-      sides.remark = "I_0 = " + base::rounded(I.value * 1e3, 4) + " mA, as the friction lines make it";
+      sides.remark = "I_0 = " + base::rounded(I.value * 1e3, 4) + " mA, computed from the friction lines";
     if (s_.viscous_friction_Nm_s) return;
     sides.above += most_unknown_drop / (1.0 - most_unknown_drop);
-    sides.remark = I.value > 0.0
-                       ? sides.remark + "; viscous friction is not printed, and lowers the speed further"
-                       : "I_0 is taken as 0: neither it nor friction is printed, and both lower the speed";
+    sides.remark =
+        I.value > 0.0
+            ? sides.remark + "; viscous friction is not printed, and lowers the speed further"
+            : "I_0 is taken as 0, because neither I_0 nor friction is printed; both lower the speed";
   }
 
   /// Compares a no-load current with the friction lines, unless the friction was computed from this current.
@@ -159,7 +160,8 @@ class NoLoad {
     found_.push_back(
         {at.name + "no-load current", linear ? "(F_c + B v_0) / k_M" : "(T_c + B w_0) / k_M",
          at.name + "no-load current", loss * 1e3 / *K_t_, *at.current_A * 1e3, "mA", margin, margin,
-         margin > 0.0 ? "not all of it is the sheet's own, and friction differs from motor to motor" : "",
+         margin > 0.0 ? "part of the friction is not from the sheet, and friction differs from motor to motor"
+                      : "",
          true});
   }
 

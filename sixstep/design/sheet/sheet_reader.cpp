@@ -66,7 +66,7 @@ void note_implausible(SheetReader& reader) {
 void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
                    std::span<const FrameMeaning> candidates, const std::string& hint) {
   std::string rule = "must say its frame:";
-  if (!q.frame.empty()) rule = "has a frame \"" + q.frame + "\" that is none of its own:";
+  if (!q.frame.empty()) rule = "has a frame \"" + q.frame + "\" that this key does not have:";
   std::string words;
   for (std::size_t n = 0; n < candidates.size(); ++n) {
     const FrameMeaning& c = candidates[n];

@@ -94,9 +94,9 @@ class Relations {
     if (computed && printed && !near(*U_ / *R_, *stall_) && torque && K_t_) {
       by_U = near(*K_t_ * (*U_ / *R_) * 1e3, *torque);
       if (by_U)
-        suspect = "the stall torque agrees with k_M U / R: suspect the stall current";
+        suspect = "the stall torque agrees with k_M U / R: check the stall current";
       else if (near(*K_t_ * *stall_ * 1e3, *torque))
-        suspect = "the stall torque agrees with the stall current: suspect the resistance, or the voltage";
+        suspect = "the stall torque agrees with the stall current: check the resistance and the voltage";
     }
     if (computed && printed) {
       Relation& r = add("stall current", "U / R", "stall current", *U_ / *R_, *stall_, "A");
@@ -182,8 +182,7 @@ class Relations {
     if (r.deviation > 0.0) {
       r.verdict = RelationVerdict::doubted;
       r.remark =
-          "neither a warm winding nor commutation explains it: its drive limits the speed, or a value of the "
-          "nominal point is wrong";
+          "neither a warm winding nor commutation explains the deviation: the motor's drive limits the speed, or a value of the nominal point is wrong";
     } else if (r.remark.empty()) {
       r.remark = "the nominal point lies above the line that R and k_M give";
     }
@@ -196,9 +195,9 @@ class Relations {
     const double part =
         commutation_part(c_, (torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0)) / edge_current);
     if (!(part > worth_it)) return "";
-    return "the line is ideal: in the model commutation takes about " +
+    return "the line is ideal: in the model commutation lowers the speed by about " +
            rounded(100.0 * part / (1.0 + part), 2) +
-           " % of the speed on it; the curve has the speed that the model reaches";
+           " %; the torque-speed curve has the speed that the model reaches";
   }
 
   void as_fast_as_idle(const Term& idle, const Term& printed) {
@@ -229,7 +228,7 @@ class Relations {
       Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", computed, *torque,
                         "mNm", 0.0, friction);
       if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
-        r.remark = "the rating is above the torque of its own current: the model does not use it";
+        r.remark = "the nominal torque is above the torque of the nominal current; the model does not use it";
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {
@@ -280,7 +279,7 @@ class Relations {
                       "inertia", Term{c_.J_of_body_kg_m2->value * 1e7, body_doubt()}, printed, "g cm2",
                       body_margin, body_margin, false);
     if (r.verdict == RelationVerdict::broken && std::abs(r.left / r.right / 16.0 - 1.0) < 0.3)
-      r.remark = "a factor 16: a diameter for the radius?";
+      r.remark = "a factor 16: a diameter instead of the radius?";
   }
 
   /// Checks the no-load speed against the mechanical limit. They need not agree, because a bus may be lower
@@ -294,9 +293,9 @@ class Relations {
                       *allowed, "rpm", 1.0, max_speed_margin, false);
     if (r.verdict == RelationVerdict::holds)
       r.remark =
-          "no load at the nominal voltage is above the speed that the mechanics allow: limit speed or voltage";
+          "the no-load speed at the nominal voltage is above the maximum speed: limit speed or voltage";
     else if (r.remark.empty())
-      r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
+      r.remark = "at the nominal voltage the motor would turn far faster than its mechanics allow";
   }
 
   /// Adds the relation that two lines of the pole pairs agree. A contradiction between them is already a

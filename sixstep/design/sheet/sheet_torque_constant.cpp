@@ -95,7 +95,7 @@ std::optional<std::string_view> frame_of(SheetReader& reader, const Way& way, co
   if (way.frames[1].empty()) {
     if (q.frame.empty() || q.frame == way.frames[0]) return way.frames[0];
     reader.problem(SheetReader::key_of(way.key, q), "frame \"" + q.frame + "\"",
-                   "is meant as " + std::string(way.frames[0]),
+                   "must be \"" + std::string(way.frames[0]) + "\", the only frame of this key",
                    "convert the value and write frame = \"" + std::string(way.frames[0]) + "\"");
     return {};
   }
@@ -147,7 +147,7 @@ void read_geometry(SheetReader& reader, std::vector<Read>& reads) {
                           : s.active_length_mm ? "active_length_mm"
                                                : "air_gap_radius_mm",
                           "", "needs " + absent + " beside it",
-                          "K_t = 2 B l r N takes all four, or give none");
+                          "give all four values of K_t = 2 B l r N, or none");
   if (*s.turns_in_series < 1 || *s.turns_in_series > most_turns)
     return reader.problem(
         "turns_in_series", std::to_string(*s.turns_in_series),
@@ -199,7 +199,7 @@ void read_torque_constant(SheetReader& reader) {
     if (std::abs(c.K_e_V_s - implied) > 1e-6 * implied)
       reader.wrong("back_emf_mV_s", *reader.sheet.back_emf_mV_s,
                    "contradicts torque_constant_mNm_A, which means " + base::six_digits(implied * 1e3),
-                   "give only one of the two");
+                   "keep one of the two");
     reader.use("back_emf_mV_s");
     used = 2;
   }

@@ -52,8 +52,8 @@ std::optional<int> of_winding(SheetReader& reader) {
   }
   if (winding->teeth % 3 != 0) {
     reader.problem("winding", quoted(code),
-                   "names " + std::to_string(winding->teeth) + " teeth, which three phases cannot share",
-                   "the code is teeth first, then poles: 12N14P");
+                   "names " + std::to_string(winding->teeth) + " teeth, not a multiple of 3",
+                   "write the teeth first, then the poles: 12N14P");
     return {};
   }
   return winding->poles / 2;
@@ -78,7 +78,7 @@ void compare(SheetReader& reader, int pole_pairs, int other, const std::string& 
   else
     reader.problem("pole_pairs", std::to_string(pole_pairs),
                    "contradicts " + other_line + ", which has " + pairs + " pole pairs",
-                   "keep the one that is right");
+                   "correct the wrong one of the two");
 }
 
 }  // namespace
@@ -87,15 +87,16 @@ std::optional<double> read_pole_pitch(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.kind == MotorKind::rotary) {
     if (s.pole_pitch_mm)
-      reader.wrong("pole_pitch_mm", *s.pole_pitch_mm, "is a linear motor's, and kind is \"rotary\"",
-                   "write kind = \"linear\", or pole_pairs");
+      reader.wrong("pole_pitch_mm", *s.pole_pitch_mm, "applies to linear motors only, and kind is \"rotary\"",
+                   "write kind = \"linear\", or give pole_pairs instead");
     return {};
   }
   for (const auto& [key, given] : {std::pair{"pole_pairs", s.pole_pairs.has_value()},
                                    {"poles", s.poles.has_value()},
                                    {"winding", !s.winding.empty()}})
     if (given)
-      reader.problem(key, "", "is a turning motor's, and kind is \"linear\"", "give pole_pitch_mm instead");
+      reader.problem(key, "", "applies to rotary motors only, and kind is \"linear\"",
+                     "give pole_pitch_mm instead");
   if (!s.pole_pitch_mm) {
     reader.missing("pole_pitch_mm", "give the distance from one pole of the magnets to the next");
     return {};
@@ -120,7 +121,7 @@ std::optional<int> read_pole_pairs(SheetReader& reader) {
   if (by_winding && by_poles && *by_winding != *by_poles)
     reader.problem("poles", std::to_string(*s.poles),
                    "contradicts " + winding + ", which has " + std::to_string(2 * *by_winding) + " poles",
-                   "keep the one that is right");
+                   "correct the wrong one of the two");
   const std::optional<int> other = by_winding ? by_winding : by_poles;
   if (other && *other > most_pole_pairs) {
     reader.problem(

@@ -52,9 +52,9 @@ MotorModel warmed(MotorModel m, const Sheet& s, const Temperatures& t) {
 std::optional<base::Problem> lost_magnets(const std::string& where, const Sheet& s, double housing_degC) {
   if (on_K_e(s, {.housing_degC = housing_degC}) > plant::least_on_K_e) return std::nullopt;
   return base::Problem{where, base::written(housing_degC),
-                       "leaves the magnets a tenth at most by magnet_loss_percent_K = " +
+                       "leaves the magnets at most a tenth of their flux, by magnet_loss_percent_K = " +
                            base::written(s.magnet_loss_percent_K),
-                       "check both"};
+                       "check the temperature and magnet_loss_percent_K"};
 }
 
 base::Result<ThermalModel> thermal_model(const Sheet& s) {

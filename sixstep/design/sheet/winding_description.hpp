@@ -30,17 +30,17 @@ inline constexpr base::Choice<BackEmfShape> back_emf_choices[] = {
 inline constexpr base::Choice<MotorKind> kind_choices[] = {
     {"rotary", MotorKind::rotary, "it turns"},
     {"linear", MotorKind::linear,
-     "it moves along a line: a pole pitch for the pole pairs, and the keys that are in N and m"},
+     "the motor moves along a line: give pole_pitch_mm instead of pole_pairs, and the keys in N and m"},
 };
 
 inline constexpr base::Choice<RotorPlace> rotor_choices[] = {
-    {"inner", RotorPlace::inner, "a cylinder within the stator, hollow where rotor_inner_radius_mm says so"},
+    {"inner", RotorPlace::inner, "a cylinder inside the stator; hollow if rotor_inner_radius_mm is given"},
     {"outer", RotorPlace::outer, "a ring around the stator"},
 };
 
 inline constexpr base::Choice<WindingConnection> connection_choices[] = {
-    {"star", WindingConnection::star, "the phases meet in a point that is not led out"},
-    {"delta", WindingConnection::delta, "the phases lie between the terminals, and a current may run round"},
+    {"star", WindingConnection::star, "the phases meet in a star point without a terminal"},
+    {"delta", WindingConnection::delta, "each phase lies between two terminals, and a current may circulate"},
 };
 
 inline void describe_winding(base::Visitor& v, Sheet& s) {

@@ -41,7 +41,7 @@ void check_bridge(const Scenario& s, base::Problems& out) {
   if (s.bridge.saturation_V > 0 && s.bridge.device != Device::igbt)
     out.push_back({"bridge.saturation_V", base::six_digits(s.bridge.saturation_V),
                    "applies to an IGBT only, and bridge.device is \"mosfet\"",
-                   "write device = \"igbt\", or give on_resistance_ohm alone"});
+                   "set bridge.device = \"igbt\", or remove saturation_V"});
   check_dead_time("bridge.dead_time_s", s.bridge.dead_time_s, s.pwm, out);
 }
 
@@ -51,16 +51,17 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
   if (!(*r.limit_V > s.supply.voltage_V))
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
                    "must be above supply.voltage_V = " + base::six_digits(s.supply.voltage_V),
-                   "the drive could never brake"});
+                   "raise it: below the supply voltage the drive could never brake"});
   if (s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V && !(*r.limit_V < bus_end_V(s.sensors)))
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
-                   "is never exceeded: the converter ends at " + base::six_digits(bus_end_V(s.sensors)) +
+                   "is never exceeded: the converter measures up to " +
+                       base::six_digits(bus_end_V(s.sensors)) +
                        ", by sensors.bus_range_V = " + base::six_digits(*s.sensors.bus_range_V),
-                   "lower it or widen the range"});
+                   "lower it, or raise sensors.bus_range_V"});
   if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))
     out.push_back({"control.regeneration.gain_A_per_V", "",
-                   "is missing, and so is the capacitance for its default",
-                   "give it, or supply.capacitance_F"});
+                   "is missing, and its default needs supply.capacitance_F",
+                   "give gain_A_per_V or supply.capacitance_F"});
 }
 
 /// Refuses limits of current or torque if the speed loop's output is a duty: without a current loop the drive
@@ -88,7 +89,7 @@ void check_limited_mode(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, base::six_digits(*value), "needs a current loop, and control.mode has none",
-                     "remove it, or control current, speed or position"});
+                     "remove it, or set control.mode = \"current\", \"speed\" or \"position\""});
   };
   refuse("control.limits.current_A", c.limits.current_A);
   refuse("control.limits.torque_Nm", c.limits.torque_Nm);
@@ -102,7 +103,7 @@ void check_settling(const std::optional<double>& settle_s, const char* key, cons
   const double least = 2 * s.pwm.period_s;
   if (settle_s && *settle_s < least)
     out.push_back({key, base::six_digits(*settle_s),
-                   "is shorter than two control periods, the least that any loop takes",
+                   "is shorter than two control periods, in which no loop can settle",
                    "write at least " + base::six_digits(least) + ", better 10 periods, " +
                        base::six_digits(5 * least) + "; or shorten pwm.period_s"});
 }
@@ -139,7 +140,7 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
   if (asks_torque && !s.control.speed.torque_limit_Nm && !(motor.nominal_current_A > 0))
     out.push_back({"control.speed.torque_limit_Nm", "",
                    "is missing, and the motor's sheet names no nominal current",
-                   "give the limit of the drive's torque"});
+                   "give the torque limit of the drive"});
 }
 
 /// Checks the controller's configuration after each event. Problems that exist from the start are not
@@ -178,12 +179,12 @@ void check_linear(const Scenario& s, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.load.gravity_Nm != 0)
     out.push_back({"load.gravity_Nm", base::six_digits(s.load.gravity_Nm),
-                   "is a weight on an arm, and the motor is linear",
-                   "give an incline's force as load.force_N"});
+                   "applies to a rotary motor only, and this motor is linear",
+                   "give the force of the weight as load.force_N"});
   if (s.load.gear != 1)
     out.push_back({"load.gear", base::six_digits(s.load.gear),
-                   "applies to a turning motor only, and this one is linear",
-                   "give the load as the motor's slide feels it"});
+                   "applies to a rotary motor only, and this motor is linear",
+                   "give the load as it acts on the motor's slide"});
 }
 
 base::Problems check(const Scenario& s, std::size_t known_events) {

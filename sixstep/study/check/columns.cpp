@@ -24,7 +24,7 @@ NoValue no_value(ColumnId id, const Scenario& s) {
       return {"needs a capacitor with resistance, and supply.capacitor_resistance_ohm = 0",
               "remove it, or set supply.capacitor_resistance_ohm"};
     case ColumnId::battery_charge:
-      return {"applies to a battery only, and supply.source is none",
+      return {"applies to a battery only, and supply.source is not \"battery\"",
               "remove it, or set supply.source = \"battery\""};
     case ColumnId::winding_degC:
     case ColumnId::housing_degC:
@@ -38,7 +38,7 @@ NoValue no_value(ColumnId id, const Scenario& s) {
     return {"applies to the field-oriented drive only",
             "remove it, or set control.drive = \"field-oriented\""};
   if (id == ColumnId::angle_error)
-    return {"is 0 where nothing senses the angle: sensors.rotor = \"ideal\"",
+    return {"is always 0, because sensors.rotor = \"ideal\" has no angle error",
             "remove it, or set sensors.rotor or control.field.angle"};
   if (id >= ColumnId::encoder_A && id < ColumnId::i_d)
     return {"is a signal of another sensor than sensors.rotor", "remove it, or set sensors.rotor"};

@@ -59,29 +59,30 @@ void check_mode(const Event& e) {
   std::string word(1, '"');  // not a literal, because GCC 12 warns of a literal in front of +
   word += base::word(mode_choices, e.mode);
   word += '"';
-  if (e.mode == e.before) return e.say(".control.mode", word, "is the present mode already", "remove it");
+  if (e.mode == e.before)
+    return e.say(".control.mode", word, "is already the mode at this time", "remove it");
   if (e.mode == control::Mode::off) return;
   if (!e.at.reference)
-    e.say(".control.mode", word, "needs a new reference: the present one has another unit",
-          "give reference beside it, in " + std::string(reference_unit(e.mode)));
+    e.say(".control.mode", word, "needs a new reference, because the present reference has another unit",
+          "add a reference to this event, in " + std::string(reference_unit(e.mode)));
   else if (goes_on(*e.at.reference))
-    e.say(".reference", "", "continues from the reference's last value, which was in another unit",
+    e.say(".reference", "", "continues from the reference's last value, which has another unit",
           "give start, or let times_s begin at 0");
   if (e.s.control.slew && !e.at.control.slew)
-    e.say(".control.mode", word, "leaves control.slew in the unit of another mode",
-          "give control.slew beside it");
+    e.say(".control.mode", word, "leaves control.slew in the unit of the earlier mode",
+          "add control.slew to this event");
 }
 
 /// Refuses changes of the controller's settings that have no effect, and dead times that are not allowed.
 void check_chip(const Event& e) {
   if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
     e.say(".control.current.band_A", written(*e.at.control.current.band_A),
-          "applies to a hysteresis only, and control.current.type = \"pi\"",
-          "remove it: the kind of the controller cannot change during a run");
+          "applies to a hysteresis only, and control.current.type is not \"hysteresis\"",
+          "remove it: the type of the current loop cannot change during a run");
   if (e.at.pwm.chopping != AtChopping::same && e.s.control.smooth_chopping.on)
     e.say(".pwm.chopping", "",
-          "has no effect while control.smooth_chopping.on = true, which chooses it by the current",
-          "remove it, or set on = false");
+          "has no effect, because control.smooth_chopping selects the chopping by the current",
+          "remove it, or set control.smooth_chopping.on = false");
   if (e.at.bridge.dead_time_s)
     check_dead_time(e.where + ".bridge.dead_time_s", *e.at.bridge.dead_time_s, e.s.pwm, e.out);
 }
@@ -99,7 +100,7 @@ void check_drift(const Event& e) {
                  "set sensors.currents = \"phases\" or \"dc-link\", and current_range_A");
   if (offset && sensors.current_range_A && std::fabs(*offset) >= *sensors.current_range_A)
     e.say(key, value, "leaves no range within sensors.current_range_A = " + written(*sensors.current_range_A),
-          "lower it or widen the range");
+          "lower it, or raise sensors.current_range_A");
 }
 
 void check_event(const Event& e) {
@@ -109,8 +110,8 @@ void check_event(const Event& e) {
   check_drift(e);
   if (!(at.time_s < s.duration_s))
     out.push_back({where + ".time_s", written(at.time_s),
-                   "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
-                   "lengthen duration_s or drop the event"});
+                   "is not before the end of the run (duration_s = " + written(s.duration_s) + ")",
+                   "lengthen duration_s, or remove the event"});
   if (changes_nothing(at))
     out.push_back(
         {where + ".time_s", written(at.time_s), "changes nothing",
@@ -122,8 +123,8 @@ void check_event(const Event& e) {
                    "remove it, or set supply.source = \"steady\""});
   if (at.load.torque_Nm && !s.load.dynamometer_rad_s.empty())
     out.push_back({where + ".load.torque_Nm", written(*at.load.torque_Nm),
-                   "applies only to a load that does not impose its speed",
-                   "remove it: a dynamometer's torque is a result"});
+                   "has no effect, because a dynamometer imposes the speed",
+                   "remove it: with a dynamometer the torque is a result of the run"});
   if (at.supply.sinks == false && !(s.supply.capacitance_F > 0))
     out.push_back({where + ".supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
@@ -131,7 +132,7 @@ void check_event(const Event& e) {
   if (at.supply.voltage_V && limit_V && !(*at.supply.voltage_V < *limit_V))
     out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
                    "must stay below control.regeneration.limit_V = " + written(*limit_V),
-                   "the drive could not brake any more"});
+                   "lower it, or raise limit_V: above limit_V the drive could not brake"});
   if (at.reference && mode == control::Mode::off)
     out.push_back({where + ".reference", "", "sets a reference, and control.mode = \"off\" has none",
                    "set control.mode"});

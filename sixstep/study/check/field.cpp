@@ -16,22 +16,21 @@ constexpr const char* other_drive = "remove it, or set control.drive = \"lean\""
 /// Requires centred pulses with all three legs complementary.
 void check_pwm(const Scenario& s, base::Problems& out) {
   if (s.pwm.alignment != Alignment::centre)
-    out.push_back({"pwm.alignment", "\"edge\"",
-                   "has no middle, in which the field-oriented drive's pulses lie",
-                   "set alignment = \"centre\""});
+    out.push_back(
+        {"pwm.alignment", "\"edge\"",
+         "puts the pulses at the start of the period, and the field-oriented drive needs centred pulses",
+         "set alignment = \"centre\""});
   if (s.pwm.chopping != control::Chopping::soft)
     out.push_back(
         {"pwm.chopping", std::string(base::word(chopping_choices, s.pwm.chopping)),
          "applies to six-step only: the field-oriented drive switches all three legs complementarily",
          other_drive});
   if (s.pwm.pattern != control::PwmPattern::upper)
-    out.push_back(
-        {"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
-         "applies to six-step only: a drive of three legs has no switch that stays on beside a chopping one",
-         other_drive});
+    out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
+                   "applies to six-step only: the field-oriented drive chops all three legs", other_drive});
   if (s.pwm.commutation != CommutationAt::hall_edge)
     out.push_back({"pwm.commutation", "\"sample\"",
-                   "applies to six-step only: a drive of three legs has no commutation", other_drive});
+                   "applies to six-step only: the field-oriented drive has no commutation", other_drive});
 }
 
 void check_field_loops(const Scenario& s, base::Problems& out) {
@@ -44,7 +43,7 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
          "set mode = \"current\", \"speed\" or \"position\"");
   if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
-                   "has no scaling that is proved for the field-oriented drive",
+                   "is fixed point, for which the field-oriented drive has no proven scaling",
                    "set arithmetic = \"float\" or \"double\""});
   refuse(c.current.type == CurrentLoopType::deadbeat, "control.current.type",
          "= \"deadbeat\" predicts for a driven pair, and the field-oriented drive has none",
@@ -63,10 +62,10 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
   refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", of_pair,
          "remove it: control.field.decoupling adds the induced voltages");
   refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", of_pair,
-         "remove it: three legs always use the measured bus");
+         "remove it: the field-oriented drive always uses the measured bus voltage");
   const Limits& l = c.limits;
   refuse(l.current_A || l.torque_Nm || l.speed_rad_s, "control.limits", of_pair,
-         "remove it; in a cascade control.current.limit_A bounds the current");
+         "remove it; control.current.limit_A limits the current below a speed or position loop");
   refuse(c.regeneration.limit_V.has_value(), "control.regeneration", of_pair, other_drive);
   refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
 }
@@ -80,18 +79,20 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
                    "remove it, or set control.field.angle = \"sensors\""});
   if (s.control.field.law == FieldLaw::finite_set)
     out.push_back({"control.field.law", "\"finite-set\"",
-                   "makes no pulses, and control.field.angle = " + angle() + " needs them",
+                   "makes no PWM pulses, and control.field.angle = " + angle() + " needs them",
                    "set law = \"pi\", or control.field.angle = \"sensors\""});
   if (s.control.mode == control::Mode::position)
     out.push_back({"control.mode", "\"position\"",
-                   "needs a sensor that counts turns, and an estimated angle does not",
-                   "control speed or current, or set control.field.angle = \"sensors\""});
+                   "needs a sensor that counts turns, and an estimated angle does not count them",
+                   "set control.mode = \"speed\" or \"current\", or control.field.angle = \"sensors\""});
   if (s.control.field.angle != FieldAngle::observer && s.pwm.sample == SampleAt::middle)
-    out.push_back({"pwm.sample", "\"middle\"",
-                   "is at the zero crossing of the injected pulse's current, which hides it",
-                   "set sample = \"start\""});
+    out.push_back(
+        {"pwm.sample", "\"middle\"",
+         "samples where the current of the injected pulse crosses zero; this current cannot be measured then",
+         "set sample = \"start\""});
   if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"control.drive", "\"field-oriented\"", "drives turning motors, and this one is linear",
+    out.push_back({"control.drive", "\"field-oriented\"",
+                   "applies to rotary motors only, and this motor is linear",
                    "set drive = \"lean\" or \"product\""});
 }
 
@@ -100,9 +101,10 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
 void check_sensing(const Scenario& s, base::Problems& out) {
   const Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link)
-    out.push_back({"sensors.currents", "\"dc-link\"",
-                   "measures one current of a driven pair, and the field-oriented drive controls three",
-                   "set currents = \"phases\", or \"ideal\""});
+    out.push_back(
+        {"sensors.currents", "\"dc-link\"",
+         "measures only the current of a driven pair, and the field-oriented drive needs all phase currents",
+         "set currents = \"phases\", or \"ideal\""});
   if (s.control.field.angle != FieldAngle::sensors) return check_unsensed(s, out);
   if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
     out.push_back({"sensors.hall_angle", "\"sectors\"", "gives no angle between two Hall edges",
@@ -114,7 +116,8 @@ void check_sensing(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"sensors.shaft", "\"load\"", "does not measure the magnet's angle", "set shaft = \"motor\""});
   if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"control.drive", "\"field-oriented\"", "drives turning motors, and this one is linear",
+    out.push_back({"control.drive", "\"field-oriented\"",
+                   "applies to rotary motors only, and this motor is linear",
                    "set drive = \"lean\" or \"product\""});
 }
 
@@ -123,23 +126,24 @@ void check_keys(const Scenario& s, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   if (f.bandwidth_Hz && (gives_gains(loop)))
     out.push_back({"control.field.bandwidth_Hz", "",
-                   "contradicts the gains in control.current: they are given or designed twice",
-                   "keep one of them"});
+                   "contradicts the gains in control.current: the gains are given and designed",
+                   "keep either the bandwidth or the gains"});
   const bool injects = f.angle == FieldAngle::injection || f.angle == FieldAngle::injection_observer;
   const bool observes = f.angle == FieldAngle::observer || f.angle == FieldAngle::injection_observer;
   const auto needs = [&out](bool given, bool serves, const char* key, const char* of, const char* cure) {
     if (given && !serves) out.push_back({key, "", of, cure});
   };
   needs(f.angle_bandwidth_Hz.has_value(), injects || observes, "control.field.angle_bandwidth_Hz",
-        "applies to an estimated angle only, and this drive measures it",
+        "applies to an estimated angle only, and this drive measures the angle",
         "remove it, or set control.field.angle");
-  needs(f.injection_V.has_value(), injects, "control.field.injection_V", "is injected nowhere",
+  needs(f.injection_V.has_value(), injects, "control.field.injection_V",
+        "has no effect, because control.field.angle has no injection",
         "remove it, or set control.field.angle = \"injection\"");
   needs(f.observer_from_rad_s.has_value(), observes, "control.field.observer_from_rad_s",
         "applies to an observer, and the drive has none",
         "remove it, or set control.field.angle = \"observer\"");
   needs(f.start_current_A.has_value(), observes && !injects, "control.field.start_current_A",
-        "turns a rotor whose angle is unknown at rest, and this drive measures it",
+        "turns a rotor whose angle is unknown at rest, and this drive measures the angle at rest",
         "remove it, or set control.field.angle = \"observer\"");
   if (f.weakening_A && f.voltage_limit != control::VoltageLimit::circle)
     out.push_back({"control.field.weakening_A", "", "needs voltage_limit = \"circle\", and it is \"axes\"",
@@ -147,7 +151,7 @@ void check_keys(const Scenario& s, base::Problems& out) {
   if (f.harmonic_current && design::is_salient(s.sheet))
     out.push_back(
         {"control.field.harmonic_current", "true",
-         "is the least current of a round rotor, and d_axis_inductance_mH and q_axis_inductance_mH differ",
+         "is computed for a round rotor only, and d_axis_inductance_mH and q_axis_inductance_mH differ",
          "remove it, or give the motor one inductance_mH"});
 }
 

@@ -12,8 +12,7 @@ namespace {
 void check_beside_pi(const Field& f, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key) {
     if (given)
-      out.push_back({key, "",
-                     "applies to the choice among the legs' states only, and control.field.law is \"pi\"",
+      out.push_back({key, "", "applies to finite-set control only, and control.field.law is \"pi\"",
                      "set control.field.law = \"finite-set\", or remove it"});
   };
   refuse(f.switching_weight_A > 0, "control.field.switching_weight_A");
@@ -36,16 +35,20 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
   refuse(f.bandwidth_Hz.has_value(), "control.field.bandwidth_Hz", no_loop, to_pi);
   refuse(gives_gains(loop), "control.current", no_loop, to_pi);
   refuse(!f.decoupling, "control.field.decoupling",
-         "= false leaves out the induced voltages, and the finite set predicts with them", to_pi);
-  refuse(f.voltage_limit != control::VoltageLimit::circle, "control.field.voltage_limit",
-         "= \"axes\" limits the voltage's magnitude, and three legs for a whole period have only one", to_pi);
-  refuse(f.weakening_A.has_value(), "control.field.weakening_A",
-         "depends on the voltage's magnitude, and three legs for a whole period have only one", to_pi);
+         "= false omits the induced voltages, and finite-set control predicts with them", to_pi);
+  refuse(
+      f.voltage_limit != control::VoltageLimit::circle, "control.field.voltage_limit",
+      "= \"axes\" limits the magnitude of the voltage, which is fixed when the legs keep one state for a whole period",
+      to_pi);
+  refuse(
+      f.weakening_A.has_value(), "control.field.weakening_A",
+      "adjusts the magnitude of the voltage, which is fixed when the legs keep one state for a whole period",
+      to_pi);
   refuse(f.advance_periods.has_value(), "control.field.advance_periods",
-         "rotates the output, and the finite set predicts the magnet's angle itself", to_pi);
+         "rotates the output, and finite-set control predicts the magnet's angle itself", to_pi);
   refuse(
       s.pwm.sample == SampleAt::middle, "pwm.sample",
-      "= \"middle\" lies half a period before the legs switch, over which the finite set does not estimate",
+      "= \"middle\" is half a period before the legs switch, and finite-set control does not predict over this half period",
       "set sample = \"start\"");
 }
 

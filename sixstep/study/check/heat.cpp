@@ -17,11 +17,12 @@ void check_energies(const Bridge& b, base::Problems& out) {
   const bool energies = b.turn_on_J > 0 || b.turn_off_J > 0 || b.recovery_J > 0;
   const bool point = b.energies_at_V > 0 && b.energies_at_A > 0;
   if (energies != point)
-    out.push_back({energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
-                   energies
-                       ? "and bridge.energies_at_A are missing: energies are given at a voltage and a current"
-                       : "is missing: energies_at_V and energies_at_A alone have no effect",
-                   "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
+    out.push_back(
+        {energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
+         energies
+             ? "and bridge.energies_at_A are missing: the switching energies belong to a voltage and a current"
+             : "is missing: energies_at_V and energies_at_A alone have no effect",
+         "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   if (energies && point && !(b.turn_on_J > 0 && b.turn_off_J > 0))
     out.push_back({b.turn_on_J > 0 ? "bridge.turn_off_J" : "bridge.turn_on_J", "",
                    "is missing: each pulse turns a switch on and off",
@@ -37,11 +38,11 @@ void check_energies(const Bridge& b, base::Problems& out) {
     for (const auto& [key, value] : gate)
       if (!(value > 0))
         out.push_back({key, base::six_digits(value),
-                       "belongs with the driver's current and both gate charges",
+                       "must be above 0 if one of the three gate values is given",
                        "give gate_current_A, gate_source_charge_C and gate_drain_charge_C, or none of them"});
   if (given == 3 && energies)
     out.push_back({"bridge.gate_drain_charge_C", base::six_digits(b.gate_drain_charge_C),
-                   "repeats turn_on_J and turn_off_J", "keep one of the two ways"});
+                   "repeats turn_on_J and turn_off_J", "keep either the energies or the gate values"});
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ void check_heat(const Scenario& s, base::Problems& out) {
         {"heat.devices", "true", "needs bridge.junction_K_W", "give the thermal resistance of a switch"});
   if (!h.devices && s.bridge.on_resistance_percent_K > 0)
     out.push_back({"bridge.on_resistance_percent_K", base::six_digits(s.bridge.on_resistance_percent_K),
-                   "acts where junctions warm up only", "set heat.devices = true"});
+                   "has no effect while heat.devices = false", "set heat.devices = true, or remove it"});
   const auto unused = [&](const char* key, const std::optional<double>& value) {
     if (value && !h.motor)
       out.push_back({key, base::six_digits(*value), "applies only with heat.motor = true",

@@ -41,15 +41,15 @@ struct Asked {
 void check_window(const Asked& a) {
   if (!a.m.to_s && !(a.from_s() < a.s.duration_s))
     return a.refuse("from_s", base::written(a.from_s()),
-                    "lies behind the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
+                    "is not before the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
                     "let the window begin earlier, or lengthen duration_s");
   if (!(a.from_s() < a.to_s()))
-    a.refuse("to_s", base::written(a.to_s()), "must lie behind from_s = " + base::written(a.from_s()),
+    a.refuse("to_s", base::written(a.to_s()), "must be after from_s = " + base::written(a.from_s()),
              "give the window as from_s < to_s");
   if (a.to_s() > a.s.duration_s)
     a.refuse("to_s", base::written(a.to_s()),
-             "lies behind the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
-             "shorten the window or lengthen duration_s");
+             "is after the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
+             "shorten the window, or lengthen duration_s");
 }
 
 /// Requires event comparators, because only they hold the current in a band.
@@ -134,8 +134,8 @@ bool is_controlled(Signal signal, const Control& control) {
 void check_level(const Asked& a) {
   const bool wanted = fact_of(a.m.metric).over != TakenOver::window;
   if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control))
-    a.refuse("level", "", "is missing, and the reference is of another signal",
-             "give the level that the signal is to reach, in its own unit");
+    a.refuse("level", "", "is missing, and the reference belongs to another signal",
+             "give the level that the signal must reach, in the signal's unit");
   const Measure usual;
   const auto looks_not = [&a](const char* key, double value) {
     a.refuse(key, base::written(value), "has no effect: " + quoted(a.m.metric) + " does not use it",
@@ -150,8 +150,9 @@ void check_level(const Asked& a) {
     a.refuse("tail", base::written(*a.m.tail), "has no effect: " + quoted(a.m.metric) + " does not use it",
              "remove it, or set from_s and to_s");
   if (a.m.tail && is_of_a_level(a.m.metric) && a.m.level)
-    a.refuse("tail", base::written(*a.m.tail), "is a part of the reference's levels, and level is given",
-             "remove it and set from_s and to_s");
+    a.refuse("tail", base::written(*a.m.tail),
+             "applies to the levels of the reference only, and level is given",
+             "remove it, and set from_s and to_s");
 }
 
 /// Requires a reference with constant levels, because the levels define the steps. A moving reference has no
@@ -167,8 +168,8 @@ void check_levels_of_reference(const Asked& a) {
         "max and min of the error, as signal = \"speed_error_rad_s\"");
   if (takes_levels && !a.m.level && changes_mode(a.s))
     a.refuse("level", "",
-             "is missing: the mode changes during the run, and with it the quantity of the levels",
-             "give the level that the signal is to reach, and from_s and to_s");
+             "is missing: the mode changes during the run, so that the reference changes its quantity",
+             "give the level that the signal must reach, and from_s and to_s");
 }
 
 void check_sampled(const Asked& a) {
@@ -193,7 +194,7 @@ void check_fundamental(const Asked& a) {
   if (frequency_Hz && whole_periods({a.from_s(), a.to_s()}, *frequency_Hz) < 1.0)
     a.refuse("frequency_Hz", base::written(*frequency_Hz),
              "has no whole period in the window of " + base::written(a.to_s() - a.from_s()) + " s",
-             "lengthen the window or give a higher frequency");
+             "lengthen the window, or give a higher frequency");
   if (!frequency_Hz && !alternates(a.m.signal))
     a.refuse("frequency_Hz", "",
              "is missing: " + quoted(a.m.signal) + " does not alternate with the rotor's rotation",

@@ -45,13 +45,13 @@ void check_own_numbers(const Own& own, base::Problems& out) {
     const sixstep_parameter* is = parameter(*own.loaded, given.name);
     if (is == nullptr) {
       const std::string names = names_of(*own.loaded);
-      out.push_back({where + ".name", '"' + given.name + '"', "is not a number of the controller",
-                     names.empty() ? "remove it: it has none" : "use one of: " + names});
+      out.push_back({where + ".name", '"' + given.name + '"', "is not the name of a number of the controller",
+                     names.empty() ? "remove it: the controller has no numbers" : "use one of: " + names});
     } else if (!(given.value >= is->least && given.value <= is->most)) {
       out.push_back(
           {where + ".value", base::written(given.value),
            "must be in " + base::six_digits(is->least) + ".." + base::six_digits(is->most) + " " + is->unit,
-           "correct it"});
+           "give a value in this range"});
     }
     const auto same = [&](const OwnNumber& other) { return other.name == given.name; };
     if (std::any_of(own.number.begin(), own.number.begin() + static_cast<std::ptrdiff_t>(n), same))
@@ -94,7 +94,9 @@ void check_around(const Scenario& s, base::Problems& out) {
 base::Problems check_controller(const sixstep_controller& is) {
   base::Problems out;
   const auto refuse = [&out](bool wrong, const char* where, const std::string& value, const char* limit) {
-    if (wrong) out.push_back({where, value, limit, "see sixstep/control/own/own_controller.h"});
+    if (wrong)
+      out.push_back({where, value, limit,
+                     "compare the controller's description with sixstep/control/own/own_controller.h"});
   };
   if (is.interface == in_float)
     return {{"interface", std::to_string(is.interface),
@@ -123,7 +125,7 @@ base::Problems check_controller(const sixstep_controller& is) {
     refuse(!is_name(p.name), (where + ".name").c_str(), p.name ? p.name : "",
            "must be letters, digits and '_'");
     refuse(p.unit == nullptr || p.meaning == nullptr, (where + ".meaning").c_str(), "",
-           "and unit must be texts, \"\" where there is none");
+           "and unit must be texts; write \"\" for none");
     refuse(!(p.preset >= p.least && p.preset <= p.most), (where + ".preset").c_str(), base::written(p.preset),
            "must be in least..most");
   }
@@ -141,8 +143,8 @@ void check_own(const Scenario& s, base::Problems& out) {
   if (own.controller.empty())
     out.push_back({"control.own.controller", "", "is missing", "name the shared object of the controller"});
   else if (own.loaded == nullptr)
-    out.push_back(
-        {"control.own.controller", '"' + own.controller + '"', "is not loaded", "run it from a file"});
+    out.push_back({"control.own.controller", '"' + own.controller + '"', "is not loaded",
+                   "read the scenario from a file"});
   else
     check_own_numbers(own, out);
   check_around(s, out);

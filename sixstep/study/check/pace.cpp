@@ -18,7 +18,7 @@ using plant::fastest_field_rad_s;
 
 /// Returns, for example, "3.2 ns, and on no board it is below 100 ns".
 std::string too_short(double rate_1_s) {
-  return base::three_digits(1e9 / rate_1_s) + " ns, and on no board it is below " +
+  return base::three_digits(1e9 / rate_1_s) + " ns, and no board is below " +
          base::three_digits(1e9 / fastest_answer_1_s) + " ns";
 }
 
@@ -40,10 +40,11 @@ void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) 
   const double rate =
       plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
   if (rate > fastest_answer_1_s)
-    out.push_back({"supply.capacitance_F", written(from.capacitance_F),
-                   "makes the bus's time constant with supply.resistance_ohm = " +
-                       written(from.resistance_ohm) + " and the winding " + too_short(rate),
-                   "check its unit: a bus has hundreds of microfarads; or remove both for a stiff bus"});
+    out.push_back(
+        {"supply.capacitance_F", written(from.capacitance_F),
+         "makes the bus's time constant with supply.resistance_ohm = " + written(from.resistance_ohm) +
+             " and the winding " + too_short(rate),
+         "check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
 }
 
 void check_friction(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -77,7 +78,7 @@ void check_source(const Scenario& s, const plant::Machine& m, base::Problems& ou
   const double L = std::min(2 * m.L_H, from.inductance_H > 0 ? from.inductance_H : 2 * m.L_H);
   if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
     out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
-                   "makes its time constant with the inductances around it " + too_short(rate),
+                   "makes the time constant with the source and winding inductances " + too_short(rate),
                    "check its unit: a bus capacitor has milliohms"});
   if (from.inductance_H > 0) {
     const double rate =
@@ -102,7 +103,7 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
   const auto look = [&](const char* key, double value, double rate) {
     if (rate > fastest_answer_1_s)
       out.push_back({key, written(value), "makes the shaft's time constant " + too_short(rate),
-                     "check its unit and those of load.gear and the inertias"});
+                     "check its unit, and those of load.gear and the inertias"});
   };
   const bool elastic = l.stiffness_Nm_rad > 0 && J_2 > 0;
   if (elastic) {
@@ -125,7 +126,7 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
       out.push_back({key, written(torque_Nm),
                      "is too large for a moment of inertia of " + base::three_digits(J) + " kg m2: at most " +
                          base::three_digits(most_Nm) + " N m are simulated",
-                     "check its unit and that of the inertia"});
+                     "check the units of the torque and of the inertia"});
   };
   look("load.torque_Nm", s.load.torque_Nm);
   look("load.gravity_Nm", s.load.gravity_Nm);
@@ -145,12 +146,12 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
   const auto look = [&](const std::string& key, double value, double field_rad_s, const char* cure) {
     if (std::fabs(field_rad_s) > fastest_field_rad_s)
       out.push_back({key, written(value),
-                     "lets the field turn at " + base::three_digits(std::fabs(field_rad_s)) +
-                         " electrical rad/s, and no motor's is above " +
+                     "makes the field turn at " + base::three_digits(std::fabs(field_rad_s)) +
+                         " electrical rad/s, and no motor reaches more than " +
                          base::three_digits(fastest_field_rad_s),
                      cure});
   };
-  constexpr const char* too_high = "lower it, or check the unit of the motor's torque constant";
+  constexpr const char* too_high = "lower the voltage, or check the unit of the motor's torque constant";
   look("supply.voltage_V", s.supply.voltage_V, plant::field_at(m, s.supply.voltage_V), too_high);
   if (s.initial.bus_V)
     look("initial.bus_V", *s.initial.bus_V, plant::field_at(m, *s.initial.bus_V), too_high);
@@ -159,7 +160,7 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
       look("at[" + std::to_string(n) + "].supply.voltage_V", *voltage_V, plant::field_at(m, *voltage_V),
            too_high);
   look("initial.speed_rad_s", s.initial.speed_rad_s, m.pole_pairs * s.initial.speed_rad_s,
-       "lower it: it is the speed of the shaft in rad/s");
+       "lower it; give the speed of the shaft in rad/s");
 }
 
 /// Checks the time in which the current crosses the hysteresis band. At worst the whole bus voltage drives
@@ -178,14 +179,14 @@ void check_timer(const Scenario& s, base::Problems& out) {
   if (s.pwm.timer_Hz > 0 && s.pwm.timer_Hz * s.pwm.period_s < 2.0)
     out.push_back({"pwm.timer_Hz", written(s.pwm.timer_Hz),
                    "counts less than twice in pwm.period_s = " + written(s.pwm.period_s),
-                   "give the timer's clock in Hz, 16e6 for 16 MHz; 0 rounds nothing"});
+                   "give the timer's clock in Hz, for example 16e6, or 0 for no rounding"});
 }
 
 /// A minimum pulse longer than half a period would allow no duty except 0 and 1.
 void check_minimum_pulse(const Scenario& s, base::Problems& out) {
   if (s.pwm.minimum_pulse_s > s.pwm.period_s / 2)
     out.push_back({"pwm.minimum_pulse_s", written(s.pwm.minimum_pulse_s),
-                   "leaves room for no pulse in pwm.period_s = " + written(s.pwm.period_s),
+                   "leaves no room for a pulse in pwm.period_s = " + written(s.pwm.period_s),
                    "give at most half the period"});
 }
 
@@ -199,20 +200,19 @@ void check_dead_time(const std::string& where, double dead_time_s, const Pwm& pw
   constexpr double worth_a_word = 0.9;
   // A leg that turns on and off within a period waits for two dead times.
   if (!(2 * dead_time_s < pwm.period_s)) {
-    out.push_back(
-        {where, written(dead_time_s), "must be shorter than half of pwm.period_s = " + written(pwm.period_s),
-         "give the gate driver's dead time, microseconds: a leg with two dead times in a period would "
-         "never turn on"});
+    out.push_back({where, written(dead_time_s),
+                   "must be shorter than half of pwm.period_s = " + written(pwm.period_s),
+                   "give the gate driver's dead time, some microseconds: each period has two dead times"});
     return;
   }
   const double counted_s = dead_time_in_counts_s(dead_time_s, pwm);
   if (counted_s >= worth_a_word * dead_time_s) return;
-  out.push_back(
-      {where, written(dead_time_s),
-       (counted_s > 0 ? "becomes " + base::three_digits(1e6 * counted_s) + " us" : "is lost") +
-           " on a timer that counts " + base::three_digits(1e6 / pwm.timer_Hz) +
-           " us, pwm.timer_Hz = " + written(pwm.timer_Hz),
-       "give whole counts, as " + base::six_digits(std::ceil(dead_time_s * pwm.timer_Hz) / pwm.timer_Hz)});
+  out.push_back({where, written(dead_time_s),
+                 (counted_s > 0 ? "becomes " + base::three_digits(1e6 * counted_s) + " us" : "is lost") +
+                     " on a timer that counts " + base::three_digits(1e6 / pwm.timer_Hz) +
+                     " us, pwm.timer_Hz = " + written(pwm.timer_Hz),
+                 "give whole counts, for example " +
+                     base::six_digits(std::ceil(dead_time_s * pwm.timer_Hz) / pwm.timer_Hz)});
 }
 
 void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {

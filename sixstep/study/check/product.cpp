@@ -23,7 +23,8 @@ using control::Mode;
 
 /// Requires measurements that a register shows, because the product drive reads registers only.
 void check_registers(const Scenario& s, base::Problems& out) {
-  const std::string asks = "has no register, and control.drive = \"product\" reads registers";
+  const std::string asks =
+      "has no converter, and control.drive = \"product\" reads the registers of converters and pins";
   if (s.sensors.currents == rig::CurrentMeasurement::ideal)
     out.push_back({"sensors.currents", "\"ideal\"", asks,
                    "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
@@ -37,7 +38,7 @@ void check_registers(const Scenario& s, base::Problems& out) {
                    "set rotor = \"hall\", or control.drive = \"lean\""});
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-                   "gives the product drive the duty of another period than its shunt's sample",
+                   "gives the product drive a duty that belongs to another period than the shunt sample",
                    "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
                    "anyway"});
 }
@@ -53,9 +54,10 @@ void check_missing(const char* key, const std::optional<double>& threshold, cons
 void check_threshold(const char* key, const std::optional<double>& threshold, double end,
                      const std::string& range, base::Problems& out) {
   if (threshold && !(*threshold < end))
-    out.push_back({std::string("protection.") + key, written(*threshold),
-                   "is never exceeded: the converter ends at " + base::rounded(end, 6) + ", by " + range,
-                   "lower it or widen the range"});
+    out.push_back(
+        {std::string("protection.") + key, written(*threshold),
+         "is never exceeded: the converter measures up to " + base::rounded(end, 6) + ", by " + range,
+         "lower it, or raise " + range.substr(0, range.find(' '))});
 }
 
 void check_thresholds(const Scenario& s, base::Problems& out) {
@@ -74,11 +76,10 @@ void check_thresholds(const Scenario& s, base::Problems& out) {
                     "sensors.bus_range_V = " + written(*s.sensors.bus_range_V), out);
   if (p.under_voltage_V && p.over_voltage_V && !(*p.under_voltage_V < *p.over_voltage_V))
     out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
-                   "leaves no voltage below protection.over_voltage_V = " + written(*p.over_voltage_V),
-                   "lower it"});
+                   "must be below protection.over_voltage_V = " + written(*p.over_voltage_V), "lower it"});
   if (p.under_voltage_V && s.sensors.bus_offset_V >= *p.under_voltage_V)
     out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
-                   "is never passed: without a bus the converter reads sensors.bus_offset_V = " +
+                   "is never reached: with the bus at 0 V the converter reads sensors.bus_offset_V = " +
                        written(s.sensors.bus_offset_V),
                    "raise it"});
   if (p.stall_current_A.has_value() != p.stall_s.has_value())
@@ -92,22 +93,22 @@ void check_activities(const Scenario& s, base::Problems& out) {
   const std::string needs = "needs a current loop, and control.mode has none";
   if (p.align.current_A && !has_current_loop)
     out.push_back({"protection.align.current_A", written(*p.align.current_A), needs,
-                   "remove it, or control current, speed or position"});
+                   "remove it, or set control.mode = \"current\", \"speed\" or \"position\""});
   if (p.brake_current_A > 0 && !has_current_loop)
     out.push_back({"protection.brake_current_A", written(p.brake_current_A), needs,
-                   "remove it, or control current, speed or position"});
+                   "remove it, or set control.mode = \"current\", \"speed\" or \"position\""});
   if (p.off_at_s && !(*p.off_at_s < s.duration_s))
     out.push_back({"protection.off_at_s", written(*p.off_at_s),
-                   "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
-                   "lengthen duration_s, or set off_at_s earlier"});
+                   "is not before the end of the run (duration_s = " + written(s.duration_s) + ")",
+                   "lengthen duration_s, or lower off_at_s"});
 }
 
 void check_advance(const Scenario& s, base::Problems& out) {
   const Advance& a = s.control.advance;
   if (a.angle_deg > a.limit_deg)
     out.push_back({"control.advance.angle_deg", written(a.angle_deg),
-                   "is above limit_deg = " + written(a.limit_deg) + ", and never reached",
-                   "lower it or raise the limit"});
+                   "is above limit_deg = " + written(a.limit_deg) + ", which limits the advance",
+                   "lower it, or raise limit_deg"});
 }
 
 /// If a sector is shorter than hall_stable_samples samples, the drive does not detect it, and the next Hall
@@ -131,7 +132,7 @@ void check_braking(const Scenario& s, base::Problems& out) {
   if (p.over_current_A && p.brake_current_A >= *p.over_current_A)
     out.push_back({"protection.brake_current_A", written(p.brake_current_A),
                    "is not below protection.over_current_A = " + written(*p.over_current_A) +
-                       ": braking would be a fault",
+                       ": braking would trip the drive",
                    "lower it"});
 }
 
@@ -144,12 +145,12 @@ void check_lean(const Scenario& s, base::Problems& out) {
   };
   if (p.over_current_A || p.over_voltage_V || p.under_voltage_V || p.over_speed_rad_s || p.stall_current_A ||
       p.stall_s || p.off_at_s || p.align.current_A || p.brake_current_A > 0)
-    refuse("protection", "", "is checked by the product drive only", "leave [protection] away");
+    refuse("protection", "", "is checked by the product drive only", "remove [protection]");
   if (advances(s.control.advance))
     refuse("control.advance", "", "applies to the product drive only", "remove it");
   if (s.sensors.hall_stable_samples > 1)
     refuse("sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
-           "filters the pins that the product drive reads only", "remove it");
+           "applies to the product drive only", "remove it");
 }
 
 }  // namespace
@@ -192,17 +193,18 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
     if (given) out.push_back({std::string("control.current.") + key, "", limit, cure});
   };
   if (loop.type != CurrentLoopType::deadbeat) {
-    refuse(loop.correction.has_value(), "correction", "applies to a prediction, and the loop has none",
+    refuse(loop.correction.has_value(), "correction", "applies to a deadbeat loop only",
            "set type = \"deadbeat\", or remove it");
     return;
   }
-  const char* const whole = "has no effect in a deadbeat loop, which R, L and the period determine";
+  const char* const whole = "has no effect in a deadbeat loop, which is computed from R, L and the period";
   refuse(loop.settle_s.has_value(), "settle_s", whole, "remove it, or set type = \"pi\"");
   refuse(loop.damping.has_value(), "damping", whole, "remove it, or set type = \"pi\"");
-  refuse(loop.d1 || loop.d0, "d1", whole, "leave d1 and d0 away, or set type = \"pi\"");
+  refuse(loop.d1 || loop.d0, "d1", whole, "remove d1 and d0, or set type = \"pi\"");
   refuse(loop.kp || loop.ki || loop.ki_per_s, "kp", whole,
-         "leave kp and its integral away, or set type = \"pi\"");
-  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already", "remove it");
+         "remove kp, ki and ki_per_s, or set type = \"pi\"");
+  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is already part of a deadbeat loop",
+         "remove it");
 }
 
 /// Refuses duty_step and overlap for a hysteresis, which sets no duty, for a deadbeat loop, whose prediction
@@ -214,10 +216,10 @@ void check_commutation_step(const Scenario& s, base::Problems& out) {
     if (given) out.push_back({"control.current.commutation", '"' + word + '"', limit, cure});
   };
   const char* const leave = "remove it, or set type = \"pi\"";
-  refuse(s.control.current.type == CurrentLoopType::hysteresis, "sets a duty, and a hysteresis has no duty",
-         leave);
+  refuse(s.control.current.type == CurrentLoopType::hysteresis,
+         "sets a duty during a commutation, and a hysteresis has no duty", leave);
   refuse(s.control.current.type == CurrentLoopType::deadbeat,
-         "sets a duty that the deadbeat loop's prediction does not include", leave);
+         "sets a duty during a commutation, which the deadbeat loop's prediction does not include", leave);
   refuse(s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on,
          "holds the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
          "set chopping = \"soft\" or \"complementary\"");
@@ -232,7 +234,7 @@ void check_pattern(const Scenario& s, base::Problems& out) {
                    "remove it, or set chopping = \"soft\" or \"complementary\""});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"pwm.pattern", word,
-                   "applies to a PWM only, and the comparators of the hysteresis switch the upper switch",
+                   "applies to a PWM only, and a hysteresis always chops the upper switch",
                    "remove it, or set control.current.type = \"pi\""});
 }
 
@@ -248,15 +250,17 @@ void check_extras(const Scenario& s, base::Problems& out) {
                    "has no effect in a hysteresis, which sets no voltage",
                    "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.feedback != CurrentFeedback::mean)
-    out.push_back({"control.current.feedback", "\"staying-phase\"",
-                   "applies to a sampled loop; a hysteresis has control.current.on",
-                   "remove it, or set type = \"pi\""});
+    out.push_back(
+        {"control.current.feedback", "\"staying-phase\"",
+         "applies to a PI or deadbeat loop; a hysteresis reads the current that control.current.on names",
+         "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
     out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
                    "has no effect in a hysteresis, which has no duty", "remove it, or set type = \"pi\""});
   if (s.control.limits.gain_A_s_per_rad && !s.control.limits.speed_rad_s)
     out.push_back({"control.limits.gain_A_s_per_rad", written(*s.control.limits.gain_A_s_per_rad),
-                   "has no effect without a limit", "add control.limits.speed_rad_s"});
+                   "has no effect without control.limits.speed_rad_s",
+                   "add control.limits.speed_rad_s, or remove it"});
   const SmoothChopping& smooth = s.control.smooth_chopping;
   if (smooth.soft_above_A && smooth.complementary_below_A &&
       !(*smooth.soft_above_A > *smooth.complementary_below_A))

@@ -52,30 +52,30 @@ void check_strays(const Place& p) {
   for (const ShapeKey& key : shape_keys)
     if (key.given(p.r) && !reads(p.r.shape, key))
       p.say(
-          key.key, "", "means nothing for " + p.shape(),
+          key.key, "", "has no effect with " + p.shape(),
           "set shape = " + readers_of(key) +
-              ", or remove it; where a base or the file has it, reference = { .. } replaces all of its keys");
+              ", or remove it; if an extended file has it, reference = { .. } replaces all keys of that file's reference");
   if (p.r.shape == Shape::csv && p.r.column && p.r.file.empty() && !p.r.times_s.empty())
     p.say("column", "\"" + *p.r.column + "\"",
           "applies to a file only, and times_s and values are given here",
-          "give file = \"NAME.csv\" instead of them, or remove it");
+          "give file = \"NAME.csv\" instead of times_s and values, or remove it");
 }
 
 void check_ramp(const Place& p) {
   const Reference& r = p.r;
-  if (!r.end_s && !r.slope) p.missing("end_s", "give end_s, when it gets there, or slope, its rate");
+  if (!r.end_s && !r.slope) p.missing("end_s", "give end_s, the time of the final value, or slope, the rate");
   if (r.end_s && r.slope)
     p.say("slope", written(*r.slope), "contradicts end_s: the rate is given twice", "keep one of the two");
   if (r.end_s && !(*r.end_s > r.begin_s))
-    p.say("end_s", written(*r.end_s), "must lie behind begin_s = " + written(r.begin_s),
-          "a jump is shape = \"steps\"");
+    p.say("end_s", written(*r.end_s), "must be after begin_s = " + written(r.begin_s),
+          "give a later end_s, or set shape = \"steps\" for a jump");
 }
 
 /// A sine with fewer than two samples per period looks like another sine.
 void check_sine(const Place& p) {
   const double most_Hz = 0.5 / p.s.pwm.period_s;
   if (!(p.r.frequency_Hz > 0))
-    p.missing("frequency_Hz", "give its frequency");
+    p.missing("frequency_Hz", "give the frequency of the sine in Hz");
   else if (!(p.r.frequency_Hz < most_Hz))
     p.say("frequency_Hz", written(p.r.frequency_Hz),
           "must be below half the controller's sampling rate, " + written(most_Hz) + " Hz",
@@ -84,13 +84,14 @@ void check_sine(const Place& p) {
 
 void check_trapezoid(const Place& p) {
   if (!p.r.slope) p.missing("slope", "give the largest rate, in the unit of control.mode per s");
-  if (!p.r.acceleration) p.missing("acceleration", "give how fast the rate may change, in that unit per s2");
+  if (!p.r.acceleration)
+    p.missing("acceleration", "give the largest change of the rate, in the unit of control.mode per s2");
 }
 
 void check_square(const Place& p) {
   if (p.left_s / (p.r.period_s / 2) > most_half_periods)
-    p.say("period_s", written(p.r.period_s), "is more than a million periods in the run",
-          "lengthen it or shorten duration_s");
+    p.say("period_s", written(p.r.period_s), "is too short: the run would have more than a million periods",
+          "lengthen it, or shorten duration_s");
 }
 
 void check_rows(const Place& p) {
@@ -178,12 +179,12 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
                                         // message per entry
   for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {
     if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
-      out.push_back({table + "." + times_key, written(times[n]), "must rise from entry to entry, from 0 on",
-                     "sort the times"});
+      out.push_back({table + "." + times_key, written(times[n]),
+                     "must be at least 0 and above the entry before", "sort the times"});
     else if (!(times[n] < duration_s))
       out.push_back({table + "." + times_key, written(times[n]),
-                     "lies behind the end of the run (duration_s = " + written(duration_s) + ")",
-                     "lengthen duration_s or drop the entry"});
+                     "is not before the end of the run (duration_s = " + written(duration_s) + ")",
+                     "lengthen duration_s, or remove the entry"});
   }
 }
 

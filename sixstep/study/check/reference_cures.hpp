@@ -18,13 +18,13 @@ inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const
   for (const auto& choice : mode_choices)
     if (!unit.empty() && own(choice.value) == unit)
       return "set control.mode = \"" + std::string(choice.word) + "\", or " + in_mode;
-  return in_mode + ", or write the unit behind the number, as \"100 " + std::string(unit) +
-         "\", if it is of that kind, or change control.mode";
+  return in_mode + ", or the number with its unit, as \"100 " + std::string(unit) +
+         "\", or change control.mode";
 }
 
 /// A duty is a share of the period; a user who writes 50 means percent.
 inline std::string cure_of_duty(double value) {
-  std::string what = "a duty is the signed share of the period that the switch is on";
+  std::string what = "a duty is the fraction of the period in which the switch is on, with a sign";
   if (!(std::fabs(value) <= 100.0)) return what;
   return "write " + base::written(value / 100.0) + " for " + base::written(value) + " %: " + what;
 }

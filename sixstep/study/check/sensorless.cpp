@@ -14,8 +14,7 @@ namespace {
 /// The sample must lie in the middle of the on-time, where the pair holds the star point at half of the bus.
 void check_sample(const Scenario& s, base::Problems& out) {
   const std::string why =
-      "puts the sample outside of the on-time, and only within it the free phase's terminal shows the "
-      "back-EMF";
+      "puts the sample outside the on-time, and the free phase's terminal shows the back-EMF only in the on-time";
   if (s.pwm.alignment != Alignment::centre)
     out.push_back({"pwm.alignment", "\"edge\"", why, "set alignment = \"centre\""});
   if (s.pwm.sample != SampleAt::middle)
@@ -24,13 +23,12 @@ void check_sample(const Scenario& s, base::Problems& out) {
 
 void check_sensorless_loops(const Scenario& s, base::Problems& out) {
   if (s.control.mode == control::Mode::position)
-    out.push_back({"control.mode", "\"position\"",
-                   "needs the rotor's angle at rest, where there is no back-EMF",
-                   "control speed, current or duty, or set control.drive = \"lean\" and sensors.rotor"});
+    out.push_back(
+        {"control.mode", "\"position\"", "needs the rotor's angle at rest, where there is no back-EMF",
+         "set control.mode = \"speed\", \"current\" or \"duty\", or control.drive = \"lean\" with a sensor in sensors.rotor"});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"control.current.type", "\"hysteresis\"",
-                   "switches whenever the current leaves its band, so that no sample of the terminals lies "
-                   "in an on-time",
+                   "switches at any instant, so that no sample of the terminals is sure to lie in an on-time",
                    "set type = \"pi\""});
   if (s.control.current.type == CurrentLoopType::deadbeat)
     out.push_back({"control.current.type", "\"deadbeat\"",
@@ -51,12 +49,12 @@ void check_source(const Scenario& s, base::Problems& out) {
   const RotorSensing rotor = s.sensors.rotor;
   if (rotor != RotorSensing::ideal && rotor != RotorSensing::hall)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, rotor)),
-                   "is not supported by the sensorless drive: it reads Hall probes or none",
+                   "is not supported by the sensorless drive, which reads Hall probes or no sensor",
                    "remove it, set rotor = \"hall\", or control.drive = \"lean\""});
   const bool asked = s.control.sensorless.commutates == Commutates::hall;
   if (asked && rotor != RotorSensing::hall)
-    out.push_back({"control.sensorless.commutates", "\"hall\"", "needs Hall probes, and the board reads none",
-                   "set sensors.rotor = \"hall\""});
+    out.push_back({"control.sensorless.commutates", "\"hall\"",
+                   "needs Hall probes, and sensors.rotor is not \"hall\"", "set sensors.rotor = \"hall\""});
 }
 
 /// Pulses need a converter per phase, because each pulse is judged by the currents into and out of its pair.
@@ -64,7 +62,7 @@ void check_start(const Scenario& s, base::Problems& out) {
   if (s.control.sensorless.starts_by != StartsBy::pulses) return;
   if (s.sensors.currents == rig::CurrentMeasurement::phases) return;
   out.push_back({"sensors.currents", std::string(base::word(current_sensing_choices, s.sensors.currents)),
-                 "has no converter per phase, and the drive measures its start pulses with them",
+                 "has no converter per phase, which the drive needs to measure its start pulses",
                  "set currents = \"phases\" and current_range_A, or "
                  "control.sensorless.starts_by = \"alignment\""});
 }
@@ -73,11 +71,11 @@ void check_others(const Scenario& s, base::Problems& out) {
   if (s.sensors.bus_bandwidth_Hz && control::observes(s.control.sensorless.follows))
     out.push_back(
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
-         "is also that of the terminals' dividers. After a diode turns off within the pulse, the sample is "
-         "wrong by up to half the bus; an observer keeps this error for periods",
+         "also filters the terminal voltages. After a diode turns off, their sample is wrong by up to half the bus voltage, and an observer keeps this error for some periods",
          "remove it, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
-    out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",
+    out.push_back({"control.drive", "\"sensorless\"",
+                   "applies to rotary motors only, and this motor is linear",
                    "set drive = \"lean\" or \"product\""});
 }
 
@@ -85,13 +83,14 @@ void check_others(const Scenario& s, base::Problems& out) {
 void check_terminals(const Scenario& s, base::Problems& out) {
   const auto three = [&](const char* key, const std::vector<double>& values) {
     if (!values.empty() && values.size() != 3)
-      out.push_back({key, std::to_string(values.size()) + " values", "is not 3, those of terminals a, b, c",
-                     "give 3, or remove it"});
+      out.push_back({key, std::to_string(values.size()) + " values",
+                     "must be 3, one for each terminal a, b, c", "give 3 values, or remove it"});
   };
   three("sensors.terminal_gain_error", s.sensors.terminal_gain_error);
   three("sensors.comparators.offset_V", s.sensors.comparators.offset_V);
   if (s.sensors.comparators != Comparators{} && s.control.sensorless.follows != control::Follow::comparators)
-    out.push_back({"sensors.comparators", "", "acts at the terminals, and nothing reads its edges",
+    out.push_back({"sensors.comparators", "",
+                   "has no effect, because control.sensorless.follows is not \"comparators\"",
                    "set control.sensorless.follows = \"comparators\", or remove it"});
 }
 

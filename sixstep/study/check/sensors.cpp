@@ -16,16 +16,18 @@ void check_currents(const Scenario& s, base::Problems& out) {
   const Sensors& sensors = s.sensors;
   if (sensors.currents == CurrentMeasurement::ideal) return;
   if (!sensors.current_range_A)
-    out.push_back({"sensors.current_range_A", "", "is missing, and currents go through a converter",
+    out.push_back({"sensors.current_range_A", "", "is missing: the converter of the currents needs its range",
                    "give the current at the converter's full scale, or currents = \"ideal\""});
   else if (std::fabs(sensors.current_offset_A) >= *sensors.current_range_A)
     out.push_back({"sensors.current_offset_A", base::written(sensors.current_offset_A),
                    "leaves no range within current_range_A = " + base::written(*sensors.current_range_A),
-                   "lower it or widen the range"});
+                   "lower it, or raise current_range_A"});
   const bool samples_in_middle = s.pwm.sample == SampleAt::middle;
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
-    out.push_back({"sensors.currents", "\"dc-link\"", "cannot measure before the on-time has begun",
-                   "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
+    out.push_back(
+        {"sensors.currents", "\"dc-link\"",
+         "shows the current only in the on-time, and samples at the start of the period come before it",
+         "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
 /// The converter shows the current as it was current_delay_s before the sample. This instant must lie in the
@@ -34,7 +36,7 @@ void check_front_end(const Scenario& s, base::Problems& out) {
   if (s.sensors.current_delay_s >= s.pwm.period_s)
     out.push_back({"sensors.current_delay_s", base::written(s.sensors.current_delay_s),
                    "must be below pwm.period_s = " + base::written(s.pwm.period_s),
-                   "lower it, or sample less often"});
+                   "lower it, or lengthen pwm.period_s"});
 }
 
 void check_bits(const Scenario& s, base::Problems& out) {
@@ -42,8 +44,8 @@ void check_bits(const Scenario& s, base::Problems& out) {
   const Arithmetic a = s.control.arithmetic;
   if (used && (a == Arithmetic::q15 || a == Arithmetic::q14) && s.sensors.adc_bits > 12)
     out.push_back({"sensors.adc_bits", std::to_string(s.sensors.adc_bits),
-                   "in eighths of a count is more than 16-bit fixed point holds",
-                   "take 12 bits, or a 32-bit format in control.arithmetic"});
+                   "is too many for 16-bit fixed point, which computes in eighths of a count",
+                   "set adc_bits = 12 or less, or a 32-bit control.arithmetic"});
 }
 
 void check_hall(const Scenario& s, base::Problems& out) {
@@ -51,11 +53,11 @@ void check_hall(const Scenario& s, base::Problems& out) {
   // The chip compares times by their signed 32-bit difference, which is right for less than 2^31 counts.
   if (sensors.timeout_s * sensors.capture_Hz > 0x1p31)
     out.push_back({"sensors.timeout_s", base::written(sensors.timeout_s),
-                   "is more than 2^31 counts of capture_Hz", "lower one of them"});
+                   "is more than 2^31 counts of capture_Hz", "lower timeout_s or capture_Hz"});
   if (sensors.hall_break.at_s && !(*sensors.hall_break.at_s < s.duration_s))
     out.push_back({"sensors.hall_break.at_s", base::written(*sensors.hall_break.at_s),
-                   "lies behind the end of the run (duration_s = " + base::written(s.duration_s) + ")",
-                   "lengthen duration_s or break the line earlier"});
+                   "is not before the end of the run (duration_s = " + base::written(s.duration_s) + ")",
+                   "lengthen duration_s, or lower at_s"});
 }
 
 /// Least distance between neighbouring Hall edges, after the hysteresis, so that the edges keep their order.
@@ -68,18 +70,19 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
   const std::vector<double>& own = x.hall_edges_deg;
   const std::size_t all = motor ? 6 * static_cast<std::size_t>(motor->machine.pole_pairs) : own.size();
   if (!own.empty() && own.size() != 6 && own.size() != all)
-    return out.push_back(
-        {"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
-         "is neither 6, an electrical turn's edges, nor " + std::to_string(all) + ", a mechanical turn's",
-         "give one of them"});
+    return out.push_back({"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
+                          "must be 6, the edges of an electrical turn, or " + std::to_string(all) +
+                              ", those of a mechanical turn",
+                          "give 6 or " + std::to_string(all) + " values"});
   for (std::size_t n = 0; n < own.size(); ++n) {
     const std::size_t next = (n + 1) % own.size();
     const double gap = 60 + own[next] - own[n] - x.hall_hysteresis_deg;
     if (gap < least_gap_deg)
-      return out.push_back({"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
-                            "leaves " + base::written(gap) + " deg, less than 1, to the edge before, the " +
-                                "hysteresis subtracted",
-                            "give edges that stay in their order"});
+      return out.push_back(
+          {"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
+           "is " + base::written(gap) +
+               " deg after the previous edge, with the hysteresis subtracted; at least 1 deg is needed",
+           "give angles that keep the order of the edges"});
   }
 }
 
@@ -100,8 +103,8 @@ void check_sensors(const Scenario& s, const std::optional<design::MotorModel>& m
   check_hall(s, out);
   check_probes(s, motor, out);
   if (s.sensors.bus == BusSensing::adc && !s.sensors.bus_range_V)
-    out.push_back({"sensors.bus_range_V", "", "is missing, and the bus goes through a converter",
-                   "give the voltage at its upper end, or bus = \"ideal\""});
+    out.push_back({"sensors.bus_range_V", "", "is missing: the converter of the bus voltage needs its range",
+                   "give the voltage at the converter's upper end, or set bus = \"ideal\""});
   const CurrentLoop& c = s.control.current;
   if (s.pwm.sample == SampleAt::middle && c.type == CurrentLoopType::hysteresis &&
       c.comparator == Comparator::event)

@@ -22,14 +22,14 @@ void check_table(const Load& l, base::Problems& out) {
       l.at_speeds_Nm.size() > 100)
     out.push_back({"load.at_speeds_Nm", std::to_string(l.at_speeds_Nm.size()) + " values",
                    "need as many load.at_speeds_rad_s, 2 to 100 of them",
-                   "as at_speeds_rad_s = [0, 300], at_speeds_Nm = [0.01, 0.05]"});
+                   "write for example at_speeds_rad_s = [0, 300] and at_speeds_Nm = [0.01, 0.05]"});
   for (std::size_t n = 0; n + 1 < l.at_speeds_rad_s.size(); ++n)
     if (const double step = l.at_speeds_rad_s[n + 1] - l.at_speeds_rad_s[n]; !(step >= least_step_rad_s)) {
       out.push_back({"load.at_speeds_rad_s[" + std::to_string(n + 1) + "]",
                      base::six_digits(l.at_speeds_rad_s[n + 1]),
-                     step > 0 ? "is too close to the one before: a run cannot resolve them"
-                              : "must be above the one before",
-                     step > 0 ? "remove one of the two" : "sort them"});
+                     step > 0 ? "is too close to the speed before: a run cannot distinguish them"
+                              : "must be above the speed before",
+                     step > 0 ? "remove one of the two speeds" : "sort the speeds"});
       return;
     }
 }
@@ -41,7 +41,7 @@ void check_torques(const Scenario& s, base::Problems& out) {
               l.between == Between::lines ? endless : s.duration_s, out);
   if (l.torque_Nm != 0 && !l.times_s.empty() && l.times_s.front() == 0)
     out.push_back({"load.torque_Nm", base::six_digits(l.torque_Nm),
-                   "never acts: load.torques_Nm has the torque from load.times_s[0] = 0 on",
+                   "never acts: load.torques_Nm gives the torque from load.times_s[0] = 0 on",
                    "remove it, or let times_s begin later"});
   if (l.between == Between::lines && l.times_s.empty() && l.torques_Nm.empty())
     out.push_back({"load.between", "\"lines\"", "needs load.torques_Nm, which is not given",
@@ -56,11 +56,12 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
               "dynamometer_times_s");
   if (!l.dynamometer_times_s.empty() && l.dynamometer_times_s.front() != 0)
     out.push_back({"load.dynamometer_times_s", base::six_digits(l.dynamometer_times_s.front()),
-                   "must begin at 0: a dynamometer turns the shaft from the start", "write 0 for the first"});
+                   "must begin at 0, because a dynamometer turns the shaft from the start",
+                   "write 0 as the first time"});
   const auto refuse = [&out](const std::string& key, double value) {
     if (value != 0)
       out.push_back({key, base::six_digits(value), "has no effect where a dynamometer imposes the speed",
-                     "remove it: the load torque is the run's result"});
+                     "remove it: the load torque is a result of the run"});
   };
   refuse("load.torque_Nm", l.torque_Nm);
   refuse("load.torques_Nm", static_cast<double>(l.torques_Nm.size()));
@@ -69,7 +70,7 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
   refuse("load.gravity_Nm", l.gravity_Nm);
   refuse("initial.speed_rad_s", s.initial.speed_rad_s);
   if (l.locked)
-    out.push_back({"load.locked", "true", "contradicts load.dynamometer_rad_s", "leave one of them away"});
+    out.push_back({"load.locked", "true", "contradicts load.dynamometer_rad_s", "remove one of the two"});
   if (l.gear_efficiency < 1 && !(l.stiffness_Nm_rad > 0))
     out.push_back({"load.gear_efficiency", base::six_digits(l.gear_efficiency),
                    "has no effect where a dynamometer turns a rigid shaft",
@@ -86,11 +87,11 @@ void check_shaft(const Scenario& s, base::Problems& out) {
                    "give load.inertia_kg_m2"});
   if (l.damping_Nm_s_rad > 0 && !(l.stiffness_Nm_rad > 0))
     out.push_back({"load.damping_Nm_s_rad", base::six_digits(l.damping_Nm_s_rad),
-                   "applies to an elastic shaft only, and this one is rigid",
+                   "applies to an elastic shaft only, and this shaft is rigid",
                    "give load.stiffness_Nm_rad, or remove it"});
   if (l.gravity_angle_deg != 0 && l.gravity_Nm == 0)
     out.push_back({"load.gravity_angle_deg", base::six_digits(l.gravity_angle_deg),
-                   "needs the load's weight, which is not given", "give load.gravity_Nm"});
+                   "has no effect without load.gravity_Nm", "give load.gravity_Nm, or remove it"});
   check_table(l, out);
   check_dynamometer(s, out);
   if (l.gear_efficiency < 1 && l.gear == 1)
@@ -98,7 +99,7 @@ void check_shaft(const Scenario& s, base::Problems& out) {
                    "needs load.gear, which is not given", "give load.gear, or remove it"});
   if (l.locked && s.initial.speed_rad_s != 0)
     out.push_back({"initial.speed_rad_s", base::six_digits(s.initial.speed_rad_s),
-                   "contradicts load.locked = true", "set it to 0 or unlock the rotor"});
+                   "contradicts load.locked = true", "set it to 0, or set load.locked = false"});
   check_torques(s, out);
 }
 

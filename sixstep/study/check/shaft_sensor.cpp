@@ -33,14 +33,15 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   if (motor && !believed && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
-              ": one angle of it would correspond to several electrical angles of the motor",
-          "take 1, or a divisor of them");
+              " pole pairs, so that one angle of the resolver has several electrical angles of the motor",
+          "give 1, or a divisor of the motor's pole pairs");
   const double step_s = tracking_period_s(s);
   if (sampled && std::fabs(2 * step_s * r.excitation_Hz - 1) > 1e-9)
-    wrong("excitation_Hz", base::written(r.excitation_Hz),
-          "has a half period of " + base::written(0.5 / r.excitation_Hz) +
-              " s, not a whole number of control periods: samples would miss its peaks",
-          "take " + base::written(0.5 / step_s) + " Hz, or change pwm.period_s");
+    wrong(
+        "excitation_Hz", base::written(r.excitation_Hz),
+        "has a half period of " + base::written(0.5 / r.excitation_Hz) +
+            " s, which is not a whole number of control periods: the samples would miss the excitation's peaks",
+        "take " + base::written(0.5 / step_s) + " Hz, or change pwm.period_s");
   if (!(r.bandwidth_Hz * step_s < 0.5))
     wrong("bandwidth_Hz", base::written(r.bandwidth_Hz),
           std::string("must be below half the rate of ") + (sampled ? "the peaks, " : "the chip's clock, ") +
@@ -56,10 +57,10 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   if (r.latency_s >= s.pwm.period_s)
     wrong("latency_s", base::written(r.latency_s),
           "must be below pwm.period_s = " + base::written(s.pwm.period_s),
-          "read the angle out faster, or sample less often");
+          "lower it, or lengthen pwm.period_s");
   if (s.duration_s * r.converter_Hz > most_clocks)
     wrong("converter_Hz", base::written(r.converter_Hz),
-          "makes more than 1e9 steps of the chip's loop in duration_s = " + base::written(s.duration_s),
+          "makes more than 1e9 steps of the converter chip in duration_s = " + base::written(s.duration_s),
           "lower one of them");
 }
 
@@ -111,24 +112,25 @@ void check_lines(const Scenario& s, base::Problems& out) {
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   if (!linear && e.pitch_mm)
     out.push_back({"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
-                   "applies to a linear motor's scale only, and this motor turns",
-                   "give sensors.encoder.lines"});
+                   "applies to linear motors only, and this motor is rotary",
+                   "give sensors.encoder.lines instead"});
   if (!linear) return;
   if (e.lines != Encoder::usual_lines)
     out.push_back({"sensors.encoder.lines", std::to_string(e.lines),
-                   "are those of a turn, and this motor is linear",
-                   "give sensors.encoder.pitch_mm in their place"});
+                   "applies to rotary motors only, and this motor is linear",
+                   "give sensors.encoder.pitch_mm instead"});
   if (!e.pitch_mm)
     out.push_back({"sensors.encoder.pitch_mm", "", "is missing: this motor is linear",
-                   "give the length of a line of its scale"});
+                   "give the length of one line of the scale"});
   if (!e.pitch_mm || !s.sheet.pole_pitch_mm) return;
   const double lines = lines_to_period(s), whole = std::floor(lines + 0.5);
   if (whole >= 1 && whole <= 1e6 && std::fabs(lines - whole) <= 1e-9 * whole) return;
   const double nearest = std::fmin(std::fmax(whole, 1.0), 1e6);
-  out.push_back({"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
-                 "goes " + base::rounded(lines, 6) +
-                     " times into two pole pitches: the drive counts a whole number to them, up to 1000000",
-                 "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
+  out.push_back(
+      {"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
+       "goes " + base::rounded(lines, 6) +
+           " times into two pole pitches; it must go into them a whole number of times, at most 1000000",
+       "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
 }
 
 void check_encoder(const Scenario& s, base::Problems& out) {
@@ -144,11 +146,10 @@ void check_encoder(const Scenario& s, base::Problems& out) {
 void check_linear(const Scenario& s, const std::string& word, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.sensors.rotor != RotorSensing::encoder)
-    out.push_back({"sensors.rotor", word, "is on the shaft of a turning motor, and this one is linear",
+    out.push_back({"sensors.rotor", word, "needs a turning shaft, and this motor is linear",
                    "set rotor = \"encoder\" with sensors.encoder.pitch_mm, \"hall\" or \"ideal\""});
   else if (s.sensors.shaft == SensorShaft::load)
-    out.push_back({"sensors.shaft", "\"load\"",
-                   "applies to a turning motor's load only, and this motor is linear",
+    out.push_back({"sensors.shaft", "\"load\"", "applies to rotary motors only, and this motor is linear",
                    "set shaft = \"motor\""});
 }
 
@@ -184,7 +185,7 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
   if (rotor == RotorSensing::absolute && latency_s >= s.pwm.period_s)
     out.push_back({"sensors.absolute.latency_s", base::written(latency_s),
                    "must be below pwm.period_s = " + base::written(s.pwm.period_s),
-                   "read the code out faster, or sample less often"});
+                   "lower it, or lengthen pwm.period_s"});
   if (rotor == RotorSensing::resolver) check_resolver(s, motor, out);
 }
 

@@ -25,7 +25,8 @@ void check_positional(const Scenario& s, base::Problems& out) {
   refuse("setpoint_weight", loop.setpoint_weight);
   if (loop.derivative_filter_s && !loop.derivative_s && loop.form == SpeedForm::positional)
     out.push_back({"control.speed.derivative_filter_s", base::six_digits(*loop.derivative_filter_s),
-                   "has no derivative to smooth", "add control.speed.derivative_s"});
+                   "has no effect without control.speed.derivative_s",
+                   "add control.speed.derivative_s, or remove it"});
   if (loop.observer_ratio)
     out.push_back({"control.speed.observer_ratio", base::six_digits(*loop.observer_ratio),
                    "applies to an observer only, and law = \"pi\" has none",
@@ -41,13 +42,13 @@ void check_designed(const Scenario& s, base::Problems& out) {
       out.push_back({std::string("control.speed.") + key, base::six_digits(*value),
                      "applies to a PI only, and control.speed.law = \"" + law + "\" has none", cure});
   };
-  const std::string gains = "give settle_s and observer_ratio alone, or set law = \"pi\"";
+  const std::string gains = "remove it and give settle_s and observer_ratio, or set law = \"pi\"";
   refuse("d1", loop.d1, gains);
   refuse("d0", loop.d0, gains);
   refuse("kp", loop.kp, gains);
   refuse("ki", loop.ki, gains);
   refuse("ki_per_s", loop.ki_per_s, gains);
-  refuse("damping", loop.damping, "remove it: the law places real poles; or set law = \"pi\"");
+  refuse("damping", loop.damping, "remove it, because this law places real poles; or set law = \"pi\"");
   const std::string form = "remove it, or set law = \"pi\"";
   refuse("anti_windup", loop.anti_windup, form);
   refuse("derivative_s", loop.derivative_s, form);
@@ -58,7 +59,7 @@ void check_designed(const Scenario& s, base::Problems& out) {
                    "applies to a PI only, and control.speed.law = \"" + law + "\" has none", form});
   if (s.control.arithmetic != Arithmetic::float64 && s.control.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, s.control.arithmetic)),
-                   "has no scaling that is proved for control.speed.law = \"" + law + "\"",
+                   "is fixed point, which has no proven scaling for control.speed.law = \"" + law + "\"",
                    "set arithmetic = \"float\" or \"double\", or law = \"pi\""});
 }
 

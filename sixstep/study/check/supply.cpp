@@ -17,7 +17,8 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
     if (s.brake_on_V > 0 || s.brake_off_V > 0)
       out.push_back({s.brake_on_V > 0 ? "supply.brake_on_V" : "supply.brake_off_V",
                      base::six_digits(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
-                     "has no brake resistor to switch", "give supply.brake_resistance_ohm"});
+                     "has no effect without supply.brake_resistance_ohm",
+                     "give supply.brake_resistance_ohm, or remove it"});
     return;
   }
   if (!has_capacitor)
@@ -26,20 +27,20 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
   if (!(s.brake_on_V > s.brake_off_V) || !(s.brake_off_V > 0))
     out.push_back(
         {"supply.brake_on_V", base::six_digits(s.brake_on_V),
-         "must be above supply.brake_off_V = " + base::six_digits(s.brake_off_V) + ", and that above 0",
-         "give both, as brake_on_V = 30, brake_off_V = 28"});
+         "must be above supply.brake_off_V = " + base::six_digits(s.brake_off_V) + ", which must be above 0",
+         "give both, for example brake_on_V = 30 and brake_off_V = 28"});
   else if (const double open_V = highest_open_V(s); !(s.brake_off_V > open_V))
     out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
                    (s.source == SourceKind::steady ? "must be above supply.voltage_V = "
                                                    : "must be above the source's open-circuit voltage, ") +
                        base::six_digits(open_V),
-                   "the resistor would never be off again"});
+                   "raise it: else the resistor would never turn off"});
   else if (const double falls = s.brake_on_V * s.capacitor_resistance_ohm / (s.capacitor_resistance_ohm + R);
            !(falls < s.brake_on_V - s.brake_off_V))
     out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
                    "is reached at once: the resistor draws " + base::six_digits(falls) +
-                       " V across supply.capacitor_resistance_ohm",
-                   "lower it, or the capacitor's resistance"});
+                       " V across supply.capacitor_resistance_ohm, and the bus falls below brake_off_V",
+                   "lower brake_off_V or supply.capacitor_resistance_ohm"});
 }
 
 /// Controllers are designed for voltage_V. A value far from the source's voltage is probably the default,
@@ -49,7 +50,8 @@ void check_nominal(const Supply& s, base::Problems& out) {
   if (!(open_V > 0) || (s.voltage_V > open_V / 2 && s.voltage_V < open_V * 2)) return;
   out.push_back(
       {"supply.voltage_V", base::six_digits(s.voltage_V),
-       "is the design voltage, and the source's open-circuit voltage is " + base::six_digits(open_V) + " V",
+       "is the voltage of the design, and differs too much from the source's open-circuit voltage, " +
+           base::six_digits(open_V) + " V",
        "write voltage_V = " + base::rounded(open_V, 3)});
 }
 
@@ -58,25 +60,25 @@ void check_battery(const Supply& s, base::Problems& out) {
                      s.battery_capacity_Ah > 0 || s.battery_recovery_ohm > 0 || s.battery_recovery_F > 0;
   if (s.source != SourceKind::battery) {
     if (given)
-      out.push_back({"supply.source", "", "is no battery, and battery_* keys are given",
-                     "write source = \"battery\", or leave them away"});
+      out.push_back({"supply.source", "", "must be \"battery\" for the given battery_* keys",
+                     "set source = \"battery\", or remove the battery_* keys"});
     return;
   }
   if (s.battery_charges.size() != s.battery_voltages_V.size() || s.battery_charges.size() < 2 ||
       s.battery_charges.size() > 100)
     out.push_back({"supply.battery_voltages_V", std::to_string(s.battery_voltages_V.size()) + " values",
                    "need as many supply.battery_charges, 2 to 100 of them",
-                   "as battery_charges = [0, 1], battery_voltages_V = [20, 25.2]"});
+                   "write for example battery_charges = [0, 1] and battery_voltages_V = [20, 25.2]"});
   for (std::size_t n = 0; n + 1 < s.battery_charges.size(); ++n)
     if (!(s.battery_charges[n + 1] > s.battery_charges[n])) {
       out.push_back({"supply.battery_charges[" + std::to_string(n + 1) + "]",
-                     base::six_digits(s.battery_charges[n + 1]), "must be above the one before",
-                     "sort them, from empty to full"});
+                     base::six_digits(s.battery_charges[n + 1]), "must be above the charge before",
+                     "sort the charges, from empty to full"});
       break;
     }
   if (!(s.battery_capacity_Ah > 0))
     out.push_back(
-        {"supply.battery_capacity_Ah", "", "is missing", "give the charge of the full battery, as 5"});
+        {"supply.battery_capacity_Ah", "", "is missing", "give the charge of the full battery in Ah"});
   if ((s.battery_recovery_ohm > 0) != (s.battery_recovery_F > 0))
     out.push_back({"supply.battery_recovery_ohm", base::six_digits(s.battery_recovery_ohm),
                    "and supply.battery_recovery_F belong together", "give both, or none"});
@@ -88,18 +90,18 @@ void check_mains(const Supply& s, base::Problems& out) {
   if (!mains) {
     if (s.mains_rms_V > 0)
       out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
-                     "applies to mains only, and supply.source is not",
+                     "applies to rectified mains only, and supply.source is another source",
                      "write source = \"single-phase\" or \"three-phase\""});
     if (s.rectifier_drop_V > 0)
       out.push_back({"supply.rectifier_drop_V", base::six_digits(s.rectifier_drop_V),
-                     "applies to mains only, and supply.source is not",
+                     "applies to rectified mains only, and supply.source is another source",
                      "write source = \"single-phase\" or \"three-phase\", or remove it"});
     return;
   }
   if (!(highest_open_V(s) > 0))
     out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
                    "is below the forward drop of the rectifier's diodes",
-                   "give the mains' voltage, as 230, or 400 between the lines of three phases"});
+                   "give the rms voltage, for example 230, or 400 between two lines of three phases"});
   else
     check_nominal(s, out);
 }
@@ -128,12 +130,12 @@ void check_supply(const Scenario& s, base::Problems& out) {
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.sink_limit_A > 0 && s.supply.sinks)
     out.push_back({"supply.sink_limit_A", base::six_digits(s.supply.sink_limit_A),
-                   "bounds nothing while supply.sinks = true", "write sinks = false beside it"});
+                   "has no effect while supply.sinks = true", "set sinks = false, or remove it"});
   check_brake(s.supply, C, out);
   check_battery(s.supply, out);
   check_mains(s.supply, out);
   if (s.supply.source != SourceKind::steady && !(R && C))
-    out.push_back({"supply.source", "", "needs a bus capacitor behind its resistance",
+    out.push_back({"supply.source", "", "needs supply.resistance_ohm and a bus capacitor",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.initial.bus_V && !C)
     out.push_back({"initial.bus_V", base::six_digits(*s.initial.bus_V), "has no meaning on a stiff bus",

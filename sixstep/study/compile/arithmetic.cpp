@@ -78,7 +78,7 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
   if (digits <= most) return {};
   return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
            "times speed_edges is " + base::rounded(digits / most, 4) + " times the range of the format's sum",
-           "take a timer of " + shortest(s.sensors.capture_Hz * most / digits, base::Towards::down) +
+           "use a timer of " + shortest(s.sensors.capture_Hz * most / digits, base::Towards::down) +
                " Hz or less, control.full_scale.speed_rad_s of " +
                shortest(b.speed_rad_s * digits / most, base::Towards::up) +
                " or more, fewer edges, or a 32-bit format"}};

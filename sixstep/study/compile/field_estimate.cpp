@@ -32,8 +32,8 @@ base::Problems too_weak(const Scenario& s, const design::FieldMachine& machine, 
   if (shown_A >= digit_A) return {};
   return {{"control.field.injection_V", base::rounded(c.injection.voltage_V, 3),
            "distinguishes north from south by " + base::rounded(1e3 * shown_A, 2) +
-               " mA, and a digit of the converters is " + base::rounded(1e3 * digit_A, 2) + " mA",
-           "inject more, or give the converters a smaller sensors.current_range_A or more adc_bits"}};
+               " mA, less than one count of the converters, " + base::rounded(1e3 * digit_A, 2) + " mA",
+           "raise control.field.injection_V or sensors.adc_bits, or lower sensors.current_range_A"}};
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
       range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
   if (asked < read) return;
   out.push_back({"sensors.current_range_A", base::three_digits(range),
-                 "lets the converter read up to " + base::three_digits(read) + " A, and the drive " +
+                 "lets the converter read up to " + base::three_digits(read) + " A, but the drive " +
                      (limited ? "turns off above " : "may command ") + base::three_digits(asked) + " A",
-                 s.control.mode == Mode::current ? "widen it, or lower the reference"
-                                                 : "widen it, or lower control.current.limit_A"});
+                 s.control.mode == Mode::current ? "raise it, or lower the reference"
+                                                 : "raise it, or lower control.current.limit_A"});
 }
 
 /// Refuses limits with one shunt: it does not show a current that flows through the lower switches, or in a
@@ -73,7 +73,7 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
        "shorten pwm.period_s to " +
            base::written(
                base::shortened(s.pwm.period_s * setting.current_A / pulse_A, 3, base::Towards::down)) +
-           (narrowed ? ", or remove the limit" : " or raise the limit")});
+           (narrowed ? ", or remove the limit" : ", or raise the limit")});
 }
 
 /// Mechanical angle in rad that the rotor turns while a measured speed is delayed: the sectors over which the
@@ -104,7 +104,7 @@ void check_speed(const Scenario& s, const design::LimitSetting& setting, base::P
        "cannot be held: until the next sample, the drive's own torque may accelerate the rotor to " +
            base::three_digits(most(limit)) + " rad/s",
        "raise it to " + base::three_digits(least) + ", lower control.limits.current_A" +
-           (s.sensors.rotor == RotorSensing::hall ? ", or take fewer sensors.speed_edges"
+           (s.sensors.rotor == RotorSensing::hall ? ", or lower sensors.speed_edges"
                                                   : ", or shorten pwm.period_s")});
 }
 
@@ -114,8 +114,9 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   const double from = highest_start_V(s);
   if (!(*wanted > from)) {  // check.cpp checks the supply at the start
     out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
-                   "must be above the highest supply or start, " + base::three_digits(from) + " V",
-                   "the drive could never brake"});
+                   "must be above the highest voltage of the supply or at the start, " +
+                       base::three_digits(from) + " V",
+                   "raise it: below that voltage the drive could never brake"});
     return;
   }
   // At worst the bus exceeds the limit by as much as the limit exceeds the supply.
@@ -144,11 +145,11 @@ void check_saliency(const Scenario& s, const design::Sheet& sheet, base::Problem
   const double ratio = sheet.q_axis_inductance_mH->value / sheet.d_axis_inductance_mH->value;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, base::three_digits(*value),
-                     "is proved for a rotor with one inductance only, and this rotor's L_q is " +
-                         base::three_digits(ratio) + " times its L_d",
-                     "remove it, and set the limits of the references: control.current.limit_A, "
-                     "control.speed.torque_limit_Nm"});
+      out.push_back(
+          {key, base::three_digits(*value),
+           "is guaranteed only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
+               base::three_digits(ratio) + " times its L_d",
+           "remove it, and limit the references: control.current.limit_A, control.speed.torque_limit_Nm"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);
   refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);

@@ -59,8 +59,8 @@ base::Problems add_deadbeat(const Scenario& s, const Basis& basis, Tuned& out) {
                         .limit_V = basis.bus_V});
   if (!made)
     return {{"control.current.type", "\"deadbeat\"",
-             "predicts over one period, and an answer comes one and a half after its sample",
-             "set pwm.sample = \"start\" or pwm.delay_periods = 0"}};
+             "predicts over one period, but the answer comes one and a half periods after the sample",
+             "set pwm.sample = \"start\", or pwm.delay_periods = 0"}};
   const control::DeadbeatConfig<double>& c = made->config;
   out.drive.extras.on = out.drive.extras.predicts_current = true;
   out.drive.extras.deadbeat = c;
@@ -192,19 +192,18 @@ GivenGains given_gains(const Loop& loop, double period_s, const std::string& whe
     out.problems.push_back({where + "." + key, "", limit, cure});
   };
   const char* const integral = loop.ki ? "ki" : "ki_per_s";
-  const char* const keep = "keep one of: d1 and d0 | kp with ki or ki_per_s | settle_s and damping";
+  const char* const keep = "keep only one form: d1 and d0, kp with ki or ki_per_s, or settle_s and damping";
   if (d && (k || rule))
     wrong(loop.d1 ? "d1" : "d0",
-          k ? "contradicts kp and its integral: the same gains are given twice"
-            : "contradicts settle_s, damping: gains are either given or designed",
+          k ? "contradicts kp and ki or ki_per_s: the same gains are given twice"
+            : "contradicts settle_s and damping, which compute the gains",
           keep);
   else if (k && rule)
-    wrong(loop.kp ? "kp" : integral, "contradicts settle_s, damping: gains are either given or designed",
-          keep);
+    wrong(loop.kp ? "kp" : integral, "contradicts settle_s and damping, which compute the gains", keep);
   else if (d && !(loop.d1 && loop.d0))
     wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "add d0" : "add d1");
   else if (loop.ki && loop.ki_per_s)
-    wrong("ki_per_s", "contradicts ki: the integral is given twice", "keep one of: ki | ki_per_s");
+    wrong("ki_per_s", "contradicts ki: the integral is given twice", "keep ki or ki_per_s");
   else if (k && !(loop.kp && (loop.ki || loop.ki_per_s)))
     wrong(loop.kp ? "kp" : integral, "is only half of the gains", loop.kp ? "add ki or ki_per_s" : "add kp");
   else if (d)

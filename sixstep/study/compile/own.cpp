@@ -66,7 +66,7 @@ base::Result<rig::OwnConfig> own_designed(const Scenario& s, const Basis& basis,
   const sixstep_given given = given_of(s, basis, drive);
   if (const char* wrong = is.design(&given, values_of(s.control.own).data(), out.config.data()))
     return base::Problem{"control.own", "", std::string(is.name) + " " + wrong,
-                         "change the scenario or the controller's numbers"};
+                         "change the scenario, or the controller's numbers in control.own.number"};
   return out;
 }
 

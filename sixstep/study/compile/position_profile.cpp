@@ -83,8 +83,8 @@ void add_position_profile(const Scenario& s, const Basis& basis, Tuned& out) {
   out.gains.back().steps = {
       {"v", "speed of the profile", limits.speed_rad_s, std::string(motion.unit("rad/s").linear)},
       {"a", "its acceleration", limits.acceleration_rad_s2, std::string(motion.unit("rad/s2").linear)},
-      {"a/j", "time of its rise, in whole strides", rises_s, "s"},
-      {"J a/T", "fraction of the full torque, or of the duty, that it needs",
+      {"a/j", "time in which the acceleration rises, in whole steps", rises_s, "s"},
+      {"J a/T", "fraction of the full torque, or of the duty, that the acceleration needs",
        drive.extras.position.feed_forward.per_rad_s2 * limits.acceleration_rad_s2, ""}};
 }
 

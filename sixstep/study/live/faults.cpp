@@ -24,8 +24,8 @@ LossWords words_of(control::LockLoss loss) {
   using control::LockLoss;
   switch (loss) {
     case LockLoss::masked_crossing:
-      return {"a crossing that was expected did not come",
-              "reduce braking or load, or hand over at a higher speed"};
+      return {"an expected zero crossing did not come",
+              "reduce braking or load, or raise control.sensorless.lowest_part"};
     case LockLoss::long_demagnetisation:
       return {"the leaving phase's current hid the crossings", "change the duty or the current more slowly"};
     case LockLoss::wrong_sector:
@@ -47,10 +47,10 @@ LossWords words_of(control::LockLoss loss) {
 void note_unseen(const rig::Diagnosis& found, Outcome& out) {
   const std::string times = found.unseen == 1 ? "" : " in " + std::to_string(found.unseen) + " starts";
   out.notes.push_back(
-      "the pulses did not show the rotor's north" + times + ": " + base::rounded(found.north, 2) +
-      " times their noise, and " + base::rounded(found.certain, 2) +
-      " are certain, so the drive aligned the rotor. Pulses show north only on a motor that saturates (its "
-      "saturation_current_A)");
+      "the pulses did not show which end of the magnet is north" + times + ": " +
+      base::rounded(found.north, 2) + " times their noise, of at least " + base::rounded(found.certain, 2) +
+      " times. So the drive aligned the rotor. Pulses show north only on a motor that saturates "
+      "(saturation_current_A of its sheet)");
 }
 
 /// Reports that a sensorless drive lost the rotor's position: a note if the drive started again, a fault if
@@ -76,13 +76,13 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   const std::string part =
       std::to_string(static_cast<int>(std::floor(100 * found.shown + 0.5))) + " % of its amplitude";
   const auto winding = [&](const char* name) -> base::Problem {
-    return {at(t_s), "", "the resolver shows " + part + ", and its " + name + " winding nothing",
+    return {at(t_s), "", "the resolver shows " + part + ", and the " + name + " winding shows nothing",
             std::string("check the ") + name + " winding and its wires"};
   };
   switch (found.loss) {
     case ShaftLoss::excitation:
-      return {at(t_s), "", "neither winding of the resolver shows anything: its excitation is lost",
-              "check the excitation and its wires"};
+      return {at(t_s), "", "neither winding of the resolver shows anything: the excitation is lost",
+              "check the excitation and the resolver's wires"};
     case ShaftLoss::cosine:
       return winding("cosine");
     case ShaftLoss::sine:
@@ -121,15 +121,16 @@ base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
       return {at(t_s), "",
               answered(found) + ", which must lie in " +
                   (found.field == std::string("overlap") ? "-1" : "0") + " to 1",
-              "limit it in the controller, and check for a division by 0"};
+              "limit this value in the controller, and check for a division by 0"};
     case OwnWrong::leg:
-      return {
-          at(t_s), "",
-          answered(found) + (found.value > static_cast<double>(SIXSTEP_LEG_C) ? ", which is no leg"
-                                                                              : ", the same leg as source"),
-          "answer source and sink as two of the legs a, b, c"};
+      return {at(t_s), "",
+              answered(found) + (found.value > static_cast<double>(SIXSTEP_LEG_C)
+                                     ? ", which is no leg"
+                                     : ", which is the same leg as source"),
+              "answer source and sink as two of the legs a, b, c"};
     case OwnWrong::choice:
-      return {at(t_s), "", answered(found) + ", which own_controller.h does not name", "use its names"};
+      return {at(t_s), "", answered(found) + ", which is no value of own_controller.h",
+              "use the constants of own_controller.h"};
     case OwnWrong::gave_up:
     case OwnWrong::none:
       break;
@@ -149,9 +150,9 @@ base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
             "check the function that was called last"};
   if (trouble == CoreTrouble::stalled)
     return {at(t_s), "", "the chip starts no conversion any more: its program hangs or has stopped",
-            "check how it handles an invalid Hall code, and its waiting loops"};
+            "check how the program handles an invalid Hall code, and its waiting loops"};
   return {at(t_s), "", "the core ended: its program caused a fault, or its emulator was stopped",
-          "check its memory accesses and its stack"};
+          "check the program's memory accesses and stack"};
 }
 
 }  // namespace
@@ -168,22 +169,23 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   if (fault == rig::Fault::core) return lost_core(found.core, t_s);
   if (fault == rig::Fault::own_controller) return refused_answer(found.own, t_s);
   if (fault == rig::Fault::north_unseen)
-    return {at(t_s), "",
-            "the injected pulses did not show which end of the magnet is north: " +
-                base::rounded(100 * found.north, 2) + " % of their current, and " +
-                base::rounded(100 * found.certain, 2) + " % are certain",
-            "check that the rotor is at rest and its wires are intact; raise control.field.injection_V, or "
-            "check the sheet's saturation_current_A"};
+    return {
+        at(t_s), "",
+        "the injected pulses did not show which end of the magnet is north: " +
+            base::rounded(100 * found.north, 2) + " % of their current, of at least " +
+            base::rounded(100 * found.certain, 2) + " %",
+        "check that the rotor is at rest and that the motor's wires are intact; raise control.field.injection_V, or check the sheet's saturation_current_A"};
   if (fault == rig::Fault::not_started)
-    return {at(t_s), "",
-            "the observer did not find that the rotor follows the turning current, in " +
-                std::to_string(found.losses) + " starts; the drive stopped",
-            "check that the rotor can turn and its load is at most T_start of the design; raise "
-            "control.field.start_current_A, or give the drive a sensor"};
+    return {
+        at(t_s), "",
+        "the rotor did not follow the turning current in " + std::to_string(found.losses) +
+            " starts, so the drive stopped",
+        "check that the rotor can turn and that the load is at most T_start of the design; raise control.field.start_current_A, or give the drive a sensor"};
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
   if (found.hall_line == 0) return {at(t_s), "", text, "check the probes and their wires"};
-  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "check its probe and its wire"};
+  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line),
+          "check the probe and the wire of this line"};
 }
 
 base::Problem ran_away(const plant::State<double>& s, double t_s) {
@@ -222,7 +224,7 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
       {control::fault_align, "a rotor that did not reach the alignment position",
        "check the load and protection.align"}};
   if (found.faults == 0 && found.hall_line != 0)
-    out.notes.push_back(line_to_blame(found.hall_line) + ": the drive continues without it");
+    out.notes.push_back(line_to_blame(found.hall_line) + ": the drive continues without this line");
   if (found.unseen > 0) note_unseen(found, out);
   if (found.losses > 0) return note_losses(found, out);
   if (found.faults == 0) return;
@@ -236,7 +238,7 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
   }
   if (found.hall_line != 0) {
     text += ": " + line_to_blame(found.hall_line);
-    cure = "check its probe and its wire";
+    cure = "check the probe and the wire of this line";
   }
   out.fault = base::Problem{at(trip.at_s), "",
                             "the drive tripped by " + text + "; from there the motor coasts", cure};
@@ -249,8 +251,7 @@ void note_wires(unsigned still_closed, Outcome& out) {
     if ((still_closed >> k & 1) != 0)
       out.notes.push_back(
           "wire " + std::string(wires[k]) +
-          " was set to break, but carries current until the end of the run; it opens only at the current's "
-          "next zero");
+          " was set to break, but carries current until the end of the run; a wire opens only when its current is zero");
 }
 
 }  // namespace sixstep::study

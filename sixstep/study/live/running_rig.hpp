@@ -32,7 +32,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   if (!away && (stop == sim::Stop::unsettled || stop == sim::Stop::no_progress || w.crowded))
     return {{"t = " + std::to_string(t_s) + " s", "",
              stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                          : "events repeat without time going on",
+                                          : "switching events repeat without end at one instant",
              "this is a defect of sixstep: please report it with the scenario file"}};
   if (away)
     out.fault = ran_away(rig.plant().state(), t_s);

@@ -99,11 +99,11 @@ bool may_sample_in_the_middle(const Control& c) {
 /// The current equals its mean in the middle of a centred pulse, except that a dead time delays the pulse. A
 /// maximum, an overshoot or a ripple includes the ripple at any sample instant.
 std::string cure_of_samples(const Scenario& s, const Measure& m) {
-  std::string whole = "sampled = false judges the whole signal";
+  std::string whole = "set sampled = false to judge the whole signal";
   if (!levels_the_ripple(m.metric)) return whole + ", with the ripple between the samples";
   const bool is_so = s.pwm.sample == SampleAt::middle && s.pwm.alignment == Alignment::centre;
   if (is_so || unit_of(m.signal) != "A" || !may_sample_in_the_middle(s.control)) return whole;
-  return "pwm.alignment = \"centre\" with pwm.sample = \"middle\" samples next to the mean; or " + whole;
+  return "set pwm.alignment = \"centre\" and pwm.sample = \"middle\" to sample near the mean, or " + whole;
 }
 
 std::string sample_note(const Scenario& s, const Measure& m, double samples, double whole,
@@ -111,8 +111,8 @@ std::string sample_note(const Scenario& s, const Measure& m, double samples, dou
   const auto told = [&unit](double x) {
     return base::rounded(x * unit.factor, 4) + " " + std::string(unit.linear);
   };
-  return figure_name(s, m) + " is " + told(samples) + " at the controller's samples and " + told(whole) +
-         " of the whole signal, which differ by more than the requirement allows: all samples lie at the "
+  return figure_name(s, m) + " is " + told(samples) + " at the controller's samples, but " + told(whole) +
+         " over the whole signal. The difference is larger than the requirement allows: all samples lie at the "
          "same phase of the PWM ripple; " +
          cure_of_samples(s, m);
 }

@@ -34,13 +34,11 @@ std::string on_idle_duty_step(const Scenario& s, const RunWatch& w) {
   if (s.control.current.commutation == CurrentCommutation::plain || acted(s, w)) return {};
   if (w.held_a_commutation)
     return named(s) +
-           " has no effect in this run: the duty is 1 at each commutation with it and without it; the bus is too low "
-           "for this speed and current: use a higher supply.voltage_V or a lower speed";
+           " has no effect in this run: the duty is 1 at each commutation anyway, because the bus is too low for this speed and current; use a higher supply.voltage_V or a lower speed";
   return named(s) +
-         " has no effect in this run: it acts only at edges of a motor that drives, where the leaving phase's "
-         "current lasts longer than (1/2 + pwm.delay_periods) pwm.period_s = " +
+         " has no effect in this run. It acts only while the motor drives, at edges where the leaving phase's current lasts longer than (1/2 + pwm.delay_periods) pwm.period_s = " +
          few_digits(1e6 * (0.5 + s.pwm.delay_periods) * s.pwm.period_s) +
-         " us; no edge of this run is one: a shorter pwm.period_s makes it act sooner";
+         " us, and this run has no such edge; a shorter pwm.period_s lowers this bound";
 }
 
 std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
@@ -50,9 +48,7 @@ std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
       pattern == PwmPattern::pwm_on || pattern == PwmPattern::pwm_on_pwm)
     return {};
   return named(s) + " with pwm.pattern = \"" + std::string(base::word(pattern_choices, pattern)) +
-         "\" leaves a larger peak of the current and a deeper dip of the torque than with \"pwm-on\": at some "
-         "commutations this pattern chops the staying leg; the duty that holds its current is then above 1/2, and "
-         "it stays in effect for up to one period after the commutation has ended";
+         "\" leaves a larger current peak and a deeper torque dip than with \"pwm-on\". At some commutations this pattern chops the staying leg: a duty above 1/2 then stays in effect for up to one period after the commutation";
 }
 
 /// Margin of longest_overlap_rad_s(): because of the current's ripple, an overlap lowers the torque from 0.98
@@ -74,16 +70,14 @@ std::string on_long_overlap(const Scenario& s, const design::MotorModel& motor, 
   const double left_V = bus_V - emf_share(motor) * m.K_e_V_s * w.held_rad_s - 1.5 * m.R_ohm * w.held_A;
   const double sector_s = base::pi / 3 / (m.pole_pairs * w.held_rad_s);
   std::string text =
-      named(s) +
-      " lowers the torque near and above the speed at which the leaving phase's current takes a sector to "
-      "end: at " +
-      few_digits(w.held_rad_s) + " rad/s and a reference of " + few_digits(w.held_A) + " A ";
-  text += left_V > 0.0 ? "it takes " + few_digits(1e3 * m.L_H * w.held_A / left_V) +
-                             " ms, and a sector lasts " + few_digits(1e3 * sector_s) + " ms"
-                       : "it does not end within a sector";
+      named(s) + " lowers the torque when the leaving phase's current lasts about a sector or longer: at " +
+      few_digits(w.held_rad_s) + " rad/s and a reference of " + few_digits(w.held_A) + " A this current ";
+  text += left_V > 0.0 ? "lasts " + few_digits(1e3 * m.L_H * w.held_A / left_V) + " ms, and a sector lasts " +
+                             few_digits(1e3 * sector_s) + " ms"
+                       : "does not end within a sector";
   if (limit_rad_s > 0.0)
-    text += "; at this current and bus the speed is " + few_digits(limit_rad_s / near_it) + " rad/s";
-  return text + "; compare it with \"duty-step\" or a higher bus there";
+    text += "; at this current and bus the limit is " + few_digits(limit_rad_s / near_it) + " rad/s";
+  return text + "; compare with \"duty-step\" or a higher bus";
 }
 
 }  // namespace sixstep::study

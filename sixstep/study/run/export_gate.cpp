@@ -93,11 +93,11 @@ std::string cure_by_hall(const Scenario& s) {
   std::string cure = "set rotor = \"hall\"";
   if (s.sensors.shaft == SensorShaft::load) cure += " and shaft = \"motor\"";
   if (const std::string gone = of_this_sensor(s, without); !gone.empty())
-    cure += ", remove the keys of the other sensor (" + gone + ")";
+    cure += ", remove the keys of the present sensor (" + gone + ")";
   if (!is_cascade(s)) return cure;
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   const std::string step = motor ? base::three_digits(60.0 / motor->machine.pole_pairs) + " deg" : "a step";
-  return cure + ", and design gains and [[require]] for edges that come " + step + " apart";
+  return cure + ", and design gains and [[require]] for Hall edges that are " + step + " apart";
 }
 
 void look_at_sensors(const Scenario& s, base::Problems& out) {
@@ -106,15 +106,16 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
   };
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor",
-          in_the_field(s) ? "the exact angle and speed at every instant, and a board has a decoder's"
-                          : "the exact speed and position at every instant, and a board has only Hall edges",
+          in_the_field(s)
+              ? "the exact angle and speed at every instant, and a board has only those of a decoder"
+              : "the exact speed and position at every instant, and a board has only Hall edges",
           in_the_field(s)
               ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"
               : cure_by_hall(s));
   if (!in_the_field(s) && s.sensors.rotor != RotorSensing::ideal && s.sensors.rotor != RotorSensing::hall)
     out.push_back({"sensors.rotor",
                    '"' + std::string(base::word(rotor_sensing_choices, s.sensors.rotor)) + '"',
-                   "has no decoder in the header's drive, which reads Hall probes", cure_by_hall(s)});
+                   "is not supported by the header's drive, which reads Hall probes", cure_by_hall(s)});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
     ideal("sensors.currents", "currents without the errors of amplifier and converter",
           in_the_field(s) ? "set currents = \"phases\" and current_range_A"
@@ -136,7 +137,7 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
   const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
   if (samples && !by_comparators(s) && s.pwm.delay_periods == 0 && s.pwm.sample == SampleAt::start)
     out.push_back({"pwm.delay_periods", "0",
-                   "answers a sample at the instant it is taken, and a chip has to convert and compute first",
+                   "answers a sample at the instant of the sample, and a chip must first convert and compute",
                    "set delay_periods = 1, or sample = \"middle\""});
 }
 
@@ -155,26 +156,27 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const std::string& limit) {
     out.push_back(
         {"bridge.dead_time_s", written(s.bridge.dead_time_s), limit,
-         "give the gate drivers' dead time, as " +
+         "give the gate drivers' dead time, for example " +
              base::rounded(1e9 * base::shortened(std::fmax(500e-9, 1.2 * own_s), 2, base::Towards::up), 3) +
              "e-9"});
   };
   if (!(s.bridge.dead_time_s > 0))
-    refuse("turns one switch of a leg on while the other turns off, and real ones short the bus then");
+    refuse("turns one switch of a leg on while the other turns off, and real switches then short the bus");
   else if (counted_s < std::fmax(shortest_s, own_s))
-    refuse(own_s > shortest_s ? "is over before the other switch is off: the driver needs " +
-                                    base::three_digits(1e9 * own_s) +
-                                    " ns for gate_source_charge_C + gate_drain_charge_C at gate_current_A"
-                              : "is over before any switch is off: less than 20e-9");
+    refuse(own_s > shortest_s
+               ? "ends before the other switch is off: the driver needs " + base::three_digits(1e9 * own_s) +
+                     " ns for gate_source_charge_C + gate_drain_charge_C at gate_current_A"
+               : "is below 20e-9, in which no switch turns off");
 }
 
 /// Refuses events that change the drive's constants or the dead time: a chip keeps the exported constants.
 void look_at_changes(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const auto changes = [&](const char* what) {
-      out.push_back({"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
-                     std::string("changes ") + what + ", and the header has the configuration at the start",
-                     "remove the change, or run and export a scenario that begins with it"});
+      out.push_back(
+          {"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
+           std::string("changes ") + what + ", and the header has only the configuration at the start",
+           "remove the change, or export a scenario that begins with it"});
     };
     if (retunes(s.at[n])) changes("the drive's settings");
     if (s.at[n].bridge.dead_time_s) changes("the dead time");
@@ -214,7 +216,7 @@ base::Problems never_measured(const Scenario& s) {
     look_at_protection(s, *motor, out);
   if (s.require.empty())
     out.push_back({"require", "", "is missing: a run without requirements proves nothing",
-                   "give the drive's requirements in [[require]]; see the help on require"});
+                   "give the drive's requirements in [[require]]; the help on require explains its keys"});
   return out;
 }
 
@@ -227,7 +229,7 @@ base::Problems not_held(const Outcome& outcome) {
           {v.figure, std::isfinite(v.measured) ? measured(v) : "",
            (std::isfinite(v.measured) ? "misses its requirement, " : "never reached its requirement, ") +
                required(v),
-           "read its report and change the drive"});
+           "read the report of the run, and change the drive"});
   return out;
 }
 
@@ -258,7 +260,7 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
 base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listeners& listeners) {
   if (scenario.sheet.kind == design::MotorKind::linear)
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
-                         "is linear, and a header speaks of turning motors only",
+                         "is linear, and a header supports rotary motors only",
                          "take the gains from the run's report"};
   base::Result<Outcome> outcome = run(watching_peaks(scenario), listeners);
   if (!outcome) return outcome.problems();

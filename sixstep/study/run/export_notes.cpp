@@ -32,9 +32,10 @@ std::string withstood(const design::WithstandTimes& times, double ambient_degC) 
   const auto duration = [](const std::optional<double>& t) {
     return t ? "for " + few_digits(*t) + " s" : std::string("without end");
   };
-  return ": by the sheet's thermal values the winding withstands it " + duration(times.by_values) + " from " +
-         few_digits(ambient_degC) + " degC" +
-         (times.differ() ? ", and by the worse ends of their ranges " + duration(times.by_worse_ends) : "");
+  return ": by the sheet's thermal values the winding withstands this current " + duration(times.by_values) +
+         " from " + few_digits(ambient_degC) + " degC" +
+         (times.differ() ? ", and by the worse ends of the thermal ranges " + duration(times.by_worse_ends)
+                         : "");
 }
 
 /// The first reason why the drive fails with a supply that cannot take current back.
@@ -57,8 +58,9 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   if (times && !times->by_values && !times->by_worse_ends) return {};
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   const std::string stands =
-      times ? withstood(*times, s.heat.ambient_degC)
-            : "; the sheet has no thermal values that say how long the winding withstands it";
+      times
+          ? withstood(*times, s.heat.ambient_degC)
+          : "; without thermal values in the sheet it is not known how long the winding withstands this current";
   const std::string multiple = nominal_A > 0.0
                                    ? ", " + few_digits(most->ampere / nominal_A) +
                                          " times the nominal current of " + few_digits(nominal_A) + " A"
@@ -76,7 +78,7 @@ std::vector<std::string> unchecked(const Scenario& s, const design::MotorModel& 
   const auto thermal = design::thermal_model(s.sheet);
   const auto add = [&all](const std::string& what, const std::string& missing) {
     all.push_back("not checked: " + what + ": the motor file has no " + missing +
-                  "; give it there or in [motor_override]");
+                  "; add it to the motor file or to [motor_override]");
   };
   if (!thermal && most && s.control.drive == FirmwareKind::product && s.protection.stall_s)
     add("whether the winding withstands " + few_digits(most->ampere) + " A, " + most->by +
@@ -108,8 +110,7 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
   if (!(s.supply.capacitance_F > 0.0) || !(s.supply.resistance_ohm > 0.0)) {
     w.note =
         std::string(condition) +
-        ": this stiff bus cannot rise; state supply.resistance_ohm, supply.capacitance_F and sinks = false "
-        "if yours takes none";
+        ". This stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and sinks = false";
     return w;
   }
   Scenario other = s;
@@ -126,7 +127,8 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
     if (found.empty()) look_at_stop(other, motor, listeners, found);
   }
   w.holds = found.empty();
-  if (!w.holds) w.note = std::string(condition) + "; with one that takes none back " + first_of(found);
+  if (!w.holds)
+    w.note = std::string(condition) + "; with a supply that takes no current back, " + first_of(found);
   return w;
 }
 
@@ -137,18 +139,14 @@ std::string short_dead_time(const Scenario& s) {
     return {};
   return "bridge.dead_time_s = " + few_digits(1e9 * dead_s) + " ns is short: most " +
          (igbt ? "IGBTs" : "MOSFETs") + " with their drivers need " + few_digits(1e9 * usual_s) +
-         " ns or more from the command until they are off, and the bus is shorted until then; compare it with "
-         "the switch's turn-off delay and fall time, or give bridge.gate_current_A and the gate's charges";
+         " ns or more from the command until they are off, and the bus is shorted until then. Compare the dead time with the switch's turn-off delay and fall time, or give bridge.gate_current_A and the gate's charges";
 }
 
 std::string without_protection(const Scenario& s) {
   if (s.control.drive == FirmwareKind::product)
-    return s.protection.stall_s
-               ? ""
-               : "no stall is detected: protection.stall_current_A and stall_s are not given";
+    return s.protection.stall_s ? "" : "no stall is detected: give protection.stall_current_A and stall_s";
   return "control.drive = \"" + std::string(base::word(drive_choices, s.control.drive)) +
-         "\" has no protection: it leaves the bridge on at over-current, over-voltage and a stall; give your "
-         "firmware one, or export control.drive = \"product\" with [protection]";
+         "\" has no protection: the bridge stays on at over-current, over-voltage and a stall; add a protection to your firmware, or export control.drive = \"product\" with [protection]";
 }
 
 std::string setpoint_bound(const Scenario& s) {
@@ -158,8 +156,7 @@ std::string setpoint_bound(const Scenario& s) {
                      : s.control.mode == Mode::current  ? " A"
                                                         : "";
   return "setpoint_limit = " + base::six_digits(largest_reference(s)) + unit +
-         " is the largest reference of this scenario, and the drive follows no larger setpoint; give "
-         "[reference] the largest setpoint of your firmware";
+         " is the largest reference of this scenario, and the drive limits its setpoint to this value; set [reference] to the largest setpoint of your firmware";
 }
 
 }  // namespace sixstep::study

@@ -63,14 +63,16 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
   const double surely_A = 0.98 * most.ampere - 2 * count_A;
   if (!p.stall_current_A || *p.stall_current_A <= surely_A) return;
   const bool coarse = 2 * count_A > 0.1 * most.ampere;
-  const std::string limited =
-      "may never be passed: the current is limited to " + base::three_digits(most.ampere) + " A, " + most.by;
-  const std::string counted = ", and is read to two counts of " + base::three_digits(count_A) + " A";
-  const std::string finer = "give the converter more bits or a narrower current_range_A";
+  const std::string limited = "may never be exceeded: the current is limited to " +
+                              base::three_digits(most.ampere) + " A, " + most.by;
+  const std::string counted =
+      ", and the converter resolves it to two counts of " + base::three_digits(count_A) + " A";
+  const std::string finer = "raise sensors.adc_bits, or lower sensors.current_range_A";
   const double lower_A = std::min(0.8 * most.ampere, surely_A);
   out.push_back(
       {"protection.stall_current_A", written(*p.stall_current_A), coarse ? limited + counted : limited,
-       lower_A > 0 ? "lower it, as to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "") : finer});
+       lower_A > 0 ? "lower it, for example to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "")
+                   : finer});
 }
 
 /// Refuses a threshold that would stop a drive in normal operation.
@@ -78,9 +80,9 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
   const std::optional<double>& over_A = s.protection.over_current_A;
   if (!over_A || *over_A > most.ampere) return;
   out.push_back({"protection.over_current_A", written(*over_A),
-                 "stops the drive at a current that its own limits allow: " +
+                 "stops the drive at a current that the drive's limits allow: " +
                      base::three_digits(most.ampere) + " A, " + most.by,
-                 "raise it above that current plus the ripple, or lower the drive's current limit"});
+                 "raise it above that current plus the ripple, or lower the limit"});
 }
 
 /// A blocked rotor: two phases carry the current, and friction does not heat the motor.
@@ -93,12 +95,12 @@ void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, cons
   if (times->differ())
     within += " by the worse ends of the motor file's thermal ranges, " +
               (times->by_values ? "within " + base::three_digits(*times->by_values) + " s" : "never") +
-              " by its values";
+              " by the values themselves";
   out.push_back({"protection.stall_s", written(*s.protection.stall_s),
-                 "is longer than the winding withstands the stall current: " +
-                     base::three_digits(most.ampere) + " A, " + most.by + ", heats it to " +
-                     base::three_digits(times->worse_limit_degC) + " degC within " + within,
-                 "shorten it, as to " + rounded_down(0.5 * *times->by_worse_ends)});
+                 "is longer than the winding withstands a stall: " + base::three_digits(most.ampere) +
+                     " A, " + most.by + ", heats it to " + base::three_digits(times->worse_limit_degC) +
+                     " degC within " + within,
+                 "shorten it, for example to " + rounded_down(0.5 * *times->by_worse_ends)});
 }
 
 void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -126,7 +128,7 @@ void look_at_offset(const Scenario& s, base::Problems& out) {
   const bool by_half = seen_A <= *range_A - over_A;
   out.push_back(
       {"protection.offset_tolerance_A", written(*tolerance_A),
-       "accepts a faulty sensor: with such an offset the converter ends at " +
+       "accepts a faulty sensor: with this offset the converter measures only up to " +
            base::three_digits(*range_A - *tolerance_A) + " A in one direction" +
            (by_half ? ", less than half of sensors.current_range_A = " + written(*range_A)
                     : ", and protection.over_current_A = " + written(over_A) + " is not exceeded there"),

@@ -84,7 +84,7 @@ base::Problem raised_after(const Scenario& s, const Trip& trip, const std::strin
                       : std::string("the load turns the shaft")) +
               ", and the back-EMF feeds the bus through the diodes",
           std::string("prevent the trip") +
-              (turned ? "; load.coulomb_Nm is a load that does not turn the shaft" : "")};
+              (turned ? "; for a load that does not turn the shaft use load.coulomb_Nm" : "")};
 }
 
 /// A weaker brake feeds less power into the bus, for a longer time.
@@ -125,9 +125,8 @@ void look_at_current_range(const Scenario& s, const SeenPeaks& peaks, base::Prob
   if (peaks.phase_A < end) return;
   out.push_back({"sensors.current_range_A", written(*s.sensors.current_range_A),
                  "was exceeded in the run: " + base::three_digits(peaks.phase_A) +
-                     " A flowed, and the converter ends at " + base::three_digits(end) +
-                     " A, above which the drive measures no more",
-                 "widen it, or lower the drive's current limit"});
+                     " A flowed, and the converter measures only up to " + base::three_digits(end) + " A",
+                 "raise it, or lower the drive's current limit"});
 }
 
 void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const Listeners& listeners,
@@ -137,18 +136,18 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const 
     const double end = bus_end_V(s.sensors);
     if (!(peaks.bus_V < end))
       out.push_back({"sensors.bus_range_V", written(*s.sensors.bus_range_V),
-                     "was exceeded in the run: the bus reached " + bus + " V, and the converter ends at " +
-                         base::three_digits(end) + " V, above which the drive measures no more",
-                     "widen it, or keep the bus lower"});
+                     "was exceeded in the run: the bus reached " + bus +
+                         " V, and the converter measures only up to " + base::three_digits(end) + " V",
+                     "raise it, or limit the bus voltage"});
   }
   if (peaks.bus_V <= allowed_bus_V(s)) return;
   if (peaks.trip && bus_until_the_trip_V(s, *peaks.trip, listeners) < 0.99 * peaks.bus_V)
     return out.push_back(raised_after(s, *peaks.trip, bus));
   out.push_back(
       {"the bus", bus + " V",
-       "was raised by braking, from " + base::three_digits(highest_open_V(s)) + " V, and nothing bounds it",
-       "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, "
-       "or say in [[require]] how high the maximum of bus_voltage may be"});
+       "was raised by braking, from " + base::three_digits(highest_open_V(s)) +
+           " V, and nothing limits the bus voltage",
+       "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, or allow this maximum of bus_voltage in [[require]]"});
 }
 
 void look_at_stop(const Scenario& s, const design::MotorModel& motor, const Listeners& listeners,

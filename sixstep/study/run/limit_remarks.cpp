@@ -17,15 +17,13 @@ namespace {
 std::string on_battery(const Scenario& s, const RunWatch& w) {
   if (s.supply.source != SourceKind::battery) return {};
   if (w.empty_s)
-    return "the battery was empty at t = " + few_digits(*w.empty_s) + " s, and its charge went down to " +
+    return "the battery was empty at t = " + few_digits(*w.empty_s) + " s, and its charge fell to " +
            few_digits(w.lowest_charge) +
-           ": it cannot supply the charge that was drawn after that; give a larger "
-           "supply.battery_capacity_Ah or battery_charge, or a shorter run";
+           ". The run draws more charge than the battery has; give a larger supply.battery_capacity_Ah or battery_charge, or a shorter run";
   if (w.full_s)
-    return "the battery was full at t = " + few_digits(*w.full_s) + " s, and its charge went up to " +
+    return "the battery was full at t = " + few_digits(*w.full_s) + " s, and its charge rose to " +
            few_digits(w.highest_charge) +
-           ": it cannot take the charge that flowed back after that; begin with a lower "
-           "supply.battery_charge, or give it a chopper";
+           ". The run returns more charge than the battery can take; begin with a lower supply.battery_charge, or add a brake chopper (supply.brake_resistance_ohm)";
   return {};
 }
 
@@ -60,10 +58,9 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
   const double open = highest_open_V(s);
   if (sinks || caught || !(w.highest_bus_V > risen_part * open)) return {};
   return "the bus rose to " + few_digits(w.highest_bus_V) + " V, " + few_digits(w.highest_bus_V / open) +
-         " times its source's voltage: the source takes no current back" +
+         " times the source's voltage, because the source takes no current back" +
          (rectifier ? "" : " (supply.sinks = false)") +
-         "; give it a chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or "
-         "control.regeneration.limit_V";
+         "; add a brake chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or control.regeneration.limit_V";
 }
 
 /// Applies the run's mean copper loss to the sheet's thermal model, from ambient temperature on.
@@ -74,12 +71,12 @@ std::string on_cold_winding(const Scenario& s, const Outcome& out) {
       design::withstand_times(s.sheet, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
   if (!times || !times->by_worse_ends || !(*times->by_worse_ends < out.simulated_s)) return {};
   const bool by_values = times->by_values && *times->by_values < out.simulated_s;
-  return "the copper loss of " + few_digits(mean_W) + " W in the mean takes the winding past its limit of " +
+  return "the copper loss of " + few_digits(mean_W) + " W on average heats the winding above its limit of " +
          few_digits(by_values ? times->limit_degC : times->worse_limit_degC) + " degC within " +
          few_digits(by_values ? *times->by_values : *times->by_worse_ends) + " s by " +
          (by_values ? "the sheet's thermal values" : "the worse ends of the sheet's thermal ranges") +
          ", and the run lasts " + few_digits(out.simulated_s) +
-         " s; here nothing warms up: heat.motor = true computes it";
+         " s; set heat.motor = true to simulate the temperatures";
 }
 
 /// Comparators with `comparator = "event"` chop at a frequency proportional to 1/band_A, independent of
@@ -93,12 +90,10 @@ std::string on_chopping(const Scenario& s, const Outcome& out) {
   if (!(Hz > fast_chopping_Hz)) return {};
   const double wider_A = base::shortened(loop.band_A * Hz / fast_chopping_Hz, 2, base::Towards::up);
   return "the comparators chop at " + few_digits(1e-3 * Hz) +
-         " kHz on average, whatever pwm.period_s is, and few "
+         " kHz on average, independent of pwm.period_s, and few "
          "bridges for motors switch above " +
-         few_digits(1e-3 * fast_chopping_Hz) +
-         " kHz, where delays of comparator and gate driver, dead times and switching losses fill the period; "
-         "control.current.band_A = " +
-         base::six_digits(wider_A) + " would chop at about that frequency";
+         few_digits(1e-3 * fast_chopping_Hz) + " kHz; control.current.band_A = " + base::six_digits(wider_A) +
+         " gives about that frequency";
 }
 
 }  // namespace
@@ -121,11 +116,11 @@ std::vector<std::string> passed_currents(const Scenario& s, double given_limit_A
   const std::string reached = "a phase current reached " + few_digits(w.highest_phase_A) + " A, and ";
   if (given_limit_A > 0.0 && w.highest_phase_A > ripple * given_limit_A)
     all.push_back(reached + "the controller was given current_limit_A = " + few_digits(given_limit_A) +
-                  " A, which it must keep by itself");
+                  " A, which the controller itself must keep");
   if (s.sensors.currents != rig::CurrentMeasurement::ideal && s.sensors.current_range_A &&
       w.highest_phase_A > past * *s.sensors.current_range_A)
     all.push_back(reached + "the converters show at most sensors.current_range_A = " +
-                  few_digits(*s.sensors.current_range_A) + " A: the drive measures no more");
+                  few_digits(*s.sensors.current_range_A) + " A: the drive cannot measure larger currents");
   return all;
 }
 

@@ -43,8 +43,8 @@ std::optional<base::Problem> unstable_current_loop(const Scenario& s, const desi
   return base::Problem{"the " + g.loop + " loop", "",
                        "is unstable with its gains (" + g.origin +
                            ") on this motor's R and L at a control period of " +
-                           few_digits(1e6 * s.pwm.period_s) + " us: its current swings between its limits",
-                       "give smaller gains, or leave them to the design"};
+                           few_digits(1e6 * s.pwm.period_s) + " us: the current swings between its limits",
+                       "give smaller gains, or remove the gains to have them designed"};
 }
 
 }  // namespace sixstep::study

@@ -47,7 +47,7 @@ std::string on_supply(const Scenario& s) {
       std::fabs(nominal->value - usual_V) < 0.1 * usual_V)
     return {};
   return "the bus is at supply.voltage_V = " + few_digits(usual_V) +
-         " V, equal to its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
+         " V, its default, but the motor's nominal voltage is " + few_digits(nominal->value) + " V";
 }
 
 /// Finds values of the reference after the run's end. With linear interpolation the first of these values is
@@ -60,8 +60,9 @@ std::string on_late_values(const Scenario& s) {
   const auto unreached = behind - (r.interpolation == Interpolation::linear ? 1 : 0);
   if (unreached < 1) return {};
   return std::to_string(unreached) + " of the " + std::to_string(r.times_s.size()) +
-         " values of the reference are behind the end of the run, duration_s = " + few_digits(s.duration_s) +
-         ": the run never reaches them" + (r.file.empty() ? "" : "; a time without a unit is in s");
+         " values of the reference are after the end of the run, duration_s = " + few_digits(s.duration_s) +
+         ": the run does not use them" +
+         (r.file.empty() ? "" : "; check the unit of the times: without a unit they are in s");
 }
 
 /// Time between two sector edges.
@@ -80,8 +81,8 @@ std::string on_shunt_amplifier(const Scenario& s) {
   return "after sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s) +
          " of a pulse the current sensor shows " + few_digits(100 * shown) +
          " % of the current (sensors.current_bandwidth_Hz = " + few_digits(*s.sensors.current_bandwidth_Hz) +
-         "): more flows than is measured; after " + few_digits(1e6 * std::log(10.0) / rate) +
-         " us it shows 90 %";
+         "), so that the true current is larger; after " + few_digits(1e6 * std::log(10.0) / rate) +
+         " us the sensor shows 90 %";
 }
 
 /// Finds samples that the drive takes before the shunt shows the current. The drive computes the least duty
@@ -93,7 +94,7 @@ std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const bool centre = s.pwm.alignment == Alignment::centre;
   const double settle_s = (centre ? shown_duty / 2 : shown_duty - 0.5) * s.pwm.period_s - pulse_late_s(s);
   return "; from a duty of " + few_digits(taken_duty) +
-         " on the drive uses such a sample as the current: give sensors.shunt_settle_s = " +
+         " on the drive uses such samples as the current; set sensors.shunt_settle_s = " +
          few_digits(1e6 * base::shortened(settle_s * (1 - 1e-9), 3, base::Towards::up)) + " us";
 }
 
@@ -112,8 +113,8 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
       few_digits(w.shunt_least_duty) + " (" + hidden_by + ")";
   const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
   if (unseen_A > 0.0)
-    text += "; with the rotor at rest that is " + few_digits(unseen_A) +
-            " A, and smaller currents are not measured";
+    text +=
+        "; at standstill this duty gives " + few_digits(unseen_A) + " A: smaller currents are not measured";
   return text + on_samples_taken_too_soon(s, w.shunt_least_duty);
 }
 
@@ -131,9 +132,9 @@ std::string on_hall_timeout(const Scenario& s, const Compiled& c) {
   if (s.control.mode != control::Mode::speed || s.sensors.rotor != RotorSensing::hall) return {};
   const double asked = slowest_reference(s);
   if (asked == 0.0 || sector_s(c, asked) <= s.sensors.timeout_s) return {};
-  return "at the reference of " + speed(s, asked) + " a Hall edge comes each " + ms(sector_s(c, asked)) +
-         ", later than sensors.timeout_s = " + ms(s.sensors.timeout_s) +
-         ": between two edges the measured speed reads 0; the slowest speed that is measured is " +
+  return "at the reference of " + speed(s, asked) + " a Hall edge comes every " + ms(sector_s(c, asked)) +
+         ", longer than sensors.timeout_s = " + ms(s.sensors.timeout_s) +
+         ": between two edges the measured speed is 0; the slowest measurable speed is " +
          speed(s, sector_s(c, 1.0) / s.sensors.timeout_s);
 }
 
@@ -141,7 +142,7 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
   const double ki = g.d1 + g.d0;
   if (g.origin != "given as kp, ki" || !(ki > g.d1 && g.d1 > 0.0)) return {};
   return key + ".ki = " + base::six_digits(ki) + " adds " + few_digits(ki / g.d1) +
-         " times kp in each sample; if it comes from a tool whose gains are per second, give ki_per_s = " +
+         " times kp in each sample; if this gain is per second, as in other tools, set ki_per_s = " +
          base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
 }
 
@@ -149,9 +150,9 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
 /// loop must then slow the plant down.
 std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
-  return "the " + g.loop + " loop's gain on its error is negative, d1 = " + few_digits(g.d1) +
-         ": at a change it first goes the other way; " + key +
-         ".settle_s makes the loop slower than its plant: give a shorter one";
+  return "the " + g.loop + " loop's gain on the error is negative, d1 = " + few_digits(g.d1) +
+         ": at a step the output first moves in the wrong direction, because " + key +
+         ".settle_s is slower than the plant itself; set a shorter one";
 }
 
 std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& g) {
@@ -170,7 +171,7 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
   if (!(emf_V > 1.01 * w.emf_bus_V)) return {};
   return "at " + speed(s, w.emf_rad_s) + " the back-EMF of " + few_digits(emf_V) +
          " V between two terminals is above the bus of " + few_digits(w.emf_bus_V) +
-         " V: without a current against the magnet the diodes feed the bus, whatever the bridge is told";
+         " V: without a current against the magnet the diodes feed the bus, whatever the duty is";
 }
 
 /// Finds a winding that stays below its limit with the motor file's thermal values, but may exceed it within
@@ -183,8 +184,7 @@ std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
   const double rise = design::greater_rise(*model, worse->model) * (w.winding_degC - start);
   if (!(start + rise > worse->model.max_winding_degC)) return {};
   return "the winding stayed below " + few_digits(model->max_winding_degC) +
-         " degC by the thermal values of the motor file; by the worse ends of their ranges it may not: repeat it "
-         "with [motor_override] " +
+         " degC by the thermal values of the motor file, but may exceed it by the worse ends of the thermal ranges; repeat the run with [motor_override] " +
          worse->values;
 }
 
@@ -192,7 +192,7 @@ std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::string text;
   const auto& limit = s.sheet.max_winding_temperature_degC;
   if (s.heat.motor && limit && w.winding_degC > limit->value)
-    text = "the winding reached " + few_digits(w.winding_degC) + " degC, and its sheet allows " +
+    text = "the winding reached " + few_digits(w.winding_degC) + " degC, and the motor's sheet allows " +
            few_digits(limit->value) + " degC";
   else if (s.heat.motor && limit)
     text = on_worse_ends(s, w);
@@ -200,7 +200,7 @@ std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
   for (const DeviceLoss& device : out.devices) junction = std::fmax(junction, device.junction_degC);
   if (junction > usual_junction_limit_degC)
     text += (text.empty() ? "" : "; ") + ("a switch's junction reached " + few_digits(junction)) +
-            " degC, and most are rated for 150 or 175 degC";
+            " degC, and most switches are rated for 150 or 175 degC";
   return text;
 }
 
@@ -212,7 +212,7 @@ std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
   const double periods = sector_s(c, w.fastest_rad_s) / s.pwm.period_s;
   if (periods >= least_periods_per_step) return {};
   return "at " + speed(s, w.fastest_rad_s) + " a commutation step lasts " + few_digits(periods) +
-         " control periods, so fewer than five samples lie in it; a shorter pwm.period_s gives more";
+         " control periods, fewer than five; a shorter pwm.period_s gives more samples in a step";
 }
 
 void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
@@ -228,7 +228,7 @@ void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
 std::string on_load_after_trip(const Scenario& s, const Outcome& out) {
   if (!out.trip || s.load.locked || s.load.torque_Nm == 0.0) return {};
   return "after the trip load.torque_Nm = " + base::six_digits(s.load.torque_Nm) +
-         " turns the shaft, as a hanging weight does; load.coulomb_Nm is a brake";
+         " turns the shaft, as a hanging weight does; for a load that only brakes use load.coulomb_Nm";
 }
 
 }  // namespace
@@ -238,7 +238,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
     if (!text.empty()) out.remarks.push_back(std::move(text));
   };
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
-  if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
+  if (!s.not_usable.empty()) add("the design of this drive is NOT USABLE: " + s.not_usable);
   for (std::string& text : belief_costs(s, c)) add(std::move(text));
   add(sheet_contradiction(s));
   add(on_supply(s));

@@ -23,7 +23,7 @@ inline void describe(base::Visitor& v, AtLoad& s) {
            .unit = "N m",
            .also = words::force});
   v.value("locked", s.locked,
-          {.meaning = "true: a clamp stops the rotor at once and holds it; false: it is let go"});
+          {.meaning = "true: a clamp stops the rotor at once and holds it; false: the rotor is released"});
 }
 
 inline constexpr base::Choice<AtMode> at_mode_choices[] = {
@@ -79,7 +79,7 @@ inline void describe(base::Visitor& v, AtLimits& s) {
       "torque_Nm", s.torque_Nm,
       {.meaning = "the same as a torque, over K_t", .unit = "N m", .range = above(0), .also = words::force});
   v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "speed that the drive's own torque does not pass from then on",
+          {.meaning = "speed that the drive's own torque does not exceed from then on",
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed});
@@ -134,18 +134,19 @@ inline constexpr base::Choice<AtOrder> at_phase_order_choices[] = {
 
 inline void describe(base::Visitor& v, AtBridge& s) {
   v.choice("open_switch", s.open_switch, switch_choices,
-           {.meaning = "a switch whose gate no longer acts from then on: it is off, its diode stays"});
+           {.meaning = "a switch that stays off from then on; its diode still conducts"});
   v.choice(
       "shorted_switch", s.shorted_switch, switch_choices,
       {.meaning =
            "a switch that stays on from then on: turning on the other switch of its leg causes shoot-through"});
   v.choice("phases", s.phases, at_phase_order_choices,
            {.meaning = "phases of the motor at legs a, b, c of the bridge from then on"});
-  v.value("dead_time_s", s.dead_time_s,
-          {.meaning =
-               "pause between turning one switch of a leg off and the other on, of the changes from then on",
-           .unit = "s",
-           .range = from(0)});
+  v.value(
+      "dead_time_s", s.dead_time_s,
+      {.meaning =
+           "pause between turning one switch of a leg off and the other on, for all switching from then on",
+       .unit = "s",
+       .range = from(0)});
 }
 
 inline constexpr base::Choice<Wire> wire_choices[] = {

@@ -66,7 +66,7 @@ inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
     {"A", EncoderLine::A, "high over the first half of each line of the disc"},
     {"B", EncoderLine::B, "the same a quarter of a line later"},
     {"Z", EncoderLine::Z,
-     "the index: stuck it is lost, and where it rises by that it is passed at a wrong place"},
+     "the index: if it sticks, it is lost; if its level rises then, the drive sees the index at a wrong place"},
 };
 
 inline void describe(base::Visitor& v, AtEncoderLine& s) {
@@ -119,9 +119,9 @@ inline void describe(base::Visitor& v, AtSensors& s) {
   v.value("false_index", s.false_index,
           {.meaning = "true: a disturbance on line Z, which the timer counts as the index"});
   v.choice("broken_winding", s.broken_winding, winding_choices,
-           {.meaning = "a winding of the resolver that gives nothing from then on"});
+           {.meaning = "a winding of the resolver without a voltage from then on"});
   v.value("excitation", s.excitation,
-          {.meaning = "the resolver's excitation from then on, as a part of the full one",
+          {.meaning = "the resolver's excitation from then on, as a fraction of the full excitation",
            .range = base::between(0, 2)});
   v.choice("broken_divider", s.broken_divider, divider_choices,
            {.meaning = "a terminal's divider whose upper resistor opens then: it shows 0"});

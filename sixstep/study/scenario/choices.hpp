@@ -9,8 +9,9 @@ namespace sixstep::study {
 using base::Choice;
 
 inline constexpr Choice<Device> device_choices[] = {
-    {"mosfet", Device::mosfet, "a gated channel carries both directions, its diode takes no share"},
-    {"igbt", Device::igbt, "a gated transistor carries one direction, its diode the other"},
+    {"mosfet", Device::mosfet,
+     "a channel that is on conducts in both directions; its diode carries no current"},
+    {"igbt", Device::igbt, "a transistor that is on conducts in one direction, its diode in the other"},
 };
 inline constexpr Choice<SourceKind> source_choices[] = {
     {"steady", SourceKind::steady, "a voltage behind resistance_ohm"},
@@ -26,8 +27,8 @@ inline constexpr Choice<Between> between_choices[] = {
 };
 inline constexpr Choice<rig::WireOrder> phase_order_choices[] = {
     {"abc", rig::WireOrder::abc, "each phase at its own leg"},
-    {"bca", rig::WireOrder::bca, "phases b, c, a at legs a, b, c: all three have moved on"},
-    {"cab", rig::WireOrder::cab, "phases c, a, b: all three have moved back"},
+    {"bca", rig::WireOrder::bca, "phases b, c, a at legs a, b, c: all three are moved forward"},
+    {"cab", rig::WireOrder::cab, "phases c, a, b: all three are moved back"},
     {"acb", rig::WireOrder::acb, "phases b and c swapped"},
     {"cba", rig::WireOrder::cba, "phases a and c swapped"},
     {"bac", rig::WireOrder::bac, "phases a and b swapped"},
@@ -43,10 +44,10 @@ inline constexpr Choice<control::Chopping> chopping_choices[] = {
      "as soft, and the source phase's lower switch is on while its upper is off"},
 };
 inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
-    {"upper", control::PwmPattern::upper, "the upper one, the lower one is on (H_PWM-L_ON)"},
-    {"lower", control::PwmPattern::lower, "the lower one, the upper one is on (H_ON-L_PWM)"},
+    {"upper", control::PwmPattern::upper, "the upper switch; the lower one stays on (H_PWM-L_ON)"},
+    {"lower", control::PwmPattern::lower, "the lower switch; the upper one stays on (H_ON-L_PWM)"},
     {"pwm-on", control::PwmPattern::pwm_on,
-     "the entering leg's switch; this leg conducts since the last commutation"},
+     "the entering leg's switch; this leg has conducted since the last commutation"},
     {"on-pwm", control::PwmPattern::on_pwm,
      "the staying leg's switch; this leg already conducted before the last commutation"},
     {"pwm-on-pwm", control::PwmPattern::pwm_on_pwm,
@@ -101,8 +102,7 @@ inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
 inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
     {"mean", CurrentFeedback::mean, "half the difference of the driven pair's currents"},
     {"staying-phase", CurrentFeedback::staying_phase,
-     "the current of the phase that conducts before and after a commutation, which makes the torque meanwhile: the loop "
-     "acts later than by the mean, and the torque dips deeper"},
+     "the current of the phase that conducts before and after a commutation: the loop reacts later than with the mean, and the torque dips deeper"},
 };
 inline constexpr Choice<CurrentCommutation> current_commutation_choices[] = {
     {"plain", CurrentCommutation::plain, "the loop goes on"},

@@ -161,7 +161,8 @@ inline void describe(base::Visitor& v, PositionLoop& s) {
            .also = words::speed_limit});
   v.table(
       "profile", s.profile,
-      {.meaning = "a setpoint that moves within limits of speed, acceleration and jerk, and lands exactly"});
+      {.meaning =
+           "a setpoint that moves within limits of speed, acceleration and jerk, and reaches its target exactly"});
 }
 
 inline void describe(base::Visitor& v, FullScale& s) {
@@ -188,7 +189,8 @@ inline void describe(base::Visitor& v, FullScale& s) {
 inline void describe(base::Visitor& v, Regeneration& s) {
   v.value(
       "limit_V", s.limit_V,
-      {.meaning = "bus voltage above which the drive feeds nothing back: all gates are off, unless it drives",
+      {.meaning =
+           "bus voltage above which the drive feeds no current back: all gates are off, unless the motor drives",
        .unit = "V",
        .range = above(0)});
   v.value(

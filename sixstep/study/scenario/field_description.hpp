@@ -88,12 +88,12 @@ inline void describe(base::Visitor& v, Field& s) {
       {.meaning =
            "whether the current follows the shape of a non-sinusoidal back-EMF, so that its torque is the "
            "same at every angle. It is the least such current, along the magnet and across it"});
-  v.value("switching_weight_A", s.switching_weight_A,
-          {.meaning =
-               "finite-set: additional distance of the current from its reference that one avoided switching "
-               "of a leg is worth; squares are added",
-           .unit = "A",
-           .range = base::from(0)});
+  v.value(
+      "switching_weight_A", s.switching_weight_A,
+      {.meaning =
+           "finite-set: weight of one switching of a leg, as a current; its square is added to the squared distance of the current from its reference",
+       .unit = "A",
+       .range = base::from(0)});
   v.value("peak_A", s.peak_A,
           {.meaning = "finite-set: limit of the current amplitude; a state that exceeds it is chosen only if "
                       "all states do",
@@ -102,8 +102,7 @@ inline void describe(base::Visitor& v, Field& s) {
   v.value(
       "delay_compensation", s.delay_compensation,
       {.meaning =
-           "finite-set: whether the current is predicted for the period in which an answer acts, where that is a "
-           "period late"});
+           "finite-set: whether the current is predicted for the period in which the answer acts, if it acts one period late"});
 }
 
 }  // namespace sixstep::study

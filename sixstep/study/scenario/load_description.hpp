@@ -94,7 +94,7 @@ inline void describe(base::Visitor& v, Load& s) {
                "weight on an arm: torque at its horizontal, gravity_Nm sin(load angle - gravity_angle_deg)",
            .unit = "N m"});
   v.value("gravity_angle_deg", s.gravity_angle_deg,
-          {.meaning = "load angle at which the weight pulls neither way", .unit = "deg"});
+          {.meaning = "load angle at which the weight causes no torque", .unit = "deg"});
   v.value("locked", s.locked, {.meaning = "whether the rotor is held"});
 }
 

@@ -102,7 +102,7 @@ inline constexpr MetricFact metric_facts[] = {
     {MetricKind::energy, "energy_J", "energy of", "J", "energy over the window of a power or a loss",
      TakenOf::power},
     {MetricKind::efficiency, "efficiency", "efficiency", "1",
-     "energy given to load and inertia over energy taken from the bus; while braking the other way round",
+     "energy given to load and inertia over energy taken from the bus; while braking the inverse ratio",
      TakenOf::energies},
     {MetricKind::band_excess, "band_excess_A", "excess above the band of", "A",
      "largest excess above the upper limit of the hysteresis band", TakenOf::band},

@@ -18,9 +18,10 @@ inline void describe(base::Visitor& v, Align& s) {
            .range = base::above(0)});
   v.value("settled_s", s.settled_s,
           {.meaning = "time for which the rotor must stay aligned", .unit = "s", .range = base::from(0)});
-  v.value("sector", s.sector,
-          {.meaning = "sector whose pair aligns: the rotor moves to the edge between the next two",
-           .range = base::between(0, 5)});
+  v.value(
+      "sector", s.sector,
+      {.meaning = "sector whose pair aligns the rotor, which moves to the edge between the next two sectors",
+       .range = base::between(0, 5)});
 }
 
 inline void describe_thresholds(base::Visitor& v, Protection& s) {

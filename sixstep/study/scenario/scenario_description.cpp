@@ -38,12 +38,12 @@ void describe(base::Visitor& v, Pwm& s) {
           {.meaning = "clock of the PWM timer, which rounds on-times and dead time; 0: not rounded",
            .unit = "Hz",
            .range = from(0)});
-  v.value("minimum_pulse_s", s.minimum_pulse_s,
-          {.meaning =
-               "on-time below which a period's pulse is left out, and off-time below which its gap closes, "
-               "as gate drivers do; applies to duties, not to comparators",
-           .unit = "s",
-           .range = from(0)});
+  v.value(
+      "minimum_pulse_s", s.minimum_pulse_s,
+      {.meaning =
+           "on-time below which a pulse is omitted, and off-time below which the gap is closed, as gate drivers do; applies to duties, not to comparators",
+       .unit = "s",
+       .range = from(0)});
 }
 
 void describe(base::Visitor& v, Initial& s) {
@@ -95,9 +95,8 @@ void describe(base::Visitor& v, Scenario& s) {
   v.value("title", s.title, {.meaning = "one line that names the run"});
   v.value(
       "extends", s.extends,
-      {.meaning = "a scenario beside this one whose keys hold where this one is silent, or a list of them, "
-                  "the later the stronger; lists of tables add to theirs; an empty list [] or table {} drops "
-                  "theirs"});
+      {.meaning =
+           "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier one. Lists of tables are appended; an empty list [] or table {} removes the inherited one"});
   v.value("motor", s.motor,
           {.meaning = "motor file: a path, or a name looked up beside the scenario, in the data folder and "
                       "in the built-in list",
@@ -132,7 +131,8 @@ void describe(base::Visitor& v, Scenario& s) {
   v.table("initial", s.initial, {.meaning = "state at the start"});
   v.table("record", s.record, {.meaning = "columns and times of the trace"});
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
-  v.list("compare", s.compare, {.meaning = "figures shown beside those of a source; they decide nothing"});
+  v.list("compare", s.compare,
+         {.meaning = "figures shown beside the values of a source; they do not affect the verdict"});
   v.list("spread", s.spread,
          {.meaning = "differences between the drives of a series; the controller stays designed for the "
                      "values as written"});

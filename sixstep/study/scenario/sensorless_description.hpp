@@ -15,25 +15,26 @@ inline constexpr base::Choice<control::Follow> follow_choices[] = {
     {"crossings", control::Follow::crossings, "the floating terminal's own zero crossing"},
     {"luenberger", control::Follow::luenberger, "the crossing of a Luenberger observer's back-EMF"},
     {"sliding-mode", control::Follow::sliding_mode, "the crossing of a sliding-mode observer's back-EMF"},
-    {"flux-linkage", control::Follow::flux, "the flux linkage since the crossing: it says when to commutate"},
+    {"flux-linkage", control::Follow::flux,
+     "the flux linkage since the crossing, which determines the commutation instant"},
     {"comparators", control::Follow::comparators,
      "the terminal's crossing by the captured edges of sensors.comparators"},
 };
 
 inline constexpr base::Choice<StartsBy> starts_by_choices[] = {
-    {"alignment", StartsBy::alignment, "two pairs in turn pull it to a known place"},
+    {"alignment", StartsBy::alignment, "two driven pairs in turn pull the rotor to a known angle"},
     {"pulses", StartsBy::pulses,
-     "six short pulses measure its angle, if saliency and saturation show it; else it is aligned"},
+     "six short pulses measure the rotor's angle if saliency and saturation allow it; else the rotor is aligned"},
 };
 
 inline void describe(base::Visitor& v, Sensorless& s) {
   using base::above;
   using base::between;
   v.value("greatest_load", s.greatest_load,
-          {.meaning = "load that it must start against, as a part of the nominal torque",
+          {.meaning = "load against which the drive must start, as a part of the nominal torque",
            .range = between(0, 10)});
   v.value("overload", s.overload,
-          {.meaning = "current of alignment and ramp, in nominal ones",
+          {.meaning = "current of alignment and ramp, relative to the nominal current",
            .range = base::Range{0, 10, false, true}});
   v.value("lowest_part", s.lowest_part,
           {.meaning = "speed at which the ramp ends and commutation begins, as a part of the no-load "

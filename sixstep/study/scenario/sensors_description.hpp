@@ -50,8 +50,8 @@ inline constexpr base::Choice<Level01> level_choices[] = {
 
 inline constexpr base::Choice<rig::WireOrder> hall_order_choices[] = {
     {"123", rig::WireOrder::abc, "each probe at its own pin"},
-    {"231", rig::WireOrder::bca, "probes 2, 3, 1 at H1, H2, H3: all three have moved on"},
-    {"312", rig::WireOrder::cab, "probes 3, 1, 2: all three have moved back"},
+    {"231", rig::WireOrder::bca, "probes 2, 3, 1 at H1, H2, H3: all three are moved forward"},
+    {"312", rig::WireOrder::cab, "probes 3, 1, 2: all three are moved back"},
     {"132", rig::WireOrder::acb, "probes 2 and 3 swapped"},
     {"321", rig::WireOrder::cba, "probes 1 and 3 swapped"},
     {"213", rig::WireOrder::bac, "probes 1 and 2 swapped"},
@@ -64,7 +64,7 @@ inline constexpr base::Choice<HallLines> hall_inverted_choices[] = {
     {"12", HallLines::lines_12, "H1 and H2"},
     {"13", HallLines::lines_13, "H1 and H3"},
     {"23", HallLines::lines_23, "H2 and H3"},
-    {"123", HallLines::all, "all three: the code of the sector three further on"},
+    {"123", HallLines::all, "all three pins read inverted: the code of the opposite sector"},
 };
 
 inline constexpr base::Choice<control::HallArrangement> hall_spacing_choices[] = {

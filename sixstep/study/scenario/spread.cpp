@@ -160,14 +160,12 @@ struct Checker {
     if (!may_stray(spread.key) || (!at.number && !at.left_out))
       return add(
           where + ".key", "\"" + spread.key + "\"",
-          "is not a number of motor_override, supply, bridge, load, initial or believed, and no place of a Hall "
-          "edge or a sensor, "
-          "that differs from drive to drive",
-          "write it as table.key, as in \"supply.voltage_V\"; the help on spread.key lists the motor's");
+          "is not a number that may differ from drive to drive: one of motor_override, supply, bridge, load, initial or believed, or a place of a Hall edge or a sensor",
+          "write it as table.key, for example \"supply.voltage_V\"; the help on spread.key lists the motor's keys");
     if (!at.number)
       return add(where + ".key", "\"" + spread.key + "\"", "has no value that could differ",
-                 spread.key == torque_key     ? "the sheet gives back_emf_mV_s: spread that"
-                 : spread.key == back_emf_key ? "the sheet gives torque_constant_mNm_A: spread that"
+                 spread.key == torque_key     ? "spread back_emf_mV_s, which the sheet gives"
+                 : spread.key == back_emf_key ? "spread torque_constant_mNm_A, which the sheet gives"
                                               : "give " + spread.key + " its nominal value first");
     if (!spread.relative == !spread.absolute)
       return add(where + (spread.relative ? ".absolute" : ".relative"), "",
@@ -175,7 +173,7 @@ struct Checker {
                  "give relative (as a part of the value) or absolute (in the key's unit)");
     if (spread.relative && *at.number == 0.0)
       return add(where + ".relative", base::written(*spread.relative),
-                 "is a part of " + spread.key + " = 0, which is nothing", "give absolute instead");
+                 "is a part of " + spread.key + " = 0, which is always 0", "give absolute instead");
     check_reach(spread, at, where);
   }
 
@@ -184,10 +182,11 @@ struct Checker {
         width(spread, *at.number) * (spread.distribution == Distribution::uniform ? 1.0 : spread.cut_sigma);
     for (const double end : {*at.number - reach, *at.number + reach})
       if (!at.range.holds(end))
-        return add(where + (spread.relative ? ".relative" : ".absolute"),
-                   base::written(spread.relative ? *spread.relative : *spread.absolute),
-                   "lets " + spread.key + " reach " + base::six_digits(end) + ", outside of the key's range",
-                   spread.distribution == Distribution::uniform ? "lower it" : "lower it or cut_sigma");
+        return add(
+            where + (spread.relative ? ".relative" : ".absolute"),
+            base::written(spread.relative ? *spread.relative : *spread.absolute),
+            "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
+            spread.distribution == Distribution::uniform ? "lower it" : "lower it, or lower cut_sigma");
   }
 
   void add(std::string where, std::string value, std::string limit, std::string cure) {
@@ -245,10 +244,9 @@ base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key
   };
   if (!may_stray(key) || !at.number)
     return refuse(
-        "is of no number that differs from drive to drive",
-        "vary it as a key of the design, or one of motor_override, supply, bridge, load, initial or believed, "
-        "or a Hall edge as sensors.hall_edges_deg[0]");
-  if (!at.range.holds(x)) return refuse("is outside of the key's range", "narrow the range");
+        "belongs to a key that may not differ from drive to drive",
+        "remove strays = true, or vary a key of motor_override, supply, bridge, load, initial or believed, or a Hall edge such as sensors.hall_edges_deg[0]");
+  if (!at.range.holds(x)) return refuse("is outside the key's range", "narrow the range");
   set_number(s, key, x);
   return s;
 }

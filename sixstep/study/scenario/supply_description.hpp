@@ -54,17 +54,18 @@ inline void describe(base::Visitor& v, Supply& s) {
            .range = from(0)});
   v.value("brake_on_V", s.brake_on_V,
           {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
-  v.value("brake_off_V", s.brake_off_V,
-          {.meaning = "bus voltage below which it is off again", .unit = "V", .range = from(0)});
+  v.value(
+      "brake_off_V", s.brake_off_V,
+      {.meaning = "bus voltage below which the brake resistor is off again", .unit = "V", .range = from(0)});
   v.value("sink_limit_A", s.sink_limit_A,
-          {.meaning = "current that a source that does not sink takes back all the same, at most",
+          {.meaning = "largest current that a source with sinks = false still takes back",
            .unit = "A",
            .range = from(0)});
   v.value("capacitor_resistance_ohm", s.capacitor_resistance_ohm,
           {.meaning = "series resistance (ESR) of the bus capacitor", .unit = "ohm", .range = from(0)});
   describe_battery(v, s);
   v.value("mains_rms_V", s.mains_rms_V,
-          {.meaning = "mains, rms: of the line where single-phase, between two lines where three-phase",
+          {.meaning = "rms voltage of the mains: of a single phase, or between two lines of three phases",
            .unit = "V",
            .range = from(0)});
   v.value("mains_Hz", s.mains_Hz, {.meaning = "frequency of the mains", .unit = "Hz", .range = above(0)});

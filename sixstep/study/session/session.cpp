@@ -235,8 +235,8 @@ base::Result<double> Session::change(At at) {
   const Instant next_tick = s.run->next_tick();
   const Instant when = next_change(s.now(), next_tick, s.reach, s.period());
   if (s.over || !(when < s.compiled->end))
-    return base::Problem{"time_s", base::written(now_s()), "has no control tick behind it in the session",
-                         "open one with a longer duration_s"};
+    return base::Problem{"time_s", base::written(now_s()), "has no later control tick in the session",
+                         "open a session with a longer duration_s"};
   at.time_s = when.seconds();
   Scenario candidate = *s.scenario;
   candidate.at.push_back(std::move(at));
@@ -251,7 +251,7 @@ base::Result<double> Session::change(At at) {
   if (!same_past(*s.scenario, *s.compiled, *compiled, s.now()))
     return base::Problem{"reference", "",
                          "would change the drive's limits, which are fixed at the start of the session",
-                         "give the session's scenario a reference as large, by an [[at]] at its end"};
+                         "add an [[at]] with the largest reference at the end of the session's scenario"};
   compiled->board.sensors.decodes_hall = true;
   compiled->board.chip = s.compiled->board.chip;
   rig::Timeline timeline = std::move(compiled->timeline);
@@ -275,7 +275,7 @@ base::Result<Outcome> Session::close(bool replay) {
       base::Result<Compiled> compiled = compile(cut);
       if (!compiled || !same_past(cut, *s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
-                             "leaves out a reference for which the drive's limits were designed",
+                             "is before a reference for which the drive's limits were designed",
                              "run the session to its end"};
       compiled->board.chip = s.compiled->board.chip;
       rig::Timeline timeline = std::move(compiled->timeline);

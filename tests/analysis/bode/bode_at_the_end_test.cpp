@@ -88,7 +88,9 @@ TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   study::Scenario slewed = both_ways();
   slewed.at.push_back(change(0.01, slewed.reference.value));
   slewed.at[0].control.slew = 1000.0;
-  EXPECT_EQ(problem_of(slewed), "control.slew: ramps the setpoint, which would hide the loop behind it");
+  EXPECT_EQ(
+      problem_of(slewed),
+      "control.slew: limits how fast the setpoint changes, so that the response of the loop cannot be measured");
   study::Scenario off = both_ways();
   off.at.push_back({});
   off.at[0].time_s = 0.05;
@@ -158,7 +160,7 @@ TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
   s.reference.value = 400;
   const std::string told = problem_of(s);
   EXPECT_TRUE(told.starts_with(
-      "duration_s: ends while the drive still moves towards 400 rad/s: in the measurement it went from "))
+      "duration_s: ends while the drive still moves towards 400 rad/s: during the measurement the controlled value went from "))
       << told;
   EXPECT_NE(told.find(" in each period of a multisine of +-20 rad/s"), std::string::npos) << told;
   s.load.inertia_kg_m2 = 0.0;

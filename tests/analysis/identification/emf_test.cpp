@@ -100,7 +100,8 @@ TEST(Emf, ChannelsThatContradictEachOtherAreRefused) {
     for (double& u : request.record.channels[1].u_V) u *= factor;
     const auto found = analysis::measure_emf(request);
     ASSERT_FALSE(found) << factor;
-    EXPECT_THAT(found.problems()[0].limit, HasSubstr("differ more than those of one motor")) << factor;
+    EXPECT_THAT(found.problems()[0].limit, HasSubstr("differ too much for the phases of one motor"))
+        << factor;
   }
 }
 
@@ -291,7 +292,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   Draw draw(3);
   for (double& u : request.record.channels[0].u_V) u = normal(draw);
   EXPECT_THAT(told(request),
-              ::testing::AnyOf(HasSubstr("is not a voltage that repeats"), HasSubstr("ch1 is noise")));
+              ::testing::AnyOf(HasSubstr("half waves of very different lengths"), HasSubstr("ch1 is noise")));
   EmfTruth brief = clean(false);
   brief.periods = 1.2;
   EXPECT_THAT(told(drawn_record(brief)),
@@ -303,7 +304,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   request = good;
   request.record.channels.push_back(request.record.channels[0]);
   request.record.channels[1].name = "ch2";
-  EXPECT_THAT(told(request), HasSubstr("ch2 = 0 deg behind ch1 is none of 120 and 240"));
+  EXPECT_THAT(told(request), HasSubstr("ch2 = 0 deg behind ch1 is neither 120 nor 240"));
   request = good;
   request.record.t_s[100] = request.record.t_s[99];
   EXPECT_THAT(told(request), HasSubstr("in row 101 does not rise"));

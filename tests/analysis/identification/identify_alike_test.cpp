@@ -41,7 +41,7 @@ void expect_told(const HallLog& right, std::size_t column) {
     const bool alike = factor > 0.9 && factor < 1.1;
     ASSERT_EQ(bool{found}, alike) << factor << " at " << column;
     if (alike) continue;
-    EXPECT_THAT(to_string(found.problems()[0]), HasSubstr("differ more than those of one motor"));
+    EXPECT_THAT(to_string(found.problems()[0]), HasSubstr("differ too much for the phases of one motor"));
   }
 }
 

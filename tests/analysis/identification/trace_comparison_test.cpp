@@ -106,8 +106,7 @@ TEST(TraceComparison, AHandfulOfRowsAtTheLeast) {
   ASSERT_FALSE(few);
   EXPECT_EQ(
       to_string(few.problems()[0]),
-      "log.csv: has 1 of 5 rows in the simulated time, 0 to 1 s; its own is 0 to 4000 s, and 5 are needed; check the "
-      "unit of its time, or give the offset of its clock");
+      "log.csv: has 1 of 5 rows in the simulated time, 0 to 1 s; the log covers 0 to 4000 s, and 5 are needed; check the unit of the log's time, or give the offset of its clock");
   const auto enough = of({0, 0.2, 0.4, 0.6, 0.8, 1.5});
   ASSERT_TRUE(enough);
   ASSERT_EQ(enough->columns.size(), 1u);
@@ -115,7 +114,7 @@ TEST(TraceComparison, AHandfulOfRowsAtTheLeast) {
   EXPECT_EQ(enough->inside, 5u);
   ASSERT_EQ(enough->left_out.size(), 2u);
   EXPECT_EQ(enough->left_out[0].column, "i_q_A");
-  EXPECT_EQ(enough->left_out[0].reason, "this run has no values of it there");
+  EXPECT_EQ(enough->left_out[0].reason, "the run has no values of this column at these times");
 }
 
 TEST(TraceComparison, AtInstantsIsTheLogThere) {

@@ -222,7 +222,7 @@ def wiring(test, spot):
     speed, phase, supply = float(run[1]) * pi / 30, 1e-3 * float(run[2]), 1e-3 * float(run[3])
     lost = B * speed**2 + 1.5 * R * phase**2
     test.assertLess(abs(24 * supply - lost), 0.01 * lost, f"{spot}: what settles takes from its supply what it loses")
-    stalled, full = map(float, re.search(r"stalled it draws ([\d.]+) A, .*?, at full duty ([\d.]+) A", spot.text).groups())
+    stalled, full = map(float, re.search(r"stalled motor draws ([\d.]+) A, .*?, at full duty ([\d.]+) A", spot.text).groups())
     test.assertLess(abs(24 / 1.03 - full), 0.05)
     test.assertLess(abs(stalled / full - 0.1), 0.002, "duty 0.1")
     for peak in re.findall(r" ([\d.]+) A +[\d.]+ m?A  ", spot.text):

@@ -77,10 +77,11 @@ TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
   EXPECT_TRUE(analysis::may_win(c, 0));
   EXPECT_FALSE(analysis::may_win(c, 1));
   EXPECT_THAT(text::contest_words(c), Not(Contains(HasSubstr(name(1) + " has the least"))));
-  EXPECT_THAT(text::contest_notes(c),
-              ElementsAre(name(1) + " starts with a peak of 6.1 A, 1.5 times the current of "
-                                    "the torque limit; commutation and ripple explain up to "
-                                    "6 A, so none of its figures counts as the least"));
+  EXPECT_THAT(
+      text::contest_notes(c),
+      ElementsAre(
+          name(1) +
+          " starts with a peak of 6.1 A, 1.5 times the current of the torque limit. Commutation and ripple explain at most 6 A, so that none of its figures counts as the least"));
   for (const text::ContestTable& table : text::contest_tables(c))
     for (const std::string& cell : table.rows.back()) EXPECT_THAT(cell, Not(HasSubstr("*")));
 }

@@ -20,21 +20,22 @@ using exported::drive, exported::Scalar, exported::units;
 
 static_assert((drive.mode == Mode::current || drive.mode == Mode::duty) && drive.chopping == Chopping::soft &&
                   drive.extras.pwm.pattern == PwmPattern::upper,
-              "these pins and loops are for current or duty mode, soft chopping and PWM of the upper switch");
-static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
-              "the third leg has no pulse of its own here");
-static_assert(exported::pwm_centre_aligned,
-              "timer 1 counts up and down; its compare registers are taken at the top");
-static_assert(exported::sampled_in_middle, "BOTTOM starts the conversion, the middle of the on-time");
-static_assert(exported::adc_bits == 10, "the converter that is there");
-static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
+              "this board supports only current or duty mode, soft chopping and PWM of the upper switch");
+static_assert(
+    !(Scalar{} < drive.extras.commutation.overlap_bus_V),
+    "this board has no own pulse for the third leg: set another control.current.commutation than overlap");
+static_assert(exported::pwm_centre_aligned, "timer 1 counts up and down: set pwm.alignment = centre");
+static_assert(exported::sampled_in_middle,
+              "timer 1 starts the conversion in the middle of the on-time: set pwm.sample = middle");
+static_assert(exported::adc_bits == 10, "the ATmega2560's converter has 10 bits: set sensors.adc_bits = 10");
+static_assert(sizeof(Scalar) == 2, "the signals must have 16 bits: set control.arithmetic = q15 or q14");
 #ifndef SIXSTEP_DESPITE  // defined by tools/firmware_image.sh --despite, and for an emulated chip
 static_assert(
     exported::cleared,
     "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
 #endif
 static_assert(exported::dead_time_ps > 0,
-              "a leg would change between its two switches with both on: set bridge.dead_time_s");
+              "without a dead time both switches of a leg are on for a moment: set bridge.dead_time_s");
 
 constexpr std::uint32_t clock_Hz = 16'000'000;
 // Counts of the timer in half a period, 62.5 ns each. The timer counts up and down in one period.
@@ -43,7 +44,8 @@ static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
 // Dead time in cycles, rounded up. change_over() needs at least four cycles.
 constexpr std::uint64_t dead_cycles =
     exported::dead_time_ps <= 250'000 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
-static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
+static_assert(dead_cycles <= 80,
+              "an interrupt waits for the dead time: set bridge.dead_time_s to 5 us or less");
 
 // Bounds of readings, in counts. An intact board stays within them.
 constexpr std::uint16_t middle = 512;

@@ -3,7 +3,7 @@
 // Made by sixstep 0.1.0. Change the scenario, not this file:
 //   sixstep export header data/scenarios/firmware/avr.toml --arithmetic q15 --out faces/firmware/example/avr/drive_config.hpp
 //
-// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
+// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack. For the AVR use clang 19 or later.
 //
 // scenario  Current loop in Q15 on an AVR: a transducer in each phase, a tick every 100 us
 // notes     The drive that faces/firmware/example/avr flashes; sixstep run --on avr runs the same program. The period, a fifth of the motor's L/R, is long enough for 16 MHz, and the command takes effect one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
@@ -15,15 +15,15 @@
 //   mean of the samples at 3 A: 2.85 .. 3.15 A required, 2.99076 A measured
 //   mean of the samples at 5 A: 4.75 .. 5.25 A required, 4.96589 A measured
 //   greatest current: <= 9 A required, 6.83261 A measured
-// Note: control.drive = "lean" has no protection: it leaves the bridge on at over-current, over-voltage and a stall; give your firmware one, or export control.drive = "product" with [protection]
-// Note: cleared for a supply that takes current back (supply.sinks = true): this stiff bus cannot rise; state supply.resistance_ohm, supply.capacitance_F and sinks = false if yours takes none
+// Note: control.drive = "lean" has no protection: the bridge stays on at over-current, over-voltage and a stall; add a protection to your firmware, or export control.drive = "product" with [protection]
+// Note: cleared for a supply that takes current back (supply.sinks = true). This stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and sinks = false
 // Assumptions of that run:
 //   supply    24 V, stiff, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
 //   timing    sampled in the middle of a period, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets constant at 25 degC
@@ -55,7 +55,7 @@
 // They are of the control code alone; a whole image also has the board's code.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
-#error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
+#error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
 #endif
 #include <cstdint>
 

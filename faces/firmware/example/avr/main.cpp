@@ -140,7 +140,7 @@ std::int32_t thousandths(Scalar x) {
 
 constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
-static_assert(full_mA < 65536, "times a signal of 16 bits");
+static_assert(full_mA < 65536, "the current times a signal of 16 bits must fit into 32 bits");
 
 /// Number of periods without a control interrupt between two rows: the elapsed time in periods, rounded,
 /// minus the number of control interrupts.

@@ -55,14 +55,14 @@ constexpr auto pwm_counts =
 /// (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
-              "TIM1 has 16 bits, and the interrupts take 1600 counts: pwm.period_s = 22.3e-6 or more");
+              "the interrupts take 1600 counts, and TIM1 has 16 bits: set pwm.period_s to 22.3e-6 or more");
 constexpr auto dead_counts =
     static_cast<std::uint32_t>((exported::dead_time_ps * (clock_Hz / 1'000'000) + 999'999) / 1'000'000);
-static_assert(
-    dead_counts > 0,
-    "without a dead time both switches of a leg are on for a moment: give the scenario bridge.dead_time_s");
-static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
-static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
+static_assert(dead_counts > 0,
+              "without a dead time both switches of a leg are on for a moment: set bridge.dead_time_s");
+static_assert(dead_counts <= 1008, "TIM1 counts at most 14 us of dead time: lower bridge.dead_time_s");
+static_assert(dead_counts <= pwm_counts / 4,
+              "interrupts wait for the dead time: set it to at most a quarter of pwm.period_s");
 /// The converter samples the three currents and the bus one microsecond before the update, so that the
 /// samples precede the switching at the period's start. The interrupt that changes outputs at the period's
 /// end occurs some counts before the update (event_count).
@@ -73,26 +73,30 @@ static_assert(counts_of_ns(least_gap_ns) <= pwm_counts / 4 && charge_counts <= p
 
 // Gains, converters, capture and thresholds, as the scenario simulated them.
 constexpr const ProtectedConfig<Scalar>& config = exported::product;
-static_assert(sizeof(Scalar) == 4 && Scalar(0.5f) > Scalar{}, "a duty becomes counts by multiplying floats");
-static_assert(!(Scalar{} < config.drive.extras.commutation.overlap_bus_V),
-              "the third leg has no pulse of its own here");
+static_assert(sizeof(Scalar) == 4 && Scalar(0.5f) > Scalar{},
+              "this board computes in float: set control.arithmetic = float");
+static_assert(
+    !(Scalar{} < config.drive.extras.commutation.overlap_bus_V),
+    "this board has no own pulse for the third leg: set another control.current.commutation than overlap");
 static_assert(config.drive.current_control != CurrentControl::hysteresis ||
                   config.drive.hysteresis.watch == Watch::none,
-              "comparators that switch the legs by themselves are not wired here");
-static_assert(config.sensing == CurrentSensing::phases, "a transducer in each phase");
+              "this board has no comparators that switch the legs: set control.current.comparator = sampled");
+static_assert(config.sensing == CurrentSensing::phases,
+              "this board has a transducer in each phase: set sensors.currents = phases");
 static_assert(
     !upper_gates_by_bootstrap || !config.drive.extras.on ||
         config.drive.extras.pwm.pattern == PwmPattern::upper,
-    "this pattern keeps upper gates on for 60 degrees and more: their bootstraps run empty at a slow rotor");
+    "this pattern keeps upper gates on for 60 degrees and more, too long for bootstraps at low speed: set pwm.pattern = upper");
 static_assert(!exported::pwm_centre_aligned,
-              "TIM1 counts up; a period begins with the on-time, and is sampled there");
+              "TIM1 counts up, so that a period begins with the on-time: set pwm.alignment = edge");
 static_assert(exported::command_delayed,
-              "the compare registers are preloaded: a command takes effect in the next period");
-static_assert(!exported::commutate_at_sample, "the Hall interrupt moves the pair");
-static_assert(!exported::sampled_in_middle, "the converter samples at a period's start");
-static_assert(
-    exported::timer_Hz == clock_Hz,
-    "TIM2 counts the core's clock: set sensors.capture_Hz to it, or every speed is wrong by their ratio");
+              "a command takes effect in the next period: set pwm.delay_periods = 1");
+static_assert(!exported::commutate_at_sample,
+              "the Hall interrupt changes the pair: set pwm.commutation = hall-edge");
+static_assert(!exported::sampled_in_middle,
+              "the converter samples at the start of a period: set pwm.sample = start");
+static_assert(exported::timer_Hz == clock_Hz,
+              "TIM2 counts the core's clock: set sensors.capture_Hz to clock_Hz, or every speed is wrong");
 
 /// Majority of three readings, a quarter of a microsecond apart. A switching edge of the bridge disturbs only
 /// one of the readings.

@@ -3,7 +3,7 @@
 // Made by sixstep 0.1.0. Change the scenario, not this file:
 //   sixstep export header data/scenarios/firmware/cortex-m.toml --arithmetic float --out faces/firmware/example/cortex_m/drive_config.hpp
 //
-// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
+// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack. For the AVR use clang 19 or later.
 //
 // scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
 // notes     The drive that faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that takes effect one period late. The settling time is the one that sixstep design --scenario on this file allows down to 70 rad/s.
@@ -21,15 +21,15 @@
 //   swing at 70 rad/s: <= 7 rad/s required, 0.105367 rad/s measured
 //   greatest current: <= 10 A required, 9.13387 A measured
 // Warnings of that run:
-//   control.speed.torque_limit_Nm over K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands it for 12.8 s from 25 degC, and by the worse ends of their ranges for 6.83 s; no protection of the drive ends this current while the rotor turns: lower the limit, or apply the load for less than that time
-// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest setpoint of your firmware
+//   control.speed.torque_limit_Nm over K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands this current for 12.8 s from 25 degC, and by the worse ends of the thermal ranges for 6.83 s; no protection of the drive ends this current while the rotor turns: lower the limit, or apply the load for less than that time
+// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive limits its setpoint to this value; set [reference] to the largest setpoint of your firmware
 // Assumptions of that run:
 //   supply    24 V behind 0.05 ohm, 0.002 F at the bridge, takes no current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 5e-07 s
 //   timing    sampled at a period's start, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 12 bits over +-33 A
 //   bus       12 bits over 52.8 V
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
 //   heat      winding and magnets constant at 25 degC
@@ -51,7 +51,7 @@
 // Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us, and the STM32F303's may answer a period late below 69.6 us: watch `missed`.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
-#error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
+#error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
 #endif
 #include <cstdint>
 

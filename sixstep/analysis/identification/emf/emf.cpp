@@ -54,9 +54,9 @@ base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfR
     return {
         {.where = request.record.channels[c].name,
          .value = base::rounded(lag, 4) + " deg behind " + request.record.channels[0].name,
-         .limit = "is none of 120 and 240 that three phases have",
+         .limit = "is neither 120 nor 240 deg, the lags of three phases",
          .cure =
-             "give voltages of the same kind in the order of the phases; 60 or 300: one probe is the wrong way round"}};
+             "name voltages of the same kind in the order of the phases; at 60 or 300 deg, reverse the leads of one probe"}};
   }
   return {};
 }
@@ -247,8 +247,8 @@ base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit
        .limit = "with " + base::rounded(fit.phase.rate[0] / base::turn_rad, 5) + " Hz makes " +
                 base::rounded(pairs, 4) + " pole pairs" +
                 (request.pole_pairs ? ", not " + std::to_string(*request.pole_pairs) : ", no whole number"),
-       .cure =
-           request.pole_pairs ? "leave out the one that is less sure" : "give the pole pairs in its place"}};
+       .cure = request.pole_pairs ? "leave out the less certain one: the speed or the pole pairs"
+                                  : "give the pole pairs instead of the speed"}};
 }
 
 }  // namespace

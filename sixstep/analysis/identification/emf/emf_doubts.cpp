@@ -125,15 +125,18 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
             .value = base::six_digits(t_s[row]) + " s",
             .limit = "in row " + std::to_string(row + 1) + " is followed by a gap of " +
                      base::three_digits(*longest) + " s, and " + channel + " shows no steady period",
-            .cure = "cut out a part without a gap, of a period and a half and more"};
+            .cure = "use a part of the recording without a gap, at least one and a half periods long"};
   }
   if (!regular)
-    return {.where = channel,
-            .value = "",
-            .limit = "is noise or changes its speed all the time: its half waves have very different lengths",
-            .cure = "check the probe's connection; turn the motor steadily while it is recorded"};
+    return {
+        .where = channel,
+        .value = "",
+        .limit =
+            "has half waves of very different lengths: it is noise, or the motor's speed changes all the time",
+        .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"};
   return {.where = channel,
-          .limit = "passes its mean " + std::to_string(passed) + " times; one and a half periods are needed",
+          .limit = "crosses its mean only " + std::to_string(passed) + (passed == 1 ? " time" : " times") +
+                   "; one and a half periods are needed",
           .cure = "record for longer, or turn the motor faster"};
 }
 
@@ -144,12 +147,14 @@ base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
     for (const Harmonic& h : channel.harmonics) squares += 0.5 * (h.a_V * h.a_V + h.b_V * h.b_V);
     const double rms = std::sqrt(squares);
     if (channel.residual_rms_V < rms) continue;
-    return {{.where = record.channels[c].name,
-             .value = "",
-             .limit = "is noise: " + base::three_digits(rms) + " V rms of it repeat with " +
-                      base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
-                      base::three_digits(channel.residual_rms_V) + " V rms do not",
-             .cure = "check the probe's connection; turn the motor steadily while it is recorded"}};
+    return {
+        {.where = record.channels[c].name,
+         .value = "",
+         .limit = "is noise: " + base::three_digits(rms) + " V rms repeat at " +
+                  base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
+                  base::three_digits(channel.residual_rms_V) + " V rms do not repeat",
+         .cure =
+             "check the probe's connection, and turn the motor at a constant speed during the recording"}};
   }
   return {};
 }
@@ -190,7 +195,7 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
              .value = "",
              .limit = "is clipped: it stays at " + base::six_digits(*high) + " or " + base::six_digits(*low) +
                       " V for " + base::three_digits(100.0 * channel.clipped) + " % of a period",
-             .cure = "record it again in a greater range of the channel"}};
+             .cure = "record the voltage again in a larger range of the channel"}};
   }
   return {};
 }
@@ -213,7 +218,7 @@ base::Problems check_alike(const EmfResult& result) {
     each += (each.empty() ? "" : ", ") + channel.name + " " + base::three_digits(channel.peak_V.value) + " V";
   return {{.where = "voltage",
            .value = each,
-           .limit = "have fundamentals that differ more than those of one motor",
+           .limit = "have fundamentals that differ too much for the phases of one motor",
            .cure = "check the dividers of the probes and the units of the columns"}};
 }
 

@@ -119,7 +119,7 @@ base::Result<EmfPhase> rough_phase(const EmfRecord& record) {
     return base::Problem{.where = name,
                          .value = base::rounded(level.mean, 4) + " V",
                          .limit = "in every row: the motor was at rest, or the probe was not connected",
-                         .cure = "turn the motor while it is recorded"};
+                         .cure = "turn the motor during the recording"};
   const std::vector<double> passed = regular_crossings(record.t_s, strongest->u_V, level);
   if (passed.size() < 3) {
     const std::size_t in_all = crossings({record.t_s, strongest->u_V}, level).size();
@@ -147,7 +147,7 @@ base::Result<EmfPhase> rough_phase(const EmfRecord& record) {
   if (!(out.rate[0] > 0.0) || !(out.speed(record.t_s.front()) > 0.0) || !(out.speed(record.t_s.back()) > 0.0))
     return base::Problem{.where = name,
                          .limit = "has no steady frequency: the motor stopped or turned back",
-                         .cure = "cut out a part in which it turns one way"};
+                         .cure = "use a part of the recording in which the motor turns one way"};
   return out;
 }
 

@@ -16,7 +16,7 @@ base::Problems check(const EmfRecord& record) {
     return {{.where = "time",
              .value = std::to_string(record.t_s.size()) + " rows",
              .limit = "are too few",
-             .cure = "record a hundred rows and more in a period, and two periods and more"}};
+             .cure = "record at least a hundred rows per period, and at least two periods"}};
   if (base::Problems wrong = check_times(record.t_s); !wrong.empty()) return wrong;
   for (const EmfChannel& c : record.channels)
     if (base::Problems wrong = check_column(c.name, c.u_V, record.t_s.size()); !wrong.empty()) return wrong;

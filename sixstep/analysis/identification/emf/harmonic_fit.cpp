@@ -119,9 +119,11 @@ class Fitter {
 };
 
 base::Problem not_periodic(const std::string& where) {
-  return {.where = where,
-          .limit = "is not a voltage that repeats from period to period",
-          .cure = "drive the motor from outside, with only the probes connected to it, and record it"};
+  return {
+      .where = where,
+      .limit = "is not a voltage that repeats from period to period",
+      .cure =
+          "turn the shaft from outside during the recording, with only the probes connected to the motor"};
 }
 
 double least_step(const std::vector<double>& u) {
@@ -277,7 +279,7 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     return base::Problem{.where = "time",
                          .limit = "has " + base::rounded(per_period, 2) + " rows in a period, " +
                                   std::to_string(points.t_s.size()) + " in all",
-                         .cure = "record a hundred rows and more in a period"};
+                         .cure = "record at least a hundred rows per period"};
   Iteration iteration(record, points, harmonics);
   for (int step = 0; step < most_steps; ++step) {
     const std::optional<double> moved = iteration.step(out.phase);

@@ -79,7 +79,7 @@ base::Problems check_alike(const HallLog& log, const MotionPath& path, std::size
   if (!(greatest - least > most * (greatest + least) + 2.0 * deviations * deviation)) return {};
   return {{.where = "voltage",
            .value = each,
-           .limit = "have fundamentals that differ more than those of one motor",
+           .limit = "have fundamentals that differ too much for the phases of one motor",
            .cure = "check the dividers of the probes, their polarity and the units of the columns"}};
 }
 

@@ -224,20 +224,20 @@ base::Problems too_little(const HallEdges& e) {
   const std::string turns = std::to_string(least_turns) + " electrical turns";
   if (e.skipped * 5 > e.edges.size() && e.skipped > 2)
     return {{.where = "hall1, hall2, hall3",
-             .limit = "skip " + std::to_string(e.skipped) + " sectors and pass " +
-                      std::to_string(e.edges.size()) + " in order",
-             .cure = "turn more slowly or sample faster: ten rows and more per sector"}};
+             .limit = "skip " + std::to_string(e.skipped) + " sectors and pass only " +
+                      std::to_string(e.edges.size()) + " edges in order",
+             .cure = "turn the shaft more slowly or sample faster, for at least ten rows per sector"}};
   if (e.edges.size() < wanted || *std::min_element(e.seen.begin(), e.seen.end()) < 2)
     return {{.where = "hall1, hall2, hall3",
              .limit = "pass " + std::to_string(e.edges.size()) + " edges; " + std::to_string(wanted) +
-                      " are needed, each of the six twice at least",
-             .cure = "turn the shaft by " + turns +
-                     " and more in one go; a turn of the shaft is one for each pole pair"}};
+                      " are needed, each of the six at least twice",
+             .cure = "turn the shaft by at least " + turns +
+                     " without reversing; one turn of the shaft has an electrical turn for each pole pair"}};
   constexpr double fewest_samples = 2.0;
   if (e.sector_samples > 0.0 && e.sector_samples < fewest_samples)
     return {{.where = "time",
              .limit = "has " + base::rounded(e.sector_samples, 2) + " rows in a sector",
-             .cure = "turn more slowly or sample faster: ten rows and more per sector"}};
+             .cure = "turn the shaft more slowly or sample faster, for at least ten rows per sector"}};
   return {};
 }
 
@@ -249,7 +249,7 @@ base::Result<HallEdges> hall_edges(const HallLog& log) {
   if (raw.size() < 2)
     return base::Problem{.where = "hall1, hall2, hall3",
                          .limit = "never change: the rotor was at rest, or no probe is supplied",
-                         .cure = "turn the shaft while it is recorded"};
+                         .cure = "turn the shaft during the recording"};
   const Codes codes = happenings(raw);
   if (base::Problems dead = dead_lines(raw, codes); !dead.empty()) return dead;
   if (base::Problems bridged = bridged_lines(codes); !bridged.empty()) return bridged;

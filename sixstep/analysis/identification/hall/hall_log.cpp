@@ -17,13 +17,13 @@ base::Problems check(const HallLog& log) {
     return {{.where = "hall",
              .value = std::to_string(log.codes.size()) + " codes",
              .limit = "must be one for each of " + std::to_string(rows) + " times",
-             .cure = "give columns of one length"}};
+             .cure = "give columns of equal length"}};
   for (std::size_t n = 0; n < rows; ++n)
     if (log.codes[n] > 7)
       return {{.where = "hall",
                .value = std::to_string(log.codes[n]),
                .limit = "in row " + std::to_string(n + 1) + " must be a code of three bits, 0 to 7",
-               .cure = "H1 is bit 2, H2 bit 1, H3 bit 0"}};
+               .cure = "compute the code as 4 H1 + 2 H2 + H3"}};
   if (log.voltages == RecordedVoltages::none) return {};
   const bool lines = log.voltages == RecordedVoltages::lines;
   const char* const names[2][3] = {{"u_a", "u_b", "u_c"}, {"u_ab", "u_bc", "u_ca"}};

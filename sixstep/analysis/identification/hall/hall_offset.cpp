@@ -139,10 +139,11 @@ base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector
   if (odds(out.voltages.still_V2) < (least < 0.5 * out.voltages.still_V2 ? likely : sure))
     return base::Problem{
         .where = parity_columns(log),
-        .limit = "do not turn with the Hall lines: the best fit leaves " +
+        .limit = "do not follow the Hall lines: the best fit leaves " +
                  base::rounded(100.0 * least / std::max(out.voltages.still_V2, 1e-300), 3) +
-                 " % of their power",
-        .cure = "measure the same motor's three terminals, with the bridge off, and turn it faster"};
+                 " % of the voltages' power unexplained",
+        .cure =
+            "measure the three terminals of the same motor with the bridge off, and turn the motor faster"};
   out.mirrored_probability = 1.0 / (1.0 + base::exp(-odds(models[out.mirrored ? 0 : 1]->residual_V2)));
   const double off_deg = turned_into_place(out.voltages);
   out.rotation = static_cast<int>(std::floor((off_deg + 30.0) / 60.0));
@@ -180,7 +181,7 @@ base::Result<HallOffsetEstimate> place_by_voltages(const HallLog& log, const Hal
   if (!found)
     return base::Problem{.where = parity_columns(log),
                          .limit = "do not determine the rotor's angle",
-                         .cure = "turn it by more turns while you record voltages and Hall lines"};
+                         .cure = "turn the rotor by more turns during the recording"};
   return place;
 }
 

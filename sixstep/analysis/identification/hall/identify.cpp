@@ -51,7 +51,7 @@ class Weights {
 base::Problem not_fixed() {
   return {.where = "hall1, hall2, hall3",
           .limit = "do not determine the angles of the edges",
-          .cure = "turn the shaft by more turns in one go"};
+          .cure = "turn the shaft by more turns without reversing"};
 }
 
 /// Number of whole sectors in an offset, rounded to nearest.
@@ -104,12 +104,13 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
   for (const HallEdge& e : edges.edges) ++seen[repeating(e.boundary, own)];
   const std::size_t least = *std::min_element(seen.begin(), seen.end());
   if (least >= 2) return {};
-  return base::Problem{.where = "pole_pairs",
-                       .value = std::to_string(own / 6),
-                       .limit = "has " + std::to_string(own) +
-                                " edges on a turn of the shaft, and the log passes one of them " +
-                                (least == 0 ? "never" : "once"),
-                       .cure = "turn the shaft by two turns and more in one go, or leave the pole pairs out"};
+  return base::Problem{
+      .where = "pole_pairs",
+      .value = std::to_string(own / 6),
+      .limit = "has " + std::to_string(own) +
+               " edges on a turn of the shaft, and the log passes one of them " +
+               (least == 0 ? "never" : "once"),
+      .cure = "turn the shaft by at least two turns without reversing, or leave the pole pairs out"};
 }
 
 /// Counts excluded sightings: edges, without the edges at reversals of the rotor, and voltage readings.
@@ -203,7 +204,7 @@ base::Result<HallIdentity> identified(const HallLog& log, int pole_pairs, const 
         .limit =
             "needs voltages: without them an uneven rotation of the shaft cannot be distinguished from "
             "displaced edges",
-        .cure = "record also the voltages of the terminals, or leave the pole pairs out"};
+        .cure = "also record the voltages of the terminals, or leave the pole pairs out"};
   const std::size_t own = 6 * static_cast<std::size_t>(pole_pairs);
   if (const std::optional<base::Problem> rare = too_rare(*edges, own)) return *rare;
   const std::optional<FoundMotion> by_edges = motion_of_edges(*edges, own, keep_going);
