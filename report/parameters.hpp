@@ -15,7 +15,9 @@ std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
 /// Unit of d1 and d0, output per error: an outer loop's output is a part of the largest one.
 std::string_view gain_unit(const sixstep::study::LoopGains& gains, bool linear);
-std::string gains_section(const sixstep::study::Outcome& outcome);
+/// A controller without gains in words: "none: the duty is given"; empty for a PI and its kin.
+std::string without_gains(const sixstep::study::Scenario& scenario);
+std::string gains_section(const sixstep::study::Scenario& scenario, const sixstep::study::Outcome& outcome);
 /// The numbers of a user's controller. Those that are the controller's presets are marked.
 std::string own_section(const sixstep::study::Own& own);
 /// The derivation of a design's numbers: symbol, formula, value.

@@ -59,8 +59,9 @@ struct Causes {
   double periods = 0.0;     ///< of the PWM
   double heat_steps = 0.0;  ///< of the thermal model
   double mains = 0.0;       ///< of the mains behind a rectifier
+  double switchings = 0.0;  ///< turn-ons by comparators, whose frequency the motor decides
 };
-/// "6 × electrical", "PWM", "PWM − 2 × electrical", "2 × step of the thermal model", "beside 3 × PWM"; empty for
+/// "6 × electrical", "PWM", "PWM − 2 × electrical", "2 × switching", "beside switching", "2 × step of the thermal model", "beside 3 × PWM"; empty for
 /// any other line. The line of a named cause is exact; that of any other tone is where it was found.
 struct Origin {
   std::string name;

@@ -292,7 +292,8 @@ class Relations {
                       *allowed, "rpm", 1.0, max_speed_margin, false);
     if (r.verdict == RelationVerdict::holds)
       r.remark =
-          "no load at the nominal voltage is above the speed that the mechanics allow: limit speed or voltage";
+          "no load at the nominal voltage is above the speed that the mechanics allow: limit speed or voltage; up to twice that "
+          "speed is tolerated, as makers wind one rotor for several voltages";
     else if (r.remark.empty())
       r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
   }

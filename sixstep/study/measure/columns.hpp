@@ -2,6 +2,7 @@
 // One table lists the trace's columns with unit, frame and meaning.
 #pragma once
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "sixstep/base/result.hpp"
@@ -75,6 +76,9 @@ using FullRow = std::array<double, column_count>;
 bool applies(ColumnId id, control::Mode mode);
 /// Whether a column has a meaning in any mode of the run, with the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);
+
+/// Whether the numbers of a column are labels or levels, such as a Hall code: equal or not, but without a distance.
+bool holds_labels(std::string_view column);
 
 /// All columns: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
 const std::vector<Column>& all_columns();

@@ -3,6 +3,7 @@
 // numbers.
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/measure/end_watch.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/run_watch.hpp"
 
@@ -15,11 +16,12 @@ namespace sixstep::study {
 ///   - a speed reference whose Hall edges come later than sensors.timeout_s,
 ///   - a current loop that is unstable with its gains, a placed gain that is negative, gains that look like another tool's,
 ///   - a back-EMF above the bus,
-///   - a winding or a junction above its limit,
+///   - a winding or a junction above its limit, or a loss kept up at the end that the winding does not withstand,
 ///   - the sentences of passed_limits() (limit_remarks.hpp),
 ///   - fewer than five control periods in a commutation step of a six-step drive,
 ///   - a duty step or an overlap that does not act as expected (commutation_remarks.hpp).
-/// `compiled`: the scenario's; its timeline is not read. `watch`: of the whole run.
-void add_remarks(const Scenario& scenario, const Compiled& compiled, const RunWatch& watch, Outcome& outcome);
+/// `compiled`: the scenario's; its timeline is not read. `watch`: of the whole run, `end` of its end.
+void add_remarks(const Scenario& scenario, const Compiled& compiled, const RunWatch& watch,
+                 const EndWatch& end, Outcome& outcome);
 
 }  // namespace sixstep::study
