@@ -31,8 +31,8 @@ auto members(Is<analysis::InputColumn> auto& column) {
   return std::tie(key, unit);
 }
 auto members(Is<analysis::FigureColumn> auto& figure) {
-  auto& [name, unit, required, min, max] = figure;
-  return std::tie(name, unit, required, min, max);
+  auto& [name, unit, required, min, max, zero] = figure;
+  return std::tie(name, unit, required, min, max, zero);
 }
 auto members(Is<analysis::PlanColumns> auto& columns) {
   auto& [keys, strayed, figures] = columns;

@@ -30,7 +30,7 @@ constexpr double close = 1e-3;  ///< precision of the search, relative to a limi
 double beyond(const FigureColumn& f, double x) {
   if (!(x - x == 0.0)) return hopeless;
   double miss = -hopeless;
-  const auto size = [](double limit) { return limit == 0.0 ? 1.0 : std::fabs(limit); };
+  const auto size = [&f](double limit) { return f.size(limit) == 0.0 ? 1.0 : f.size(limit); };
   if (f.max) miss = std::max(miss, (x - *f.max) / size(*f.max));
   if (f.min) miss = std::max(miss, (*f.min - x) / size(*f.min));
   return miss;

@@ -93,6 +93,9 @@ std::string figure_row(const std::string& name, const std::string& unit, const s
   if (std::ranges::all_of(found, [](const auto& m) { return !m || (m->value == 0.0 && m->css.empty()); }))
     return "";
   std::string html = fmt::format("<tr><th scope=\"row\">{}</th>", with_subscripts(name));
+  std::vector<std::optional<double>> values;
+  for (const std::optional<Measured>& m : found) values.push_back(m ? std::optional(m->value) : std::nullopt);
+  const std::vector<std::string> texts = computed_alike(values, unit);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k]) {
       html += "<td class=\"num\">–</td>";
@@ -103,8 +106,8 @@ std::string figure_row(const std::string& name, const std::string& unit, const s
                                   ? fmt::format("<small class=\"aside\">{}</small>",
                                                 escaped(deviation(found[k]->value, found[0]->value, unit)))
                                   : "";
-    html += fmt::format("<td class=\"num {}\">{}{}{}</td>", found[k]->css,
-                        escaped(computed(found[k]->value, unit)), mark(found[k]->css), aside);
+    html += fmt::format("<td class=\"num {}\">{}{}{}</td>", found[k]->css, escaped(texts[k]),
+                        mark(found[k]->css), aside);
   }
   return html + "</tr>\n";
 }
@@ -225,6 +228,14 @@ std::string trace_comparison_table(const ComparisonInput& in) {
   std::string rows;
   for (const sixstep::analysis::TraceComparison& one : in.laid_over) {
     const std::string unit = one.column.unit == "1" ? "" : one.column.unit;
+    if (one.differing) {
+      rows += fmt::format(
+          "<tr><th scope=\"row\"><code>{}</code></th><td class=\"num\">{}</td><td class=\"num\">{} differ</td><td></td>"
+          "<td class=\"num\">{}</td><td></td></tr>\n",
+          escaped(one.column.name), one.rows, *one.differing,
+          *one.differing > 0 ? escaped(computed(one.at_s, "s")) : "");
+      continue;
+    }
     rows += fmt::format(
         "<tr><th scope=\"row\"><code>{}</code></th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
         "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",

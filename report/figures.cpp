@@ -113,13 +113,39 @@ std::string computed(double value, std::string_view unit) {
   return with_unit(plain(value * scale.factor, 4), scale.unit);
 }
 
+std::vector<std::string> computed_alike(const std::vector<std::optional<double>>& values,
+                                        std::string_view unit) {
+  constexpr double most = 1e4, least = 0.1;
+  double smallest = 0.0, largest = 0.0;
+  for (const std::optional<double>& x : values) {
+    if (!x || !std::isfinite(*x) || *x == 0.0) continue;
+    smallest = smallest == 0.0 ? std::abs(*x) : std::min(smallest, std::abs(*x));
+    largest = std::max(largest, std::abs(*x));
+  }
+  const Scale small = scale_for(smallest, unit), large = scale_for(largest, unit);
+  const bool small_fits = largest * small.factor < most;
+  const Scale shared = small_fits && smallest * large.factor < least ? small : large;
+  const bool apart = largest == 0.0 || largest > most * smallest;
+  std::vector<std::string> texts;
+  for (const std::optional<double>& x : values)
+    texts.push_back(!x                            ? ""
+                    : apart || !std::isfinite(*x) ? computed(*x, unit)
+                                                  : with_unit(plain(*x * shared.factor, 4), shared.unit));
+  return texts;
+}
+
+std::string_view difference_unit(std::string_view unit) { return unit == "degC" ? "K" : unit; }
+
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
   if (!std::isfinite(difference)) return "not comparable";
-  // A ratio of opposite signs has no meaning, so the difference is printed.
-  if (reference == 0.0 || (measured < 0.0) != (reference < 0.0))
-    return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
+  // A ratio of opposite signs has no meaning, so that the difference itself is printed.
+  constexpr double most_times = 1000.0, most_percent = 1000.0;
+  if (reference == 0.0 || (measured < 0.0) != (reference < 0.0) || unit == "degC" ||
+      std::abs(measured) > most_times * std::abs(reference))
+    return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, difference_unit(unit)));
   const double percent = 100.0 * difference / reference;
+  if (percent >= most_percent) return "×\u00a0" + plain(measured / reference, 3, true);
   const double size = std::abs(percent);
   const int decimals = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.095 ? 2 : 4;
   return fmt::format("{}{}\u00a0%", percent > 0.0 ? "+" : "", fixed(percent, decimals, false));

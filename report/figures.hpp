@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace report {
 
@@ -32,8 +33,17 @@ bool never(double value, std::string_view unit);
 /// A computed value with its unit and four digits.
 std::string computed(double value, std::string_view unit);
 
-/// The deviation measured/reference - 1 as "+1.3 %". The difference "+0.02 A" if the reference is zero or has
-/// the opposite sign. Words if a number is not finite.
+/// Unit of a difference: kelvin for temperatures on the Celsius scale.
+std::string_view difference_unit(std::string_view unit);
+
+/// Computed values that stand beside each other, all with the prefix of the largest, or of the smallest but 0 where this one
+/// would be below 0.1 and the largest stays below 10000. Sizes that differ by more than a factor of 10000 keep their own
+/// prefixes. Empty for a value that is not there.
+std::vector<std::string> computed_alike(const std::vector<std::optional<double>>& values,
+                                        std::string_view unit);
+
+/// The deviation measured/reference - 1 as "+1.3 %", from ten times on as "x 14.6", and as "+0.02 A" if the
+/// reference is zero or next to nothing, or a temperature; words if one of the numbers is not finite.
 std::string deviation(double measured, double reference, std::string_view unit);
 
 /// A fraction in per cent with two digits: "97 %" for 0.97.

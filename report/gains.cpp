@@ -69,9 +69,24 @@ std::string derivation_table(const std::vector<sixstep::design::DerivationStep>&
   return html + "</tbody></table>\n";
 }
 
-std::string gains_section(const sixstep::study::Outcome& outcome) {
+std::string without_gains(const sixstep::study::Scenario& scenario) {
+  using sixstep::control::Mode;
+  const sixstep::study::Control& c = scenario.control;
+  if (c.mode == Mode::off) return "off";
+  if (c.mode == Mode::duty) return "none: the duty is given";
+  if (c.drive == sixstep::study::FirmwareKind::field && c.field.law == sixstep::study::FieldLaw::finite_set)
+    return "no gains: the controller chooses the next of all leg states";
+  if (c.drive != sixstep::study::FirmwareKind::own &&
+      c.current.type == sixstep::study::CurrentLoopType::hysteresis)
+    return "current by hysteresis, ±" + computed(c.current.band_A, "A") +
+           ": a band and no gains, the switching follows from the motor";
+  return "";
+}
+
+std::string gains_section(const sixstep::study::Scenario& scenario, const sixstep::study::Outcome& outcome) {
   const bool linear = outcome.motor.kind == sixstep::design::MotorKind::linear;
-  std::string html;
+  const std::string without = without_gains(scenario);
+  std::string html = without.empty() ? "" : "<p class=\"quiet\">Controller: " + escaped(without) + ".</p>\n";
   for (const LoopGains& g : outcome.gains) {
     html += fmt::format(
         "<div class=\"loop\"><h3>{} loop</h3><p class=\"origin\">{}</p>\n<div "
@@ -92,7 +107,7 @@ std::string gains_section(const sixstep::study::Outcome& outcome) {
     html +=
         "<div class=\"loop\"><h3>Angle of the magnet</h3><p class=\"origin\">designed from the sheet</p>\n" +
         derivation_table(outcome.estimator_steps, linear) + "</div>\n";
-  return html.empty() ? "<p class=\"quiet\">No controller: nothing to tune.</p>\n" : html;
+  return html;
 }
 
 std::string own_section(const sixstep::study::Own& own) {

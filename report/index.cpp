@@ -41,7 +41,7 @@ std::string closest_cell(const sixstep::study::Outcome& outcome) {
 /// The comparison with the largest relative deviation.
 std::string furthest(const sixstep::study::Outcome& outcome) {
   const sixstep::study::ComparisonResult* worst = nullptr;
-  const auto part = [](const auto& c) { return std::abs(c.measured / c.value - 1.0); };
+  const auto part = [](const auto& c) { return std::abs((c.measured - c.value) / (c.value - c.zero)); };
   for (const auto& c : outcome.comparisons)
     if (std::isfinite(part(c)) && (!worst || part(c) > part(*worst))) worst = &c;
   if (!worst) return "";

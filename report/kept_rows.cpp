@@ -117,8 +117,8 @@ std::string rows_foretold(const Scenario& s, std::size_t most_bytes) {
   const double bytes = expected_bytes(s), most = static_cast<double>(most_bytes);
   if (!(bytes > 1.5 * most)) return "";
   return fmt::format(
-      "all events need some {:.0f} MB, and a report keeps {:.0f} MB: the events of about the last {:.2g} s and of the largest step, and an envelope of the others",
-      bytes / 1e6, most / 1e6, 0.6 * most / bytes * s.duration_s);
+      "its events need some {:.0f} MB, and a report keeps {:.0f} MB: the events before the end and of the largest step, and an envelope of the others; the page says from when on it has all",
+      bytes / 1e6, most / 1e6);
 }
 
 std::string rows_told(const Trace& trace) {

@@ -127,10 +127,6 @@ std::string notes(const PagePlan& plan) {
   return plan.notes.empty() ? "" : fmt::format("<p class=\"notes\">{}</p>\n", escaped(plan.notes));
 }
 
-std::string value_cell(const std::optional<double>& x, const std::string& unit) {
-  return number_cell(x ? escaped(computed(*x, unit)) : "–");
-}
-
 std::string statistics_row(const std::string& tag, const analysis::SpreadFigure& f, std::size_t runs) {
   const analysis::Statistics& s = f.statistics;
   const std::string& unit = f.column.unit;
@@ -140,9 +136,11 @@ std::string statistics_row(const std::string& tag, const analysis::SpreadFigure&
       "<tr{}><th scope=\"row\">{}{}</th>{}{}", f.column.required && f.holds < runs ? " class=\"bad\"" : "",
       tag, escaped(f.column.name), number_cell(escaped(required)),
       number_cell(f.column.required ? fmt::format("{} of {}", count(f.holds), count(runs)) : ""));
-  for (const std::optional<double>& x :
-       {s.min(), s.quantile(0.05), s.median(), s.quantile(0.95), s.max(), s.mean(), s.standard_deviation()})
-    row += value_cell(x, unit);
+  std::vector<std::string> texts =
+      computed_alike({s.min(), s.quantile(0.05), s.median(), s.quantile(0.95), s.max(), s.mean()}, unit);
+  const std::optional<double> deviation = s.standard_deviation();
+  texts.push_back(deviation ? computed(*deviation, unit) : "");
+  for (const std::string& text : texts) row += number_cell(text.empty() ? "–" : escaped(text));
   return row + "</tr>\n";
 }
 

@@ -107,7 +107,7 @@ std::string render(const ReportInput& in) {
               {"model", model_section(in.outcome.motor)},
               {"gains", in.scenario.control.drive == sixstep::study::FirmwareKind::own
                             ? own_section(in.scenario.control.own)
-                            : gains_section(in.outcome)},
+                            : gains_section(in.scenario, in.outcome)},
               {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
                                                             book_of(in.scenario)) +
                                                  device_section(in.outcome.devices)

@@ -52,6 +52,22 @@ std::string pwm(const study::Scenario& scenario) {
                      !answers.empty() ? answers : chopping_words(p));
 }
 
+bool chooses_legs(const study::Control& c) {
+  return c.drive == study::FirmwareKind::field && c.field.law == study::FieldLaw::finite_set;
+}
+
+/// What takes the place of a PWM; empty if the drive has one, at least in some mode of the run.
+std::string switching(const study::Scenario& s) {
+  if (s.control.mode < control::Mode::current || study::comes_into(s, control::Mode::duty)) return "";
+  const std::string tick = given(s.pwm.period_s, "s") + " (" + computed(1.0 / s.pwm.period_s, "Hz") + ")";
+  if (chooses_legs(s.control)) return "one state of the three legs for each control period of " + tick;
+  if (s.control.current.type != study::CurrentLoopType::hysteresis) return "";
+  return (s.control.current.comparator == study::Comparator::event
+              ? "by comparators whenever the current leaves the band, no PWM; control tick of "
+              : "by a comparison with the band at each control tick, no PWM; tick of ") +
+         tick + ", " + chopping_words(s.pwm);
+}
+
 std::string current_loop_words(const study::CurrentLoop& c) {
   if (c.type == study::CurrentLoopType::hysteresis)
     return fmt::format("current hysteresis ±{}, {} comparator", given(c.band_A, "A"),
@@ -61,10 +77,6 @@ std::string current_loop_words(const study::CurrentLoop& c) {
          (staying ? " on the staying phase" : "") +
          std::array{"", ", duty step at commutation",
                     ", overlapping at commutation"}[static_cast<std::size_t>(c.commutation)];
-}
-
-bool chooses_legs(const study::Control& c) {
-  return c.drive == study::FirmwareKind::field && c.field.law == study::FieldLaw::finite_set;
 }
 
 /// The speed loop and its output.
@@ -238,7 +250,8 @@ std::string sentences(const study::Scenario& scenario) {
   const bool at_edge = s.pwm.commutation == study::CommutationAt::hall_edge;
   add("Supply", supply(s.supply));
   add("Bridge", bridge(s.bridge));
-  add("PWM", pwm(s));
+  const std::string no_pwm = switching(s);
+  add(no_pwm.empty() ? "PWM" : "Switching", no_pwm.empty() ? pwm(s) : no_pwm);
   add("Control", control(s));
   if (!all_ideal(s.sensors)) add("Sensors", sensors(s.sensors));
   if (s.control.drive == study::FirmwareKind::product) add("Product drive", protection(s.protection));

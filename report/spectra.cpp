@@ -42,7 +42,8 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
   const Causes causes{.turns = s.stretch.turns,
                       .periods = s.period_s > 0.0 ? seconds / s.period_s : 0.0,
                       .heat_steps = s.heat_step_s > 0.0 ? seconds / s.heat_step_s : 0.0,
-                      .mains = seconds * s.mains_Hz};
+                      .mains = seconds * s.mains_Hz,
+                      .switchings = seconds * s.switching_Hz};
   std::string rows;
   for (std::size_t n = 0; n < std::min(most, d.lines.tones.size()); ++n) {
     const Tone& tone = d.lines.tones[n];
@@ -56,6 +57,21 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
       "class=\"num\">Amplitude</th>"
       "<th>What it is</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
       d.title, rows);
+}
+
+/// The frequency of turn-ons from the first one in the stretch to the last: the duty in effect is the state of the
+/// switch that comparators chop. 0 if there are fewer than two.
+double comparators_Hz(const sixstep::study::Trace& trace, const Interval& stretch) {
+  const auto *time = find_column(trace, "t_s"), *duty = find_column(trace, "duty");
+  if (!time || !duty) return 0.0;
+  double first_s = 0.0, last_s = 0.0, turn_ons = 0.0;
+  for (std::size_t n = 1; n < time->size(); ++n) {
+    if (!((*duty)[n - 1] == 0.0 && (*duty)[n] != 0.0) || !stretch.holds((*time)[n])) continue;
+    if (turn_ons == 0.0) first_s = (*time)[n];
+    last_s = (*time)[n];
+    ++turn_ons;
+  }
+  return last_s > first_s ? (turn_ons - 1) / (last_s - first_s) : 0.0;
 }
 
 }  // namespace
@@ -81,6 +97,7 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
       scenario.supply.source == SourceKind::single_phase || scenario.supply.source == SourceKind::three_phase;
   Spectra out{*stretch,
               free_running ? 0.0 : scenario.pwm.period_s,
+              free_running ? comparators_Hz(trace, stretch->time) : 0.0,
               scenario.heat.motor || scenario.heat.devices ? scenario.heat.step_s : 0.0,
               mains ? scenario.supply.mains_Hz : 0.0,
               {}};

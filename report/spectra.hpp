@@ -17,10 +17,10 @@ struct DrawnSpectrum {
 
 struct Spectra {
   Stretch stretch;
-  double period_s = 0.0;     ///< period of the PWM; 0 if comparators switch
-  double heat_step_s = 0.0;  ///< step of the thermal model, which changes the resistance at each step; 0
-                             ///< without the model
-  double mains_Hz = 0.0;     ///< frequency of the mains; 0: the bus is not rectified mains
+  double period_s = 0.0;      ///< period of the PWM; 0 if comparators switch
+  double switching_Hz = 0.0;  ///< measured frequency of comparators in the stretch; 0 with a PWM
+  double heat_step_s = 0.0;   ///< step of the thermal model, which changes the resistance; 0 without it
+  double mains_Hz = 0.0;      ///< 0: the bus has another source
   std::vector<DrawnSpectrum> all;
 };
 

@@ -193,9 +193,16 @@ Origin origin_of(double at, const Causes& causes) {
   }
   if (beat >= 1.0 && turns && std::abs(at - beat * periods) < electrical / 2)
     return {"beside " + times(beat, "PWM"), at};
-  // At high orders, every line is close to a multiple of the electrical frequency.
+  // Comparators keep their frequency where speed and reference stay. Otherwise it moves by some per cent.
+  constexpr double moves = 0.05;
+  const double switched = causes.switchings > 0.0 ? std::round(at / causes.switchings) : 0.0;
+  const double off = std::abs(at - switched * causes.switchings);
+  if (switched >= 1.0 && off <= near) return {times(switched, "switching"), switched * causes.switchings};
+  // At high orders every line is near some multiple.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return {order == 1.0 ? "electrical, the fundamental" : times(order, "electrical"), order * electrical};
+  if (switched >= 1.0 && off <= moves * causes.switchings)
+    return {"beside " + times(switched, "switching"), at};
   // Full-wave rectified mains pulsate at multiples of twice the mains' frequency.
   const double mains = causes.mains > 0.0 ? 2 * std::round(at / (2 * causes.mains)) : 0.0;
   if (mains >= 1.0 && mains <= 60.0 && std::abs(at - mains * causes.mains) <= near)

@@ -106,15 +106,6 @@ std::string own_numbers(const Scenario& scenario) {
   return text;
 }
 
-/// The text for a drive without a loop that has gains.
-std::string without_gains(const Scenario& scenario) {
-  using sixstep::control::Mode;
-  if (scenario.control.mode == Mode::off) return "off";
-  if (scenario.control.drive == sixstep::study::FirmwareKind::own) return own_numbers(scenario);
-  if (scenario.control.mode == Mode::duty) return "none: the duty is given";
-  return "no gains: the controller chooses the next of all leg states";
-}
-
 std::string gains(const Scenario& scenario, const Outcome& outcome) {
   using sixstep::control::Mode;
   const auto& inner = scenario.control.current;
@@ -124,7 +115,10 @@ std::string gains(const Scenario& scenario, const Outcome& outcome) {
   for (const LoopGains& g : outcome.gains)
     text +=
         answer(escaped(g.loop + " loop"), loop(g, outcome.motor.kind == sixstep::design::MotorKind::linear));
-  if (text.empty()) text = answer("Controller", without_gains(scenario));
+  if (text.empty())
+    text = answer("Controller", scenario.control.drive == sixstep::study::FirmwareKind::own
+                                    ? own_numbers(scenario)
+                                    : without_gains(scenario));
   if (!outcome.gains.empty()) text += "<div class=\"more\"><a href=\"#gains\">Derivation</a></div>";
   return card("tuned", "Gains", list(text));
 }
@@ -171,16 +165,20 @@ constexpr const char* of_the_pair =
 std::string step_sentences(const Step& step, const StepCurrent& current, double end_s) {
   const bool asked = step.of != "start";
   const std::string shown = computed(step.window.to - step.at_s, "s");
+  // A current of no more than rounding errors is 0.
+  const auto ampere = [&current](double x) {
+    return computed(std::abs(x) < 1e-9 * std::abs(current.peak_A) ? 0.0 : x, "A");
+  };
   std::string text = fmt::format("In the first {} {}: peak <b>{}</b> after {}", shown,
-                                 asked ? "after the step" : "of the run", computed(current.peak_A, "A"),
+                                 asked ? "after the step" : "of the run", ampere(current.peak_A),
                                  computed(current.peak_after_s, "s"));
   if (current.asked_A && step.of != "current")
-    text += fmt::format(" (reference then: {})", computed(*current.asked_A, "A"));
-  text += fmt::format(", {} rms.", computed(current.rms_A, "A"));
+    text += fmt::format(" ({} asked for then)", ampere(*current.asked_A));
+  text += fmt::format(", {} rms.", ampere(current.rms_A));
   if (current.then_mean_A)
     text += fmt::format(" From then until the {}: {} on average, between {} and {}.",
-                        step.next_s < end_s ? "next step" : "end", computed(*current.then_mean_A, "A"),
-                        computed(current.then_low_A, "A"), computed(current.then_high_A, "A"));
+                        step.next_s < end_s ? "next step" : "end", ampere(*current.then_mean_A),
+                        ampere(current.then_low_A), ampere(current.then_high_A));
   return "<p>" + text + "</p>" +
          (current.then_mean_A && step.held.column == std::string_view("i_m_A") ? of_the_pair : "");
 }

@@ -30,11 +30,13 @@ std::string gauge(const Verdict& v) {
     low = 20.0;
     at = width > 0.0 ? 20.0 + 60.0 * (v.measured - *v.min) / width : 50.0;
   } else if (v.max) {
-    at = *v.max > 0.0 ? 80.0 * v.measured / *v.max : v.measured <= *v.max ? 40.0 : 100.0;
+    const double limit = *v.max - v.zero;
+    at = limit > 0.0 ? 80.0 * (v.measured - v.zero) / limit : v.measured <= *v.max ? 40.0 : 100.0;
   } else {
     low = 20.0;
     high = 100.0;
-    at = *v.min > 0.0 ? 20.0 * v.measured / *v.min : v.measured >= *v.min ? 60.0 : 0.0;
+    const double limit = *v.min - v.zero;
+    at = limit > 0.0 ? 20.0 * (v.measured - v.zero) / limit : v.measured >= *v.min ? 60.0 : 0.0;
   }
   return fmt::format(
       "<span class=\"gauge\" aria-hidden=\"true\"><i style=\"left:{:.1f}%;width:{:.1f}%\"></i>"
@@ -66,16 +68,17 @@ std::optional<double> room(const Verdict& v) {
     return std::min(*v.max - v.measured, v.measured - *v.min) / half;
   }
   const double limit = v.max ? *v.max : v.min.value_or(0.0);
-  if (limit == 0.0) return std::nullopt;
-  return (v.max ? limit - v.measured : v.measured - limit) / std::abs(limit);
+  if (limit == v.zero) return std::nullopt;
+  return (v.max ? limit - v.measured : v.measured - limit) / std::abs(limit - v.zero);
 }
 
 std::string room_words(const Verdict& v) {
   if (v.min && v.max)
-    return computed(std::min(*v.max - v.measured, v.measured - *v.min), v.unit) +
+    return computed(std::min(*v.max - v.measured, v.measured - *v.min), difference_unit(v.unit)) +
            " from the nearer of its limits";
-  return plain(100.0 * *room(v), 2, true) + "\u00a0% " + "inside its " + (v.max ? "upper" : "lower") +
-         " limit";
+  const std::string left = v.unit == "degC" ? computed(v.max ? *v.max - v.measured : v.measured - *v.min, "K")
+                                            : plain(100.0 * *room(v), 2, true) + "\u00a0%";
+  return left + " inside its " + (v.max ? "upper" : "lower") + " limit";
 }
 
 std::string requirement_rows(const Outcome& outcome) {

@@ -49,13 +49,14 @@ struct CurveFiles {
   std::optional<files::AtomicFile> json, html;
 };
 
-CurveFiles outputs(const CurveArguments& a, const design::Sheet& sheet, base::Problems& problems) {
+CurveFiles outputs(const CurveArguments& a, const analysis::CurveRequest& request, base::Problems& problems) {
   CurveFiles out;
   if (!a.csv.empty()) {
     std::vector<study::Column> columns;
-    for (const text::CurveColumn& c : text::curve_columns(design::motion_of(sheet)))
+    for (const text::CurveColumn& c : text::curve_columns(design::motion_of(request.sheet)))
       columns.push_back(c.column);
-    const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + text::visible(a.motor),
+    const std::string origin[] = {"sixstep " SIXSTEP_VERSION,
+                                  "motor: " + text::visible(a.motor) + "; " + text::curve_conditions(request),
                                   "command: " + a.command};
     open_or_report(out.csv, files::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
   }
@@ -162,7 +163,7 @@ Exit curve_command(const CurveArguments& a) {
   base::Problems problems = duplicate_outputs({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
-  CurveFiles out = outputs(a, request->sheet, problems);
+  CurveFiles out = outputs(a, *request, problems);
   if (!problems.empty()) return refused(problems);
   const base::Result<analysis::Curve> curve = batch::torque_speed_curve(
       *request, side_by_side(a.jobs, a.quiet, "points"), [] { return !interrupted(); });

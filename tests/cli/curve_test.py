@@ -13,7 +13,12 @@ class Curve(ProgramTest):
         self.assertIn("No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A through the winding", shown)
         self.assertEqual(self.names(), ["a.csv", "a.html", "a.json"])
         rows = (self.path / "a.csv").read_text().splitlines()
-        self.assertEqual(rows[1:3], ["# motor: maxon-251601", "# command: sixstep curve maxon-251601 --csv a.csv --json a.json --html a.html"])
+        self.assertEqual(rows[2], "# command: sixstep curve maxon-251601 --csv a.csv --json a.json --html a.html")
+        self.assertTrue(rows[1].startswith("# motor: maxon-251601; "), rows[1])
+        # It names the conditions of the limits, as the table does, and what its first row leaves out.
+        worse = re.search(r"worse ends of the motor file's ranges \((.*?)\)", " ".join(shown.split())).group(1)
+        self.assertIn(f"25 degC ambient and the worse ends {worse}", rows[1])
+        self.assertIn("speed 0 without friction", rows[1])
         rows = [row for row in rows if not row.startswith("#")]
         self.assertEqual(len(rows), 42)
         self.assertTrue(rows[0].startswith("speed_rad_s,torque_Nm,air_gap_torque_Nm,ideal_torque_Nm,"))
@@ -21,6 +26,8 @@ class Curve(ProgramTest):
         self.assertNotRegex("\n".join(rows), r"(?i)\b(nan|inf)\b", "what has no value leaves its cell empty")
         last = dict(zip(rows[0].split(","), (float(cell) if cell else None for cell in rows[-1].split(","))))
         self.assertEqual(last["speed_rad_s"], curve["points"][-1]["speed_rad_s"])
+        held = dict(zip(rows[0].split(","), (float(cell) if cell else None for cell in rows[1].split(","))))
+        self.assertEqual((held["speed_rad_s"], held["torque_Nm"]), (0, held["air_gap_torque_Nm"]))
         self.assertTrue("--html a.html" in (self.path / "a.html").read_text(), "the page names the command that made it")
         self.assertEqual(self.run_program("curve", "maxon-251601", "--quiet").stdout, "")
         self.assertEqual(json.loads(self.run_program("curve", "maxon-251601", "--json", "-").stdout), curve)

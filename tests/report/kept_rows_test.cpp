@@ -141,6 +141,11 @@ TEST(KeptRows, AreForetoldWhereTheirNumberCanBe) {
   EXPECT_EQ(rows_foretold(s), "");
   s.duration_s = 1000;
   EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps 160 MB"));
+  // From when on it has every event depends on the run: only the page knows it.
+  const std::string longer = rows_foretold(s);
+  s.pwm.period_s = 60e-6;
+  s.duration_s = 2000;
+  EXPECT_EQ(rows_foretold(s), longer);
 }
 
 }  // namespace SIXSTEP_TEST_FILE

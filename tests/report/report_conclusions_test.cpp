@@ -9,6 +9,7 @@
 
 #include "report/conduction.hpp"
 #include "report/cost_card.hpp"
+#include "report/figures.hpp"
 #include "report/groups.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"
@@ -17,6 +18,7 @@
 #include "report/spectra.hpp"
 #include "report/spectrum.hpp"
 #include "report/summary.hpp"
+#include "report/verdicts.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
@@ -251,6 +253,51 @@ TEST(Glance, answers_what_a_reader_asks_first) {
   EXPECT_THAT(page(run), HasSubstr("hysteresis, ±250.0\u00a0mA"));
   run.outcome.verdicts[2].ok = false;
   EXPECT_THAT(page(run), HasSubstr("Not met</dt><dd>mean current from 2 ms to 5 ms"));
+}
+
+/// The zero of the Celsius scale is arbitrary: another one changes neither the room nor its words.
+TEST(Glance, a_temperature_has_no_percentage) {
+  const sixstep::study::Verdict upper{"housing", "degC", 46, {}, 85.0, true, 25.0},
+      lower{"housing", "degC", 46, 30.0, {}, true, 25.0};
+  for (sixstep::study::Verdict v : {upper, lower}) {
+    const double before = *room(v);
+    const std::string words = room_words(v);
+    EXPECT_THAT(words, HasSubstr("\u00a0K inside its "));
+    EXPECT_EQ(words.find('%'), words.npos);
+    for (std::optional<double>* bound : {&v.min, &v.max})
+      if (*bound) **bound += 273.15;
+    v.measured += 273.15;
+    v.zero += 273.15;
+    EXPECT_NEAR(*room(v), before, 1e-12);
+    EXPECT_EQ(room_words(v), words);
+  }
+  EXPECT_NEAR(*room(upper), (85.0 - 46.0) / (85.0 - 25.0), 1e-12);
+  EXPECT_EQ(deviation(46, 40, "degC"), deviation(46 + 273.15, 40 + 273.15, "degC"));
+}
+
+/// A controller without a PI is told by what it has.
+TEST(Gains, of_a_hysteresis_are_its_band) {
+  SyntheticRun run = synthetic_run(0.002);
+  run.outcome.gains.clear();
+  run.scenario.control.current.type = sixstep::study::CurrentLoopType::hysteresis;
+  for (const double band : {0.2, 1.5}) {
+    run.scenario.control.current.band_A = band;
+    const std::string html = gains_section(run.scenario, run.outcome);
+    EXPECT_THAT(html, HasSubstr(computed(band, "A")));
+    EXPECT_THAT(page(run), HasSubstr(computed(band, "A")));
+  }
+  run.scenario.control.mode = sixstep::control::Mode::duty;
+  EXPECT_THAT(gains_section(run.scenario, run.outcome), HasSubstr(without_gains(run.scenario)));
+  EXPECT_EQ(gains_section(run.scenario, run.outcome).find("hysteresis"), std::string::npos);
+}
+
+/// A current of rounding errors is none.
+TEST(Glance, a_step_tells_no_rounding_errors) {
+  SyntheticRun run = stepped_run();
+  for (double& x : run.trace.values[1])
+    if (x == 0) x = 1e-28;
+  EXPECT_EQ(page(run).find("pA"), std::string::npos) << page(run);
+  EXPECT_EQ(page(run).find("·10"), std::string::npos);
 }
 
 TEST(PackedRows, keep_the_range_in_65533_steps_with_zero_on_one_and_refuse_what_is_too_much) {

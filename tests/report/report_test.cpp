@@ -307,6 +307,17 @@ TEST(Figures, deviation_is_signed_and_absolute_where_the_reference_is_zero) {
   EXPECT_EQ(deviation(0.02, 0.0, "A"), "+20.00\u00a0mA");
 }
 
+/// Beside each other, numbers keep the order of their sizes, and those more than ten times the reference are a factor.
+TEST(Figures, side_by_side_have_one_prefix) {
+  const auto texts = computed_alike({0.03983, 0.07235, 0.1426, std::nullopt, 0.0}, "Nm");
+  EXPECT_THAT(texts, ::testing::ElementsAre("39.83\u00a0mNm", "72.35\u00a0mNm", "142.6\u00a0mNm", "",
+                                            "0.000\u00a0mNm"));
+  EXPECT_THAT(computed_alike({2e-7, 1e-6}, "s"), ::testing::ElementsAre("0.2000\u00a0µs", "1.000\u00a0µs"));
+  EXPECT_THAT(computed_alike({1e-6, 2.0}, "s"), ::testing::ElementsAre("1.000\u00a0µs", "2.000\u00a0s"));
+  EXPECT_EQ(deviation(15.6, 1.0, "A"), "×\u00a015.6");
+  EXPECT_EQ(deviation(1.0, 1e-9, "A"), "+1.000\u00a0A");
+}
+
 TEST(Figures, a_time_that_never_came_is_a_word) {
   const double ever = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judged(ever, std::nullopt, 5e-3, "s").measured, "never");

@@ -101,6 +101,38 @@ TEST(Spectra, multiples_of_twice_the_mains_are_named) {
   EXPECT_EQ(origin_of(100.0, {}).name, "");
 }
 
+/// A current between the lines of a band rises and falls with other slopes, 40 and 60 % of 50.3 ms^-1. Its comparators'
+/// duty gives the frequency, and each multiple is called by it.
+TEST(Spectra, lines_of_comparators_are_named_by_their_own_frequency) {
+  constexpr double hertz = 50.3;
+  sixstep::study::Trace trace;
+  for (const char* name : {"t_s", "i_a_A", "torque_Nm", "duty"}) trace.columns.push_back({name, "", "", ""});
+  trace.values.resize(4);
+  const auto row = [&trace](double t, double current, double duty) {
+    const double cells[] = {t, current, 0.0, duty};
+    for (std::size_t c = 0; c < 4; ++c) trace.values[c].push_back(cells[c]);
+  };
+  for (int n = 0; n < 51; ++n) {
+    row(n / hertz, -0.2, 0);
+    row(n / hertz, -0.2, 1);
+    row((n + 0.4) / hertz, 0.2, 1);
+    row((n + 0.4) / hertz, 0.2, 0);
+  }
+  sixstep::study::Scenario s = scenario();
+  s.control.mode = sixstep::control::Mode::current;
+  s.control.current.type = sixstep::study::CurrentLoopType::hysteresis;
+  const auto found = spectra(trace, s, 2);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->switching_Hz, hertz, 1e-9);
+  const std::string html = spectra_section(found);
+  EXPECT_THAT(html, HasSubstr("<td>switching</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>2 × switching</td>"));
+  EXPECT_THAT(html, HasSubstr("50.30\u00a0Hz</td>"));
+  EXPECT_THAT(html, Not(HasSubstr("PWM</td>")));
+  EXPECT_EQ(origin_of(52.0, {.switchings = 50.3}).name, "beside switching");
+  EXPECT_EQ(origin_of(75.0, {.switchings = 50.3}).name, "");
+}
+
 TEST(Spectra, a_tone_is_one_from_a_billionth_of_its_unit_on) {
   for (const double amplitude : {0.9e-9, 1.1e-9, 1e-3}) {
     std::vector<double> time, values;

@@ -98,6 +98,35 @@ TEST(Arithmetic, WhatDoesNotFitIsAProblemBeforeTheRun) {
   EXPECT_THAT(run.problems()[0].cure, HasSubstr("control.full_scale"));
 }
 
+/// The full scale that the message names fits; a hundredth less does not.
+TEST(Arithmetic, AFullScaleThatIsTooSmallIsToldWithTheKeyThatFits) {
+  for (const Arithmetic format : {Arithmetic::q15, Arithmetic::q14}) {
+    Scenario s = current_square();
+    s.control.arithmetic = format;
+    s.control.full_scale.current_A = 1.0;
+    const auto told = [&s]() -> std::string {
+      const auto out = study::run(s);
+      if (out) return "";
+      std::string text;  // the message with the largest full scale
+      double most = 0.0;
+      const std::string word = "take control.full_scale.current_A of ";
+      for (const base::Problem& p : out.problems())
+        if (const std::size_t at = p.cure.find(word); at != std::string::npos)
+          if (const double value = std::stod(p.cure.substr(at + word.size())); value > most) {
+            most = value;
+            text = std::to_string(value);
+          }
+      return text;
+    };
+    const std::string needed = told();
+    ASSERT_NE(needed, "");
+    for (const double beyond : {1.0, 0.99}) {
+      s.control.full_scale.current_A = std::stod(needed) * beyond;
+      EXPECT_EQ(told().empty(), beyond == 1) << needed;
+    }
+  }
+}
+
 TEST(Arithmetic, AnIntegralThatSeesNoDigitIsAProblem) {
   Scenario s = current_square();
   s.control.current = {};
@@ -114,11 +143,16 @@ TEST(Arithmetic, AnIntegralThatSeesNoDigitIsAProblem) {
 /// The numbers in the message are a bound: a frequency with the named number is accepted, and one that is 1 %
 /// beyond it is refused.
 TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
-  for (const study::FirmwareKind drive : {study::FirmwareKind::product, study::FirmwareKind::lean}) {
+  const std::pair<study::FirmwareKind, Arithmetic> drives[] = {
+      {study::FirmwareKind::product, Arithmetic::q15},
+      {study::FirmwareKind::product, Arithmetic::q14},
+      {study::FirmwareKind::lean, Arithmetic::q15},
+      {study::FirmwareKind::lean, Arithmetic::q14}};
+  for (const auto& [drive, format] : drives) {
     Scenario s = product_scenario(control::Mode::speed, 100.0);
     if (drive == study::FirmwareKind::lean) s.protection = {};
     s.control.drive = drive;
-    s.control.arithmetic = Arithmetic::q15;
+    s.control.arithmetic = format;
     s.sensors.capture_Hz = 400e6;
     s.sensors.speed_edges = 6;
     s.duration_s = 1e-4;
@@ -137,7 +171,7 @@ TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
     };
     const bool lean = drive == study::FirmwareKind::lean;
     const double times = number(lean ? "speed_edges is " : "number of edges is ");
-    const double base = number(lean ? "control.full_scale.speed_rad_s of " : "a base of the speed of ");
+    const double full_scale = number("control.full_scale.speed_rad_s of ");
     const double most_Hz = lean ? number("use a timer of ") : 400e6 / times;
     for (const double beyond : {0.999, 1.01}) {
       s.sensors.capture_Hz = most_Hz * beyond;
@@ -145,7 +179,7 @@ TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
     }
     s.sensors.capture_Hz = 400e6;
     for (const double beyond : {1.0, 0.99}) {
-      s.control.full_scale.speed_rad_s = base * beyond;
+      s.control.full_scale.speed_rad_s = full_scale * beyond;
       EXPECT_EQ(told().empty(), beyond == 1) << text;
     }
   }

@@ -162,8 +162,29 @@ TEST(LimitRemarks, ABusThatIsPumpedUp) {
   silent(chopper);
 }
 
-/// The same run with a warming motor and the same current shows when the winding exceeds the limit. The
-/// remark uses R of warm copper: with R at the sheet's temperature the limit is reached a little later.
+/// A lowered weight charges any capacitor: the remark names none, and ten times the capacitance only takes longer.
+TEST(LimitRemarks, ALoadThatDrivesFillsAnyCapacitor) {
+  Scenario s = maxon_scenario(Mode::speed, -200.0);
+  s.initial.speed_rad_s = -200;
+  s.load.torque_Nm = 0.1;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.control.current.settle_s = 1e-3;
+  s.control.speed.settle_s = 20e-3;
+  s.supply.resistance_ohm = 0.05;
+  s.supply.sinks = false;
+  for (const double times : {1.0, 10.0}) {
+    s.supply.capacitance_F = times * 1e-3;
+    s.duration_s = times * 0.05;
+    const auto remarks = outcome_of(s).remarks;
+    EXPECT_THAT(remarks,
+                Contains(AllOf(HasSubstr("the bus rose to "), HasSubstr("no capacitance is large enough"),
+                               Not(HasSubstr("a larger supply.capacitance_F")))))
+        << times;
+  }
+}
+
+/// The same run with a warming motor and held current shows when its winding passes the limit. The remark's
+/// copper grows warm, so that with R at the sheet's temperature the limit comes a little later.
 TEST(LimitRemarks, AWindingThatWouldNotStandIt) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.sheet = curve_sheet();

@@ -242,6 +242,21 @@ TEST(Remarks, KeysWithoutEffectAreNamed) {
       {"protection.align.sector (no protection.align.current_A)",
        [](Scenario& s) { s.protection.align.sector = 3; }},
       {"control.current.band_A", [](Scenario& s) { s.control.current.band_A = 0.3; }},
+      {"control.current.on", [](Scenario& s) { s.control.current.on = study::HysteresisOn::phase; }},
+      {"control.full_scale.current_A (control.arithmetic is no fixed-point format)",
+       [](Scenario& s) { s.control.full_scale.current_A = 20.0; }},
+      {"control.speed.law", [](Scenario& s) { s.control.speed.law = study::SpeedLaw::sliding_mode; }},
+      {"control.speed.form", [](Scenario& s) { s.control.speed.form = study::SpeedForm::positional; }},
+      {"sensors.current_delay_s", [](Scenario& s) { s.sensors.current_delay_s = 1e-6; }},
+      {"sensors.hall_calibration_turns", [](Scenario& s) { s.sensors.hall_calibration_turns = 20; }},
+      {"sensors.hall_break.level", [](Scenario& s) { s.sensors.hall_break.level = study::Level01::high; }},
+      {"sensors.resolver.reading",
+       [](Scenario& s) { s.sensors.resolver.reading = rig::ResolverReading::tracking; }},
+      {"load.torque_Nm (load.locked is true)", [](Scenario& s) { s.load.torque_Nm = 0.1; }},
+      {"load.viscous_Nm_s", [](Scenario& s) { s.load.viscous_Nm_s = 1e-3; }},
+      {"load.coulomb_Nm", [](Scenario& s) { s.load.coulomb_Nm = 0.1; }},
+      {"load.static_Nm", [](Scenario& s) { s.load.static_Nm = 0.1; }},
+      {"load.inertia_kg_m2", [](Scenario& s) { s.load.inertia_kg_m2 = 1e-4; }},
       {"control.smooth_chopping.soft_above_A",
        [](Scenario& s) { s.control.smooth_chopping.soft_above_A = 1.0; }},
   };
@@ -259,6 +274,85 @@ TEST(Remarks, KeysWithoutEffectAreNamed) {
   s.sensors.current_range_A = 30.0;
   s.sensors.current_noise_A = 0.01;
   EXPECT_THAT(remarks_on(s), ::testing::Not(Contains(HasSubstr("without effect"))));
+}
+
+/// Each law of a load, on a held rotor, changes no figure of the run, and is named.
+TEST(Remarks, LawsOfALoadThatCannotMoveAreNamed) {
+  const std::pair<const char*, void (*)(study::Load&)> keys[] = {
+      {"load.torques_Nm",
+       [](study::Load& l) {
+         l.times_s = {0, 1e-3};
+         l.torques_Nm = {0.1, 0.2};
+       }},
+      {"load.at_speeds_Nm",
+       [](study::Load& l) {
+         l.at_speeds_rad_s = {0, 100};
+         l.at_speeds_Nm = {0.1, 0.2};
+       }},
+      {"load.fan_Nm_s2", [](study::Load& l) { l.fan_Nm_s2 = 1e-5; }},
+      {"load.gravity_Nm", [](study::Load& l) { l.gravity_Nm = 0.1; }},
+      {"load.gear", [](study::Load& l) { l.gear = 3; }}};
+  for (const auto& [name, give] : keys) {
+    Scenario s = held(5.0);
+    s.compare = {{measure(study::MetricKind::final_value, study::Signal::current), 0.0, ""},
+                 {measure(study::MetricKind::maximum, study::Signal::speed), 0.0, ""}};
+    const auto without = run(s);
+    give(s.load);
+    const auto with = run(s);
+    ASSERT_TRUE(with && without) << name;
+    EXPECT_THAT(with->remarks, Contains(HasSubstr(std::string(name) + " (load.locked is true)")));
+    for (std::size_t n = 0; n < 2; ++n)
+      EXPECT_NEAR(with->comparisons[n].measured, without->comparisons[n].measured, 1e-9) << name;
+    for (const bool elastic : {false, true}) {  // released later, or free behind an elastic shaft
+      Scenario moves = s;
+      if (elastic) {
+        moves.load.inertia_kg_m2 = 1e-5;
+        moves.load.stiffness_Nm_rad = 1.0;
+      } else {
+        moves.at.resize(1);
+        moves.at[0].time_s = 2e-3;
+        moves.at[0].load.locked = false;
+      }
+      EXPECT_THAT(remarks_on(moves), Not(Contains(HasSubstr("load.locked is true")))) << name;
+    }
+  }
+}
+
+/// A held rotor's speed loop is designed with the load's inertia, which changes its gains.
+TEST(Remarks, TheInertiaOfAHeldRotorCountsInTheDesignOfItsSpeedLoop) {
+  Scenario s = drive_of(Mode::speed, 0.5);
+  s.load.locked = true;
+  s.duration_s = 5e-3;
+  s.control.current.settle_s = 1e-3;
+  s.control.speed.settle_s = 20e-3;
+  const auto without = run(s);
+  s.load.inertia_kg_m2 = 1e-4;
+  const auto with = run(s);
+  ASSERT_TRUE(with && without);
+  EXPECT_NE(with->digest, without->digest);
+  EXPECT_THAT(with->remarks, Not(Contains(HasSubstr("without effect"))));
+}
+
+/// A comparator switches by the current alone, wherever a PWM would have its pulses.
+TEST(Remarks, PulsesThatComparatorsDoNotMakeAreNamed) {
+  const std::pair<const char*, void (*)(Scenario&)> keys[] = {
+      {"pwm.alignment", [](Scenario& s) { s.pwm.alignment = study::Alignment::centre; }},
+      {"pwm.minimum_pulse_s", [](Scenario& s) { s.pwm.minimum_pulse_s = 1e-6; }}};
+  for (const auto& [name, give] : keys)
+    for (const bool compares : {true, false}) {
+      Scenario s = drive_of(Mode::current, 5.0);
+      s.duration_s = 5e-3;
+      if (compares) s.control.current.type = study::CurrentLoopType::hysteresis;
+      const auto without = run(s);
+      give(s);
+      const auto with = run(s);
+      ASSERT_TRUE(with && without) << name;
+      EXPECT_EQ(std::count_if(with->remarks.begin(), with->remarks.end(),
+                              [&](const std::string& text) { return text.find(name) != text.npos; }),
+                compares ? 1 : 0)
+          << name;
+      EXPECT_TRUE(!compares || with->digest == without->digest) << name;
+    }
 }
 
 TEST(Remarks, ABackEmfAboveTheBus) {

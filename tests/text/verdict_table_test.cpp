@@ -108,6 +108,42 @@ TEST(VerdictTable, RoundingIsNoDeviation) {
   EXPECT_EQ(deviation_text({"f", "A", -0.02, 0, ""}), "");
 }
 
+/// What a percentage cannot tell is told otherwise: a factor, a difference, or kelvin whatever the scale's zero.
+TEST(VerdictTable, WhereAPercentageSaysNothing) {
+  EXPECT_EQ(deviation_text({"f", "A", 15.6, 1, ""}), "x 15.6");
+  EXPECT_EQ(deviation_text({"f", "A", 10.9, 1, ""}), "+990 %");
+  EXPECT_EQ(deviation_text({"f", "A", 2, 1e-6, ""}), "+2 A");
+  EXPECT_EQ(deviation_text({"f", "degC", 46, 40, ""}), "+6 K");
+  EXPECT_EQ(deviation_text({"f", "degC", 319, 313, ""}), "+6 K");
+}
+
+/// In one column the printed numbers have the order of the values and one unit, and each says its value to its digits.
+TEST(SharedPrefix, KeepsTheOrderOfAColumn) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> decades(-7, 4), within(0, 3.9);
+  for (int draw = 0; draw < 2000; ++draw) {
+    const double low = std::pow(10.0, decades(random));
+    std::vector<double> values;
+    for (int n = 0; n < 5; ++n) values.push_back(low * std::pow(10.0, within(random)));
+    const SharedPrefix prefix(values, "V");
+    std::vector<double> printed;
+    std::string unit;
+    for (const double x : values) {
+      const std::string text = prefix.text(x, 4);
+      const std::size_t blank = text.find(' ');
+      ASSERT_NE(blank, text.npos) << text;
+      printed.push_back(std::stod(text));
+      if (unit.empty()) unit = text.substr(blank);
+      EXPECT_EQ(text.substr(blank), unit) << text;
+      EXPECT_LT(printed.back(), 1e5) << text;
+      EXPECT_NEAR(printed.back() / printed.front(), x / values.front(), 2e-3 * x / values.front()) << text;
+    }
+  }
+  const std::vector<double> apart{1e-6, 2.0};
+  EXPECT_EQ(SharedPrefix(apart, "V").text(1e-6), "1 uV");
+  EXPECT_EQ(SharedPrefix(apart, "V").text(2.0), "2 V");
+}
+
 TEST(VerdictSummary, SaysHowManyAndWhich) {
   study::Outcome good, bad, stopped, free;
   good.verdicts = {{"a", "A", 1, std::nullopt, 2, true}, {"b", "A", 1, std::nullopt, 2, true}};

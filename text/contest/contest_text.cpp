@@ -30,6 +30,7 @@ using analysis::ContestValues;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view arithmetic = "float";
+constexpr int contest_digits = 3;
 
 std::optional<CoreCost> cost_of(const analysis::Contestant& who) {
   if (!who.tick.empty()) return CoreCost{std::string(who.tick), std::string(who.flash_bytes)};
@@ -55,6 +56,19 @@ double least_of(const Contest& c, std::size_t figure, FiguresOf figures) {
   return least;
 }
 
+std::string cell_text(double x, const ContestFigure& figure, const SharedPrefix& prefix) {
+  const bool alone = !std::isfinite(x) || figure.unit == "1";
+  return alone ? contest_value(x, figure) : prefix.text(x, contest_digits);
+}
+
+/// The prefix of a column's numbers.
+SharedPrefix column_prefix(const Contest& c, std::size_t figure, FiguresOf figures) {
+  std::vector<double> values;
+  for (const ContestRow& row : c.rows)
+    if (const ContestValues* found = figures(row)) values.push_back((*found)[figure]);
+  return {values, std::string(contest_figures[figure].unit)};
+}
+
 std::string lowest_text(const ContestRow& row) {
   return row.lowest_rad_s ? quantity_text(*row.lowest_rad_s, "rad/s", 3) : "-";
 }
@@ -70,12 +84,15 @@ std::vector<ContestColumn> contest_columns(const Contest& c, ContestGroup group,
       {"controller", [&c](std::size_t n) { return visible(controller_name(c, n)); }}};
   for (std::size_t f = 0; f < std::size(contest_figures); ++f)
     if (contest_figures[f].group == group)
-      shown.push_back({std::string(contest_figures[f].name),
-                       [&c, f, figures, least = least_of(c, f, figures)](std::size_t n) {
-                         const double x = (*figures(c.rows[n]))[f];
-                         const bool wins = x == least && analysis::may_win(c, n);
-                         return contest_value(x, contest_figures[f]) + (wins ? " *" : "");
-                       }});
+      shown.push_back(
+          {std::string(contest_figures[f].name), [&c, f, figures, least = least_of(c, f, figures),
+                                                  prefix = column_prefix(c, f, figures)](std::size_t n) {
+             const double x = (*figures(c.rows[n]))[f];
+             const bool wins = x == least && analysis::may_win(c, n);
+             const bool plain = !std::isfinite(x) || contest_figures[f].unit == "1";
+             return (plain ? contest_value(x, contest_figures[f]) : prefix.text(x, contest_digits)) +
+                    (wins ? " *" : "");
+           }});
   if (group != ContestGroup::moving) return shown;
   if (figures == worst_of) {
     shown.push_back(
@@ -154,7 +171,11 @@ std::string contest_value(double x, const ContestFigure& figure) {
   if (std::isnan(x)) return "-";
   if (std::isinf(x)) return "never";
   if (figure.unit == "1") return fmt::format("{:.1f} %", 100 * x);
-  return quantity_text(x, std::string(figure.unit), 3);
+  return quantity_text(x, std::string(figure.unit), contest_digits);
+}
+
+std::string contest_cell(const Contest& c, std::size_t figure, double x) {
+  return cell_text(x, contest_figures[figure], column_prefix(c, figure, nominal_of));
 }
 
 std::vector<std::string> contest_notes(const Contest& c) {

@@ -18,6 +18,9 @@ inline constexpr std::string_view contest_core = "Cortex-M4F";
 /// without a value.
 std::string contest_value(double x, const analysis::ContestFigure& figure);
 
+/// A figure's value for the nominal drive as its column of the table shows it, whose values have one prefix.
+std::string contest_cell(const analysis::Contest& contest, std::size_t figure, double x);
+
 /// Sentences that fixed rules make from the numbers: which controller wins in which figure, and the answer to
 /// "six-step or field-oriented?". Controllers that do not follow the course are omitted.
 std::vector<std::string> contest_words(const analysis::Contest& contest);

@@ -105,15 +105,15 @@ std::vector<std::string> winners(const Contest& c) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))
       wins[*r.first].push_back(fmt::format("{} ({}, the others never)", contest_figures[f].phrase,
-                                           contest_value(c.rows[*r.first].values[f], contest_figures[f])));
+                                           contest_cell(c, f, c.rows[*r.first].values[f])));
     if (!r.first || !r.second) continue;
     const double least = c.rows[*r.first].values[f], next = c.rows[*r.second].values[f];
     if (are_alike(least, next))
       even[sharing(c, f, least)].emplace_back(contest_figures[f].phrase);
     else
-      wins[*r.first].push_back(fmt::format(
-          "{} ({}, the next {})", contest_figures[f].phrase, contest_value(least, contest_figures[f]),
-          least > 0.0 ? larger(least, next, contest_figures[f]) : contest_value(next, contest_figures[f])));
+      wins[*r.first].push_back(
+          fmt::format("{} ({}, the next {})", contest_figures[f].phrase, contest_cell(c, f, least),
+                      least > 0.0 ? larger(least, next, contest_figures[f]) : contest_cell(c, f, next)));
   }
   std::vector<std::string> out;
   for (std::size_t n = 0; n < wins.size(); ++n)

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/results/curve_columns.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
+
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 
 namespace text {
 namespace {
@@ -91,6 +95,14 @@ std::span<const CurveColumn> curve_columns(const base::Motion& motion) {
   static const std::vector<CurveColumn> linear = linear_columns();
   if (motion.linear) return linear;
   return columns;
+}
+
+std::string curve_conditions(const analysis::CurveRequest& request) {
+  std::string text = "the row at speed 0 without friction";
+  if (!design::thermal_model(request.sheet)) return text;
+  text += fmt::format("; limits and temperatures at {:g} degC ambient", request.ambient_degC);
+  const std::optional<design::WorseEnds> worse = design::at_worse_ends(request.sheet);
+  return worse ? text + " and the worse ends " + worse->values : text;
 }
 
 std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve) {

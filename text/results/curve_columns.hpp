@@ -2,6 +2,7 @@
 // Lists the columns of a torque-speed curve, for the CSV file and the JSON summary.
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sixstep/analysis/curve/curve.hpp"
@@ -27,6 +28,10 @@ struct CurveColumn {
 /// Columns in SI units, with mechanical speed and phase currents; the speed comes first. For a linear motor,
 /// the same values have other names.
 std::span<const CurveColumn> curve_columns(const base::Motion& motion = {});
+
+/// The conditions of a curve's rows that no column says: "the row at speed 0 without friction; limits and temperatures at
+/// 25 degC ambient and the worse ends ..".
+std::string curve_conditions(const analysis::CurveRequest& request);
 
 /// The rows of the curve's points, from standstill to no load.
 std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve);

@@ -43,9 +43,32 @@ std::vector<Point> points_of(const PlanStory& story) {
   return points;
 }
 
-std::string value_text(const std::string& written, const std::string& unit) {
+/// The prefixes of a plan's columns: keys first, then figures.
+struct ColumnPrefixes {
+  std::vector<SharedPrefix> keys, figures;
+};
+
+ColumnPrefixes prefixes_of(const std::vector<Point>& points, const PlanStory& story) {
+  ColumnPrefixes out;
+  std::vector<double> values;
+  for (std::size_t k = 0; k < story.columns.keys.size(); ++k) {
+    values.clear();
+    for (const Point& point : points)
+      if (const std::optional<double> x = number_alone(point.values[k])) values.push_back(*x);
+    out.keys.emplace_back(values, story.columns.keys[k].unit);
+  }
+  for (std::size_t n = 0; n < story.columns.figures.size(); ++n) {
+    values.clear();
+    for (const Point& point : points)
+      if (const std::optional<double> x = point.figures[n].median()) values.push_back(*x);
+    out.figures.emplace_back(values, story.columns.figures[n].unit);
+  }
+  return out;
+}
+
+std::string value_text(const std::string& written, const SharedPrefix& prefix) {
   const std::optional<double> x = number_alone(written);
-  return x ? quantity_text(*x, unit, plan_digits) : visible(analysis::bare(written));
+  return x ? prefix.text(*x, plan_digits) : visible(analysis::bare(written));
 }
 
 std::string verdict(const Point& point, std::size_t drives, bool asks) {
@@ -57,15 +80,15 @@ std::string verdict(const Point& point, std::size_t drives, bool asks) {
   return point.passed == 1 ? "ok" : "FAIL";
 }
 
-PointCells cells_of(const Point& point, const PlanStory& story, bool asks) {
+PointCells cells_of(const Point& point, const PlanStory& story, const ColumnPrefixes& prefixes, bool asks) {
   const std::vector<analysis::FigureColumn>& figures = story.columns.figures;
   PointCells cells{fmt::format("{}", point.first)};
   for (std::size_t k = 0; k < point.values.size(); ++k)
-    cells.push_back(value_text(point.values[k], story.columns.keys[k].unit));
+    cells.push_back(value_text(point.values[k], prefixes.keys[k]));
   for (std::size_t n = 0; n < figures.size(); ++n) {
     const std::optional<double> x = point.figures[n].median();
     const bool holds = !x || figures[n].holds(*x);
-    cells.push_back(x ? quantity_text(*x, figures[n].unit, plan_digits) + (holds ? "" : " !") : "-");
+    cells.push_back(x ? prefixes.figures[n].text(*x, plan_digits) + (holds ? "" : " !") : "-");
   }
   cells.push_back(verdict(point, story.plan.drives, asks));
   return cells;
@@ -92,7 +115,9 @@ std::string point_table(const PlanStory& story) {
   head.push_back(!asks ? "" : story.plan.drives > 1 ? "holds" : "verdict");
   Rows rows(Rows::Side::right);
   rows.add(std::move(head));
-  for (const Point& point : points_of(story)) rows.add(cells_of(point, story, asks));
+  const std::vector<Point> points = points_of(story);
+  const ColumnPrefixes prefixes = prefixes_of(points, story);
+  for (const Point& point : points) rows.add(cells_of(point, story, prefixes, asks));
   const std::string of =
       story.plan.drives > 1 ? fmt::format(", medians of {} drives", story.plan.drives) : "";
   return fmt::format("{}{}\n", visible(story.name), of) + rows.text() + legend(story) +

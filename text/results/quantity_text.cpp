@@ -70,6 +70,26 @@ std::string quantity_text(double x, const std::string& unit, int digits) {
   return joined(prefixed(x, prefix, digits), unit_text(prefix, unit));
 }
 
+SharedPrefix::SharedPrefix(std::span<const double> values, const std::string& unit) : unit_(unit) {
+  constexpr double most = 1e4, least = 0.1;
+  double smallest = 0.0, largest = 0.0;
+  for (const double x : values) {
+    const double size = std::fabs(x);
+    if (!std::isfinite(x) || size == 0.0) continue;
+    smallest = smallest == 0.0 ? size : std::min(smallest, size);
+    largest = std::max(largest, size);
+  }
+  if (largest == 0.0 || largest > most * smallest) return;
+  const bool small_fits = largest * prefix_for(smallest, unit).times < most;
+  like_ = small_fits && smallest * prefix_for(largest, unit).times < least ? smallest : largest;
+}
+
+std::string SharedPrefix::text(double x, int digits) const {
+  if (!std::isfinite(x) || like_ == 0.0) return quantity_text(x, unit_, digits);
+  const Prefix prefix = prefix_for(like_, unit_);
+  return joined(prefixed(x, prefix, digits), unit_text(prefix, unit_));
+}
+
 std::string counted(std::size_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }

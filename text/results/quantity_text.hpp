@@ -15,6 +15,19 @@ namespace text {
 /// default.
 std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
+/// The prefix of numbers that stand below or beside each other in a table, so that the largest looks largest: that of the
+/// largest number, or that of the smallest but 0 where this one would be below 0.1 and the largest stays below 10000.
+/// Numbers whose sizes differ by more than a factor of 10000 keep their own prefixes.
+class SharedPrefix {
+ public:
+  SharedPrefix(std::span<const double> values, const std::string& unit);
+  std::string text(double x, int digits = 5) const;
+
+ private:
+  std::string unit_;
+  double like_ = 0.0;  ///< has the prefix of all; 0: each has its own
+};
+
 /// A number with `digits` digits after the point; "-" if it is not finite.
 std::string fixed_text(double x, int digits);
 /// A number in full precision; empty for NaN, "never" for an infinite number.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "text/escape/escape.hpp"
@@ -19,8 +20,8 @@ constexpr std::size_t series_columns = 10;
 constexpr int spread_digits = 4;  // a thousand drives do not give more significant digits
 using SeriesRow = std::array<std::string, series_columns>;
 
-std::string cell(const std::optional<double>& x, const std::string& unit, int digits = spread_digits) {
-  return x ? quantity_text(*x, unit, digits) : "-";
+std::string cell(const std::optional<double>& x, const SharedPrefix& prefix, int digits = spread_digits) {
+  return x ? prefix.text(*x, digits) : "-";
 }
 
 std::string required(const analysis::FigureColumn& f) {
@@ -47,18 +48,20 @@ int digits_of(const analysis::Statistics& s) {
 
 SeriesRow row_of(const analysis::SpreadFigure& f, std::size_t runs) {
   const analysis::Statistics& s = f.statistics;
-  const std::string& unit = f.column.unit;
+  const std::optional<double> numbers[] = {s.min(),          s.quantile(0.05), s.median(),
+                                           s.quantile(0.95), s.max(),          s.mean()};
+  std::vector<double> values;
+  for (const std::optional<double>& x : numbers)
+    if (x) values.push_back(*x);
+  const SharedPrefix prefix(values, f.column.unit);
   const int digits = digits_of(s);
-  return {"  " + f.column.name,
-          required(f.column),
-          cell(s.min(), unit, digits),
-          cell(s.quantile(0.05), unit, digits),
-          cell(s.median(), unit, digits),
-          cell(s.quantile(0.95), unit, digits),
-          cell(s.max(), unit, digits),
-          cell(s.mean(), unit, digits),
-          cell(s.standard_deviation(), unit),
-          f.column.required ? fmt::format("{} of {}", f.holds, runs) : ""};
+  SeriesRow row{"  " + f.column.name, required(f.column)};
+  for (std::size_t n = 0; n < std::size(numbers); ++n) row[n + 2] = cell(numbers[n], prefix, digits);
+  // A deviation is a difference, and may be much smaller.
+  const std::optional<double> deviation = s.standard_deviation();
+  row[8] = deviation ? quantity_text(*deviation, f.column.unit, spread_digits) : "-";
+  row[9] = f.column.required ? fmt::format("{} of {}", f.holds, runs) : "";
+  return row;
 }
 
 std::string aligned(std::vector<SeriesRow> rows) {
@@ -107,16 +110,16 @@ bool stopped(std::size_t number, const analysis::Series& series) {
 }
 
 /// The requirement with the least margin if all hold. The margin counts as a fraction of the limit, or of
-/// half the distance between two limits.
+/// half the distance between two limits. A temperature's limit counts from the ambient temperature on.
 const analysis::SpreadFigure* closest_of(const analysis::Series& series) {
   const analysis::SpreadFigure* closest = nullptr;
   double least = 0.0;
   for (const analysis::SpreadFigure& f : series.figures) {
     if (!f.worst || (!f.column.min && !f.column.max)) continue;
     if (f.holds < series.runs) return nullptr;
-    const double limit = f.column.min && f.column.max ? (*f.column.max - *f.column.min) / 2
-                         : f.column.min               ? std::fabs(*f.column.min)
-                                                      : std::fabs(*f.column.max);
+    const double limit = f.column.min && f.column.max
+                             ? (*f.column.max - *f.column.min) / 2
+                             : f.column.size(f.column.min ? *f.column.min : *f.column.max);
     if (!(limit > 0.0) || (closest && f.least_margin / limit >= least)) continue;
     closest = &f;
     least = f.least_margin / limit;

@@ -14,6 +14,11 @@ std::string trace_comparison_text(const std::string& name,
                                   const std::vector<std::string>& notes) {
   Rows rows;
   for (const analysis::TraceComparison& one : columns) {
+    if (one.differing) {
+      rows.add({one.column.name, fmt::format("{} rows", one.rows), fmt::format("{} differ", *one.differing),
+                *one.differing > 0 ? "the first at " + quantity_text(one.at_s, "s", 4) : "", ""});
+      continue;
+    }
     const std::string unit = one.column.unit == "1" ? "" : one.column.unit;
     const auto said = [&unit](double x) { return quantity_text(x, unit, 3); };
     rows.add({one.column.name, fmt::format("{} rows", one.rows), "rms " + said(one.rms),

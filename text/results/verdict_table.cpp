@@ -92,11 +92,16 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
 std::string deviation_text(const study::ComparisonResult& c) {
   if (!std::isfinite(c.measured)) return "not comparable";
   if (c.value == 0.0) return "";
-  // The percentage is relative to the expected magnitude. For opposite signs it has no meaning, and the
-  // difference is printed.
-  if ((c.measured < 0.0) != (c.value < 0.0))
-    return (c.measured > c.value ? "+" : "") + quantity_text(c.measured - c.value, c.unit);
+  // The percentage is relative to the expected magnitude. For opposite signs, a temperature in degC and an expected
+  // value next to nothing it has no meaning, and the difference is printed.
+  constexpr double most_times = 1000.0, most_percent = 1000.0;
+  if ((c.measured < 0.0) != (c.value < 0.0) || c.unit == "degC" ||
+      std::abs(c.measured) > most_times * std::abs(c.value))
+    return (c.measured > c.value ? "+" : "") +
+           quantity_text(c.measured - c.value, c.unit == "degC" ? "K" : c.unit);
   const double percent = 100.0 * (c.measured - c.value) / c.value;
+  // From ten times on, a factor is clearer than a percentage.
+  if (percent >= most_percent) return fmt::format("x {:.3g}", c.measured / c.value);
   return std::abs(percent) < 1e-9 ? "0 %" : fmt::format("{:+.3g} %", percent);
 }
 

@@ -14,8 +14,11 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 FigureColumn column_of(const study::Scenario& scenario, const study::Measure& measure) {
   const base::LinearUnit unit = study::unit_in(scenario, study::figure_unit(measure));
-  return {
-      .name = study::figure_name(scenario, measure), .unit = std::string(unit.linear), .min = {}, .max = {}};
+  return {.name = study::figure_name(scenario, measure),
+          .unit = std::string(unit.linear),
+          .min = {},
+          .max = {},
+          .zero = study::figure_zero(scenario, measure)};
 }
 
 FigureColumn column_of(const study::Scenario& scenario, const study::Requirement& r) {

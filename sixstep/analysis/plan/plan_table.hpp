@@ -24,9 +24,12 @@ struct FigureColumn {
   std::string name, unit;
   bool required = false;  ///< true: a requirement; false: only compared
   std::optional<double> min, max;
+  double zero = 0.0;  ///< study::figure_zero() of the scenario as written
 
-  /// True if the figure meets its requirement, as in the verdict of a single run: it has a value within its
-  /// bounds. Always true for a compared figure.
+  /// Size of a bound, to which a margin is relative.
+  double size(double bound) const { return bound < zero ? zero - bound : bound - zero; }
+  /// Whether the figure holds as in the verdict of a single run: it has a value within its bounds. A compared
+  /// figure always holds.
   bool holds(double x) const { return !required || (x == x && (!min || x >= *min) && (!max || x <= *max)); }
   bool operator==(const FigureColumn&) const = default;
 };

@@ -119,8 +119,8 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
                                      " loop, less than " + base::three_digits(least_separation));
 }
 
-/// A ripple above the nominal current heats the winding more than the nominal current does, for any mean
-/// current.
+/// A ripple above the nominal current is grave: the current is discontinuous, or reverses in each period, below half of
+/// the nominal one, and its peak is more than 50 % above a mean of the nominal one. The copper loss grows by a twelfth.
 void look_at_ripple(const DriveDesign& d, Collector& out) {
   const double allowed_A = greatest_ripple * d.nominal_current_A;
   if (!(d.ripple.worst_A > allowed_A)) return;

@@ -19,7 +19,8 @@ base::Result<ScaledProduct<Scalar>> scaled_product(const ProtectedConfig<double>
   ProtectedConfig<Scalar> c;
   c.drive = drive->config;
   const Bases& b = drive->bases;
-  proof.fits("setpoint_limit", p.setpoint_limit, setpoint_base(p.drive.mode, b));
+  proof.fits("setpoint_limit", p.setpoint_limit,
+             {member_of(Base::setpoint, p.drive.mode), setpoint_base(p.drive.mode, b)});
   detail::Scale<Scalar> scale(p.drive.mode, b, detail::magnitudes(p.drive, range), adc_bits, proof);
   fields(scale, p, c);
   if (!proof.problems.empty()) return proof.problems;

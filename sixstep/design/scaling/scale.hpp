@@ -40,7 +40,7 @@ class Scale {
     kept = Scalar(designed / value(base));
   }
   void threshold(const Field& f, double designed, Scalar& kept, Base base) {
-    kept = proof_.threshold(path(f).c_str(), designed, value(base));
+    kept = proof_.threshold(path(f).c_str(), designed, of(base));
   }
   void gain(const Field& f, double designed, control::Gain<Scalar>& kept, Ratio ratio) {
     kept = proof_.gain(path(f).c_str(), designed * value(ratio.in) / value(ratio.out));
@@ -79,6 +79,7 @@ class Scale {
   static constexpr double digit = static_cast<double>(Scalar::from_raw(1));
 
   double value(Base base) const { return value_of(base, mode_, b_); }
+  BaseOf of(Base base) const { return {member_of(base, mode_), value(base)}; }
   std::string path(const Field& f) const { return within_ + f.name; }
 
   // Checks further conditions of a nested part and adds their lines to the proof. If the result is false, the
@@ -90,14 +91,14 @@ class Scale {
   bool prove(const control::PiConfig<double>& pi, const PiUse& use) {
     const double largest_error =
         use.ratio.in == Base::current ? m_.current + m_.current_ref : m_.speed + m_.speed_ref;
-    proof_.integral(within_, pi, value(use.ratio.in), value(use.ratio.out), largest_error);
+    proof_.integral(within_, pi, value(use.ratio.in), of(use.ratio.out), largest_error);
     return true;
   }
   bool prove(const control::LimitsConfig<double>& l) {
-    proof_.threshold("limits.current_A, 5/4 of it", trip_ratio * l.current_A, b_.current_A);
+    proof_.threshold("limits.current_A, 5/4 of it", trip_ratio * l.current_A, of(Base::current));
     if (l.limits_speed)
-      proof_.fits("limits.speed_rad_s with speed", l.speed_rad_s + m_.speed, b_.speed_rad_s);
-    if (l.limits_regeneration) proof_.threshold("limits.bus_V", l.bus_V, b_.voltage_V);
+      proof_.fits("limits.speed_rad_s with speed", l.speed_rad_s + m_.speed, of(Base::speed));
+    if (l.limits_regeneration) proof_.threshold("limits.bus_V", l.bus_V, of(Base::voltage));
     return true;
   }
   bool prove(const control::DriveExtras<double>& x) {
@@ -161,7 +162,7 @@ bool Scale<Scalar>::prove(const control::AdcConfig<double>& adc, const AdcUse& u
   if (8 * furthest > most)
     proof_.problems.push_back({name, at_least(furthest) + " counts", "in eighths are above " + at_most(most),
                                "use a 32-bit format, or a converter with fewer bits"});
-  proof_.fits(name.c_str(), 8 * (furthest - tolerance) * std::fabs(adc.per_eighth), value(use.base));
+  proof_.fits(name.c_str(), 8 * (furthest - tolerance) * std::fabs(adc.per_eighth), of(use.base));
   return true;
 }
 
@@ -175,8 +176,9 @@ bool Scale<Scalar>::prove(const control::HallSpeedConfig<double>& speed) {
         {"speed.sector_rad_s_ticks", at_least(speed.sector_rad_s_ticks),
          "over this number of edges is " + at_least(raw / most) + " times the range of its sum: at most " +
              at_most(speed.sector_rad_s_ticks * most / raw) + " fits",
-         "take a timer slower by this factor, a base of the speed of " +
-             at_least(b_.speed_rad_s * raw / most) + " rad/s or more, fewer edges, or 32 bits"});
+         "take a timer slower by this factor, a " +
+             full_scale_words("speed_rad_s", at_least(scale_per_base<Scalar> * b_.speed_rad_s * raw / most)) +
+             " or more, fewer edges, or 32 bits"});
   return true;
 }
 

@@ -19,15 +19,17 @@ using detail::trip_ratio;
 
 template <class Scalar>
 void prove_signals(const Magnitudes& m, const Bases& b, Proof<Scalar>& proof) {
-  proof.fits("current", m.current, b.current_A);
-  proof.fits("current reference with band", m.current_levels, b.current_A);
-  proof.fits("current error", m.current + m.current_ref, b.current_A);
-  proof.fits("speed", m.speed, b.speed_rad_s);
-  proof.fits("speed error", m.speed + m.speed_ref, b.speed_rad_s);
-  proof.fits("position", m.position, b.position_deg);
-  proof.fits("position error", m.position + m.position_ref, b.position_deg);
-  proof.fits("voltage with feed-forward", m.voltage + m.emf, b.voltage_V);
-  proof.fits("bus", m.bus, b.voltage_V);
+  const detail::BaseOf current{"current_A", b.current_A}, voltage{"voltage_V", b.voltage_V},
+      speed{"speed_rad_s", b.speed_rad_s}, position{"position_deg", b.position_deg};
+  proof.fits("current", m.current, current);
+  proof.fits("current reference with band", m.current_levels, current);
+  proof.fits("current error", m.current + m.current_ref, current);
+  proof.fits("speed", m.speed, speed);
+  proof.fits("speed error", m.speed + m.speed_ref, speed);
+  proof.fits("position", m.position, position);
+  proof.fits("position error", m.position + m.position_ref, position);
+  proof.fits("voltage with feed-forward", m.voltage + m.emf, voltage);
+  proof.fits("bus", m.bus, voltage);
 }
 
 }  // namespace

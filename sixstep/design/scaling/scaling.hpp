@@ -59,6 +59,33 @@ constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   return 1.0;
 }
 
+/// Member of Bases from which a field's base comes; empty if it has none.
+constexpr std::string_view member_of(Base base, control::Mode mode) {
+  switch (base) {
+    case Base::one:
+      return {};
+    case Base::current:
+      return "current_A";
+    case Base::voltage:
+      return "voltage_V";
+    case Base::speed:
+      return "speed_rad_s";
+    case Base::position:
+      return "position_deg";
+    case Base::setpoint:
+      return mode == control::Mode::current    ? "current_A"
+             : mode == control::Mode::speed    ? "speed_rad_s"
+             : mode == control::Mode::position ? "position_deg"
+                                               : std::string_view();
+  }
+  return {};
+}
+
+/// The words with which a cure names the full scale of a member: "full scale current_A of 33.8".
+inline std::string full_scale_words(std::string_view member, const std::string& value) {
+  return "full scale " + std::string(member) + " of " + value;
+}
+
 /// One line of the proof: a quantity, its largest value, and the largest value that the format holds.
 struct Headroom {
   std::string name;

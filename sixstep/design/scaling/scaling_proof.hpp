@@ -3,7 +3,9 @@
 // does not fit.
 #pragma once
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,27 +26,44 @@ inline std::string at_most(double x) {
   return base::written(base::shortened(x, 4, x < 0 ? base::Towards::up : base::Towards::down));
 }
 
-/// Lines of the proof, and the problems of values that do not fit.
+/// A quantity's base, SI, with its member of Bases.
+struct BaseOf {
+  std::string_view member;
+  double value = 1.0;
+};
+
+/// Full scale over base: a power of two, of which the largest number of the format is one digit less.
+template <class Scalar>
+inline constexpr double scale_per_base =
+    std::int64_t{1} << (control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits);
+
+/// Lines of the proof, and the problems that break it.
 template <class Scalar>
 struct Proof {
   std::vector<Headroom> rows;
   base::Problems problems;
 
-  void fits(const char* name, double largest, double base) {
-    const double end = base * full_scale<Scalar>;
+  /// `room`: multiple of full scale that the place of this quantity holds.
+  void fits(const char* name, double largest, const BaseOf& of, double room = 1.0) {
+    const double base = room * of.value, end = base * full_scale<Scalar>;
     rows.push_back({name, largest, end});
-    // A value equal to the base fits, even if the format ends one digit below 1 (Q15, Q31).
+    // The two digits above a threshold grow with the base.
+    const double needed = std::fabs(largest) * (1 + 4 * static_cast<double>(Scalar::from_raw(1)));
+    // A value of exactly the base fits, even if the format ends one digit below 1 (Q15, Q31).
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
       problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
-                          "take a base of " + at_least(std::fabs(largest) / full_scale<Scalar>) +
-                              " or more, or a format with more bits before the point"});
+                          of.member.empty()
+                              ? "take a format with more bits before the point"
+                              : "take a " + full_scale_words(of.member, at_least(needed / room)) +
+                                    " or more, or a format with more bits before the point"});
   }
 
-  /// Converts a threshold. It must be below full scale, because otherwise no signal can exceed it. A
-  /// threshold of 0 always fits.
-  Scalar threshold(const char* name, double value, double base) {
-    if (value != 0) fits(name, std::fabs(value) + 2 * base * static_cast<double>(Scalar::from_raw(1)), base);
-    return Scalar(value / base);
+  /// Converts a threshold. It must be below full scale, because otherwise no signal can pass it. A threshold
+  /// of 0 always fits.
+  Scalar threshold(const char* name, double value, const BaseOf& of) {
+    if (value != 0)
+      fits(name, std::fabs(value) + 2 * of.value * static_cast<double>(Scalar::from_raw(1)), of);
+    return Scalar(value / of.value);
   }
 
   control::Gain<Scalar> gain(const char* name, double per_unit) {
@@ -64,9 +83,9 @@ struct Proof {
 
   /// Conditions of a PI: an error of one digit has an effect on its integral, and no increment saturates the
   /// integral.
-  void integral(const std::string& name, const control::PiConfig<double>& c, double in, double out,
+  void integral(const std::string& name, const control::PiConfig<double>& c, double in, const BaseOf& out,
                 double largest_error) {
-    const double K_i = c.d1 + c.d0, K_i_pu = K_i * in / out;
+    const double K_i = c.d1 + c.d0, K_i_pu = K_i * in / out.value;
     const double vanishes = std::ldexp(1.0, -1 - control::Accumulator<Scalar>::guard_bits);
     if (K_i != 0 && std::fabs(K_i_pu) < vanishes)
       problems.push_back(
@@ -75,7 +94,7 @@ struct Proof {
            "take 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
                at_least(vanishes / std::fabs(K_i_pu))});
     fits((name + ".limit").c_str(), c.limit, out);
-    fits((name + " integral increment").c_str(), std::fabs(K_i) * largest_error, 14 * out);
+    fits((name + " integral increment").c_str(), std::fabs(K_i) * largest_error, out, 14.0);
   }
 };
 

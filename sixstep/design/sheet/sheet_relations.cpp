@@ -293,7 +293,8 @@ class Relations {
                       *allowed, "rpm", 1.0, max_speed_margin, false);
     if (r.verdict == RelationVerdict::holds)
       r.remark =
-          "the no-load speed at the nominal voltage is above the maximum speed: limit speed or voltage";
+          "the no-load speed at the nominal voltage is above the maximum speed: limit speed or voltage; up to twice the maximum "
+          "speed is tolerated, because makers wind one rotor for several voltages";
     else if (r.remark.empty())
       r.remark = "at the nominal voltage the motor would turn far faster than its mechanics allow";
   }

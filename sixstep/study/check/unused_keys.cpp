@@ -5,20 +5,18 @@
 #include <iterator>
 
 #include "sixstep/design/sheet/sheet_check.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/check/unused_list.hpp"
 #include "sixstep/study/measure/device_watch.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/control_description.hpp"
 
 namespace sixstep::study {
 namespace {
 
-void of_power(const Scenario& s, Unused& out) {
+void of_power(const Scenario& s, bool ambient_is_used, Unused& out) {
   if (!s.heat.motor && !s.heat.devices)
     out.add("heat.step_s", s.heat.step_s, Heat{}.step_s, "nothing warms up");
-  // A remark estimates the winding's temperature from the ambient temperature if the sheet has thermal
-  // values.
-  if (!s.heat.motor && !s.heat.devices && !design::thermal_model(s.sheet))
+  if (!s.heat.motor && !s.heat.devices && !ambient_is_used)
     out.add("heat.ambient_degC", s.heat.ambient_degC, Heat{}.ambient_degC, "nothing warms up");
   const Bridge& b = s.bridge;
   if (!(b.turn_on_J > 0 || b.turn_off_J > 0 || b.recovery_J > 0)) {
@@ -61,8 +59,11 @@ void of_control(const Scenario& s, Unused& out) {
   if (x.current.type != CurrentLoopType::hysteresis && s.at.empty()) {
     constexpr char reason[] = "control.current.type is not hysteresis";
     out.add("control.current.band_A", x.current.band_A, usual.current.band_A, reason);
+    out.add("control.current.on", x.current.on, usual.current.on, reason);
     out.add("control.current.comparator", x.current.comparator, usual.current.comparator, reason);
   }
+  if (x.arithmetic == Arithmetic::float64 || x.arithmetic == Arithmetic::float32)
+    out.add_table("control.full_scale", x.full_scale, "control.arithmetic is no fixed-point format");
   if (!x.regeneration.limit_V)
     out.add("control.regeneration.gain_A_per_V", x.regeneration.gain_A_per_V, usual.regeneration.gain_A_per_V,
             "no control.regeneration.limit_V");
@@ -93,6 +94,9 @@ void of_idle_loops(const Scenario& s, Unused& out) {
   const auto idle = [&](const char* key, const auto& given, const auto& unset) {
     out.add(key, given, unset, reason);
   };
+  idle("control.speed.output", x.output, usual.output);
+  idle("control.speed.law", x.law, usual.law);
+  idle("control.speed.form", x.form, usual.form);
   idle("control.speed.settle_s", x.settle_s, usual.settle_s);
   idle("control.speed.damping", x.damping, usual.damping);
   idle("control.speed.d1", x.d1, usual.d1);
@@ -105,10 +109,51 @@ void of_idle_loops(const Scenario& s, Unused& out) {
   if (comes_into(s, Mode::current)) return;
   constexpr char open[] = "control.mode has no current loop";
   const CurrentLoop none, &y = s.control.current;
+  out.add("control.current.type", y.type, none.type, open);
+  out.add("control.current.feedback", y.feedback, none.feedback, open);
   out.add("control.current.settle_s", y.settle_s, none.settle_s, open);
   out.add("control.current.damping", y.damping, none.damping, open);
   out.add("control.current.back_emf_feed_forward", y.back_emf_feed_forward, none.back_emf_feed_forward, open);
   out.add("control.current.measured_bus_from_V", y.measured_bus_from_V, none.measured_bus_from_V, open);
+}
+
+/// Comparators and a finite set choose the switches' states directly.
+void of_pulses(const Scenario& s, Unused& out) {
+  const bool currents = s.at.empty() && s.control.mode >= control::Mode::current;
+  const bool comparators = s.control.current.type == CurrentLoopType::hysteresis;
+  const bool states = s.control.drive == FirmwareKind::field && s.control.field.law == FieldLaw::finite_set;
+  if (!currents || (!comparators && !states)) return;
+  const std::string reason =
+      comparators ? "control.current.type is hysteresis" : "control.field.law is finite-set";
+  out.add("pwm.minimum_pulse_s", s.pwm.minimum_pulse_s, Pwm{}.minimum_pulse_s, reason);
+  if (comparators) out.add("pwm.alignment", s.pwm.alignment, Pwm{}.alignment, reason);
+}
+
+/// Finds laws of a load that never moves. Behind an elastic shaft the load moves while the rotor is held. The design of a
+/// speed loop uses inertia, friction and gear of a held rotor too.
+void of_load(const Scenario& s, Unused& out) {
+  const Load usual, &x = s.load;
+  const bool elastic = x.stiffness_Nm_rad > 0;
+  if (!x.dynamometer_rad_s.empty() && !elastic)
+    out.add("load.static_Nm", x.static_Nm, usual.static_Nm, "a dynamometer turns the shaft");
+  const bool freed =
+      std::any_of(s.at.begin(), s.at.end(), [](const At& at) { return at.load.locked == false; });
+  if (!x.locked || freed || elastic) return;
+  constexpr char reason[] = "load.locked is true";
+  const auto add = [&](const char* key, const auto& given, const auto& unset) {
+    out.add(std::string("load.") + key, given, unset, reason);
+  };
+  add("torque_Nm", x.torque_Nm, usual.torque_Nm);
+  add("torques_Nm", x.torques_Nm, usual.torques_Nm);
+  add("at_speeds_Nm", x.at_speeds_Nm, usual.at_speeds_Nm);
+  add("coulomb_Nm", x.coulomb_Nm, usual.coulomb_Nm);
+  add("static_Nm", x.static_Nm, usual.static_Nm);
+  out.add(square_law(x).key, square_law(x).Nm_s2, square_law(usual).Nm_s2, reason);
+  add("gravity_Nm", x.gravity_Nm, usual.gravity_Nm);
+  if (comes_into(s, control::Mode::speed) || comes_into(s, control::Mode::position)) return;
+  add("viscous_Nm_s", x.viscous_Nm_s, usual.viscous_Nm_s);
+  add("inertia_kg_m2", x.inertia_kg_m2, usual.inertia_kg_m2);
+  add("gear", x.gear, usual.gear);
 }
 
 /// Finds overridden lines of the sheet that the model does not use. Some other lines have no effect on the
@@ -137,13 +182,15 @@ void of_sheet(const Scenario& s, Unused& out) {
 
 }  // namespace
 
-std::string unused_keys(const Scenario& s) {
+std::string unused_keys(const Scenario& s, bool ambient_is_used) {
   Unused out;
   unused_of_sensors(s, out);
-  of_power(s, out);
+  of_power(s, ambient_is_used, out);
   of_protection(s, out);
   of_control(s, out);
   of_idle_loops(s, out);
+  of_pulses(s, out);
+  of_load(s, out);
   of_sheet(s, out);
   unused_beliefs(s, out);
   return out.text();

@@ -8,7 +8,8 @@
 namespace sixstep::study {
 
 /// "sensors.current_noise_A (sensors.currents is ideal), heat.ambient_degC (nothing warms up)"; empty if all
-/// given keys have an effect. A key with its default value counts as not given.
-std::string unused_keys(const Scenario& scenario);
+/// given keys have an effect. A key with its default value counts as not given. `ambient_is_used`: a remark of the run
+/// was computed with heat.ambient_degC.
+std::string unused_keys(const Scenario& scenario, bool ambient_is_used = false);
 
 }  // namespace sixstep::study

@@ -10,27 +10,33 @@
 
 namespace sixstep::study {
 
-/// The numbers and switches of a described table, in the table's order. Keys whose value is one of several
-/// words are omitted: they are never reported as unused.
-class NumbersAndSwitches final : public base::Visitor {
+/// The numbers, switches and chosen words of a described table, each kind in the table's order.
+class GivenKeys final : public base::Visitor {
  public:
   struct Entry {
     std::string key;
     base::ValueMember value;
   };
+  struct Word {
+    std::string key, word;
+  };
+  std::vector<Entry> entries;
+  std::vector<Word> words;
+
   template <class Table>
-  static std::vector<Entry> of(Table& table) {
-    NumbersAndSwitches found;
+  static GivenKeys of(Table& table) {
+    GivenKeys found;
     describe(found, table);
-    return found.entries_;
+    return found;
   }
 
  private:
   void visit_value(std::string_view key, const base::ValueMember& value, const base::About&) override {
-    entries_.push_back({std::string(key), value});
+    entries.push_back({std::string(key), value});
   }
-
-  std::vector<Entry> entries_;
+  void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
+    words.push_back({std::string(key), std::string(member.word())});
+  }
 };
 
 class Unused {
@@ -44,13 +50,16 @@ class Unused {
   template <class Table>
   void add_table(const std::string& table, Table given, const std::string& reason) {
     Table usual;
-    const auto of_given = NumbersAndSwitches::of(given), of_usual = NumbersAndSwitches::of(usual);
-    for (std::size_t n = 0; n < of_given.size(); ++n)
+    const GivenKeys of_given = GivenKeys::of(given), of_usual = GivenKeys::of(usual);
+    for (std::size_t n = 0; n < of_given.entries.size(); ++n)
       std::visit(
           [&]<class Value>(const Value* value) {
-            add(table + '.' + of_given[n].key, *value, *std::get<Value*>(of_usual[n].value), reason);
+            add(table + '.' + of_given.entries[n].key, *value, *std::get<Value*>(of_usual.entries[n].value),
+                reason);
           },
-          of_given[n].value);
+          of_given.entries[n].value);
+    for (std::size_t n = 0; n < of_given.words.size(); ++n)
+      add(table + '.' + of_given.words[n].key, of_given.words[n].word, of_usual.words[n].word, reason);
   }
   const std::string& text() const { return text_; }
 

@@ -44,8 +44,10 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     out.add("sensors.current_noise_A", x.current_noise_A, usual.current_noise_A, reason);
     out.add("sensors.current_gain_error", x.current_gain_error, usual.current_gain_error, reason);
     out.add("sensors.calibrated", x.calibrated, usual.calibrated, reason);
-    if (no_terminals)
+    if (no_terminals) {
       out.add("sensors.current_bandwidth_Hz", x.current_bandwidth_Hz, usual.current_bandwidth_Hz, reason);
+      out.add("sensors.current_delay_s", x.current_delay_s, usual.current_delay_s, reason);
+    }
     if (no_terminals && s.control.drive != FirmwareKind::field)  // the field-oriented drive uses the range to
                                                                  // scale its injection
       out.add("sensors.current_range_A", x.current_range_A, usual.current_range_A, reason);
@@ -78,8 +80,13 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
   }
   if (!(x.hall_glitches_Hz > 0))
     out.add("sensors.hall_glitch_s", x.hall_glitch_s, usual.hall_glitch_s, "no sensors.hall_glitches_Hz");
-  if (!x.hall_break.at_s)
+  if (!x.hall_break.at_s) {
     out.add("sensors.hall_break.line", x.hall_break.line, usual.hall_break.line, "no hall_break.at_s");
+    out.add("sensors.hall_break.level", x.hall_break.level, usual.hall_break.level, "no hall_break.at_s");
+  }
+  if (x.hall_angle != rig::HallAngleFrom::learned_edges)
+    out.add("sensors.hall_calibration_turns", x.hall_calibration_turns, usual.hall_calibration_turns,
+            "sensors.hall_angle learns no edges");
 }
 
 }  // namespace sixstep::study

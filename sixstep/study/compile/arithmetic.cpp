@@ -13,6 +13,7 @@
 #include "sixstep/design/loops/limit_bounds.hpp"
 #include "sixstep/design/scaling/fixed_formats.hpp"
 #include "sixstep/design/scaling/observer_scaling.hpp"
+#include "sixstep/design/scaling/scaling_proof.hpp"
 #include "sixstep/design/scaling/sensorless_scaling.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
@@ -28,8 +29,6 @@ using control::Mode;
 /// scale of the scenario is the physical value of the format's largest number; the base follows from it.
 template <class Scalar>
 design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
-  constexpr int before_the_point =
-      control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits;
   const double greatest = static_cast<double>(Scalar::max());
   design::Bases bases = c.sensorless ? design::bases_for(c.sensorless->drive, range, greatest)
                                      : design::bases_for(c.drive, range, greatest);
@@ -39,7 +38,7 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
         std::max(bases.speed_rad_s, c.product->faults.over_speed_rad_s * below_the_end / greatest);
   const FullScale& chosen = s.control.full_scale;
   const auto take = [](double& base, const std::optional<double>& full_scale) {
-    if (full_scale) base = std::ldexp(*full_scale, -before_the_point);
+    if (full_scale) base = *full_scale / design::detail::scale_per_base<Scalar>;
   };
   take(bases.current_A, chosen.current_A);
   take(bases.voltage_V, chosen.voltage_V);
@@ -48,15 +47,24 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
   return bases;
 }
 
-/// Renames problems: the proof of the scaling names the drive's quantities, but a user's file has the
-/// scenario's keys.
+/// A cure with the scenario's keys in place of the members of design::Bases.
+std::string with_keys(std::string cure) {
+  constexpr std::string_view words = "full scale ", key = "control.full_scale.";
+  if (const std::size_t at = cure.find(words); at != std::string::npos) {
+    const std::size_t begin = at >= 2 && cure.compare(at - 2, 2, "a ") == 0 ? at - 2 : at;
+    return cure.replace(begin, at + words.size() - begin, key);
+  }
+  return cure.find("base") == std::string::npos ? cure : cure + " (bases: control.full_scale)";
+}
+
+/// Renames problems: the proof names the drive's quantities, but a user's file has the scenario's keys.
 base::Problems under_the_key(const Scenario& s, const base::Problems& problems) {
   const std::string word(base::word(arithmetic_choices, s.control.arithmetic));
   base::Problems out;
   for (const base::Problem& p : problems)
     out.push_back({"control.arithmetic", "\"" + word + "\"",
                    "cannot hold this drive: " + p.where + " = " + p.value + " " + p.limit,
-                   p.cure + " (bases: control.full_scale)"});
+                   with_keys(p.cure)});
   return out;
 }
 
@@ -80,7 +88,8 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
            "times speed_edges is " + base::rounded(digits / most, 4) + " times the range of the format's sum",
            "use a timer of " + shortest(s.sensors.capture_Hz * most / digits, base::Towards::down) +
                " Hz or less, control.full_scale.speed_rad_s of " +
-               shortest(b.speed_rad_s * digits / most, base::Towards::up) +
+               shortest(design::detail::scale_per_base<Scalar> * b.speed_rad_s * digits / most,
+                        base::Towards::up) +
                " or more, fewer edges, or a 32-bit format"}};
 }
 

@@ -48,7 +48,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);
   if (w.logic) w.logic->end(rig);
-  w.extremes.look(rig);
+  w.look(rig);
   count_events(rig, out);
   return {};
 }

@@ -127,6 +127,13 @@ bool fitted(ColumnId id, RotorSensing rotor) {
 
 }  // namespace
 
+bool holds_labels(std::string_view column) {
+  constexpr std::string_view labels[] = {"hall",      "sector",    "encoder_A",
+                                         "encoder_B", "encoder_Z", "absolute_code"};
+  return column.starts_with("gate_") ||
+         std::find(std::begin(labels), std::end(labels), column) != std::end(labels);
+}
+
 const std::vector<Column>& all_columns() {
   static const std::vector<Column> columns = turning_columns();
   return columns;

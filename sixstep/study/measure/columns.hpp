@@ -2,6 +2,7 @@
 // One table lists the trace's columns with unit, frame and meaning.
 #pragma once
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "sixstep/base/result.hpp"
@@ -77,8 +78,10 @@ bool applies(ColumnId id, control::Mode mode);
 /// Whether a column has a meaning in any mode of the run, with the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);
 
-/// All columns in the order of ColumnId, with a rotary motor's names and units: t_s, i_a_A, i_b_A, i_c_A,
-/// u_a_V, ..
+/// Whether the numbers of a column are labels or levels, such as a Hall code: equal or not, but without a distance.
+bool holds_labels(std::string_view column);
+
+/// All columns: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
 const std::vector<Column>& all_columns();
 /// All columns with a linear motor's names and units: speed_m_s, position_mm, force_N (base/linear.hpp). The
 /// scenario's recorded rows have these units; event rows keep the rotary motor's units.

@@ -181,6 +181,12 @@ void note_coasting(const Scenario& s, Outcome& outcome) {
 
 }  // namespace
 
+double figure_zero(const Scenario& scenario, const Measure& m) {
+  // A swing or an error is a difference of two temperatures.
+  const bool level = m.metric <= MetricKind::minimum;
+  return level && figure_unit(m) == "degC" ? scenario.heat.ambient_degC : 0.0;
+}
+
 void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
   std::size_t n = 0;
   const auto next = [&] {
@@ -199,12 +205,13 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
       return x ? std::optional(*x * unit.factor) : std::nullopt;
     };
     outcome.verdicts.push_back({figure_name(scenario, r.measure), std::string(unit.linear), v * unit.factor,
-                                shown(r.min), shown(r.max), meets(r, v)});
+                                shown(r.min), shown(r.max), meets(r, v), figure_zero(scenario, r.measure)});
   }
   for (const Comparison& c : scenario.compare) {
     const base::LinearUnit unit = unit_in(scenario, figure_unit(c.measure));
     outcome.comparisons.push_back({figure_name(scenario, c.measure), std::string(unit.linear),
-                                   next() * unit.factor, c.value * unit.factor, c.source});
+                                   next() * unit.factor, c.value * unit.factor, c.source,
+                                   figure_zero(scenario, c.measure)});
   }
   for (std::size_t k = 0; k < scenario.require.size(); ++k) {
     const Requirement& r = scenario.require[k];

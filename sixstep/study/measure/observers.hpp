@@ -7,6 +7,7 @@
 #include "sixstep/plant/general/audit.hpp"
 #include "sixstep/study/measure/device_watch.hpp"
 #include "sixstep/study/measure/digest.hpp"
+#include "sixstep/study/measure/end_watch.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/measure/iron_gauge.hpp"
 #include "sixstep/study/measure/logic_recorder.hpp"
@@ -22,6 +23,8 @@ struct Audits {
   plant::general::Audit<double> general;
   void segment(const plant::Plant<double>& plant, double s) { lean.segment(plant, s); }
   void segment(const plant::general::Plant<double>& plant, double s) { general.segment(plant, s); }
+  plant::EnergyBook energy(const plant::Plant<double>&) const { return lean.energy(); }
+  plant::EnergyBook energy(const plant::general::Plant<double>&) const { return general.energy(); }
 };
 
 struct Observers {
@@ -30,6 +33,7 @@ struct Observers {
   std::optional<IronGauge> iron{};
   Digest digest{};
   RunWatch extremes{};
+  EndWatch end{};
   Figures figures;
   std::optional<GridRecorder> grid{};
   std::optional<EventRecorder> events{}, report{};
@@ -53,11 +57,18 @@ struct Observers {
     if (logic) logic->segment(rig, s);
     ++segments;
   }
+  /// Called from time to time and at the end.
+  template <class Rig>
+  void look(const Rig& rig) {
+    extremes.look(rig);
+    if (const double t_s = rig.now().seconds(); audit && end.wants(t_s))
+      end.look(t_s, audit->energy(rig.plant()).copper, static_cast<double>(rig.plant().state().w));
+  }
   /// Checks often enough for a quick response to a user, and seldom enough to cost almost nothing.
   template <class Rig>
   bool done(const Rig& rig) {
     if (segments % 256 != 0) return false;
-    extremes.look(rig);
+    look(rig);
     const sim::Instant now = rig.now();
     crowded = now.ticks <= looked.ticks;
     looked = now;

@@ -21,6 +21,7 @@ struct Verdict {
   double measured = 0.0;
   std::optional<double> min, max;  // bounds of the requirement
   bool ok = false;
+  double zero = 0.0;  // figure_zero(): the value from which the figure's size counts
 };
 
 struct ComparisonResult {
@@ -29,6 +30,7 @@ struct ComparisonResult {
   double measured = 0.0;
   double value = 0.0;  // value of the source to compare with
   std::string source;
+  double zero = 0.0;  // figure_zero()
 };
 
 using plant::EnergyBook;

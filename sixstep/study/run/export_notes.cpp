@@ -12,6 +12,7 @@
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/export_watch.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
+#include "sixstep/study/run/thermal_remarks.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
@@ -27,18 +28,7 @@ bool is_rectifier(const Supply& s) {
 
 constexpr const char* condition = "cleared for a supply that takes current back (supply.sinks = true)";
 
-/// ": ... withstands it for 12.8 s from 25 degC, and by the worse ends of their ranges for 6.82 s".
-std::string withstood(const design::WithstandTimes& times, double ambient_degC) {
-  const auto duration = [](const std::optional<double>& t) {
-    return t ? "for " + few_digits(*t) + " s" : std::string("without end");
-  };
-  return ": by the sheet's thermal values the winding withstands this current " + duration(times.by_values) +
-         " from " + few_digits(ambient_degC) + " degC" +
-         (times.differ() ? ", and by the worse ends of the thermal ranges " + duration(times.by_worse_ends)
-                         : "");
-}
-
-/// The first reason why the drive fails with a supply that cannot take current back.
+/// The first reason why the drive does not hold on such a supply.
 std::string first_of(const base::Problems& found) {
   const base::Problem& p = found.front();
   return p.where + (p.value.empty() ? " " : " = " + p.value + " ") + p.limit;

@@ -8,7 +8,6 @@
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
 namespace sixstep::study {
@@ -48,7 +47,7 @@ std::string on_fastest(const Scenario& s, const RunWatch& w) {
          ", and the sheet allows " + in_rpm(allowed);
 }
 
-std::string on_bus(const Scenario& s, const RunWatch& w) {
+std::string on_bus(const Scenario& s, const RunWatch& w, const Outcome& out) {
   const bool rectifier =
       s.supply.source == SourceKind::single_phase || s.supply.source == SourceKind::three_phase;
   const bool sinks = s.supply.sinks && !rectifier && std::none_of(s.at.begin(), s.at.end(), [](const At& at) {
@@ -57,26 +56,15 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
   const bool caught = s.supply.brake_resistance_ohm > 0.0 || s.control.regeneration.limit_V;
   const double open = highest_open_V(s);
   if (sinks || caught || !(w.highest_bus_V > risen_part * open)) return {};
+  const bool driven = out.energy && out.energy->load < 0.0;
   return "the bus rose to " + few_digits(w.highest_bus_V) + " V, " + few_digits(w.highest_bus_V / open) +
          " times the source's voltage, because the source takes no current back" +
          (rectifier ? "" : " (supply.sinks = false)") +
-         "; add a brake chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or control.regeneration.limit_V";
-}
-
-/// Applies the run's mean copper loss to the sheet's thermal model, from ambient temperature on.
-std::string on_cold_winding(const Scenario& s, const Outcome& out) {
-  if (s.heat.motor || !out.energy || !(out.simulated_s > 0.0)) return {};
-  const double mean_W = out.energy->copper / out.simulated_s;
-  const auto times =
-      design::withstand_times(s.sheet, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
-  if (!times || !times->by_worse_ends || !(*times->by_worse_ends < out.simulated_s)) return {};
-  const bool by_values = times->by_values && *times->by_values < out.simulated_s;
-  return "the copper loss of " + few_digits(mean_W) + " W on average heats the winding above its limit of " +
-         few_digits(by_values ? times->limit_degC : times->worse_limit_degC) + " degC within " +
-         few_digits(by_values ? *times->by_values : *times->by_worse_ends) + " s by " +
-         (by_values ? "the sheet's thermal values" : "the worse ends of the sheet's thermal ranges") +
-         ", and the run lasts " + few_digits(out.simulated_s) +
-         " s; set heat.motor = true to simulate the temperatures";
+         (driven
+              ? ", and the load drives the shaft, for which no capacitance is large enough; add a brake chopper "
+                "(supply.brake_resistance_ohm)"
+              : "; add a brake chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or "
+                "control.regeneration.limit_V");
 }
 
 /// Comparators with `comparator = "event"` chop at a frequency proportional to 1/band_A, independent of
@@ -104,8 +92,7 @@ std::string few_digits(double x) {
 
 std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::vector<std::string> all;
-  for (std::string text :
-       {on_battery(s, w), on_fastest(s, w), on_bus(s, w), on_cold_winding(s, out), on_chopping(s, out)})
+  for (std::string text : {on_battery(s, w), on_fastest(s, w), on_bus(s, w, out), on_chopping(s, out)})
     if (!text.empty()) all.push_back(std::move(text));
   return all;
 }

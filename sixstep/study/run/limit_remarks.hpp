@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds limits that a run exceeded and that the model does not enforce: a battery's charge, a rotor's maximum
-// speed, a raised bus voltage, the winding's temperature in a run without temperatures, the chopping
-// frequency of comparators, a current.
+// speed, a raised bus, a current. Temperatures: thermal_remarks.hpp.
 #pragma once
 #include <string>
 #include <vector>

@@ -31,6 +31,7 @@ Observers observers_of(const Scenario& s, const Listeners& listeners,
   Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link)
     w.extremes.shunt_least_duty = least_shown_duty(s);
+  w.end.duration_s = s.duration_s;
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.keep_books && tells_losses(s.bridge)) w.devices.emplace(s.bridge);
   const design::IronDrag iron = design::sheet_constants(s.sheet).friction.iron;

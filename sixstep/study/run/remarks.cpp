@@ -19,6 +19,7 @@
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
+#include "sixstep/study/run/thermal_remarks.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
@@ -231,26 +232,11 @@ std::string on_load_after_trip(const Scenario& s, const Outcome& out) {
          " turns the shaft, as a hanging weight does; for a load that only brakes use load.coulomb_Nm";
 }
 
-}  // namespace
-
-void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcome& out) {
+/// Remarks on loops and samples that the program knows; those of a user's controller are unknown.
+void add_loop_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcome& out) {
   const auto add = [&out](std::string text) {
     if (!text.empty()) out.remarks.push_back(std::move(text));
   };
-  if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
-  if (!s.not_usable.empty()) add("the design of this drive is NOT USABLE: " + s.not_usable);
-  for (std::string& text : belief_costs(s, c)) add(std::move(text));
-  add(sheet_contradiction(s));
-  add(on_supply(s));
-  // Only a product drive is made for a real bridge. Scenarios with other drives are studies.
-  if (s.control.drive == FirmwareKind::product) add(limit_above_nominal(s, c.motor));
-  on_protection(s, c, out);
-  add(on_load_after_trip(s, out));
-  add(on_late_values(s));
-  for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
-  for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
-    add(std::move(text));
-  if (c.own.is) return;  // gains and samples of a user's controller are unknown
   add(on_shunt(s, c, w));
   add(on_shunt_amplifier(s));
   add(on_hall_timeout(s, c));
@@ -261,11 +247,58 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
     add(on_stability(s, c, g));
   }
   add(on_back_emf(s, c, w));
-  add(on_heat(s, w, out));
   add(on_steps(s, c, w));
   add(on_idle_duty_step(s, w));
   add(on_chopped_staying_leg(s, w));
   add(on_long_overlap(s, c.motor, c.drive.nominal_bus_V, w));
+}
+
+/// Remarks on the winding's heat. They depend on heat.ambient_degC, also in a run without temperatures.
+struct ThermalRemarks {
+  std::string limit, cold, kept, hot;
+  /// A product drive's thresholds are judged at the ambient temperature, whatever the judgement is.
+  bool use_ambient(const Scenario& s) const {
+    return !limit.empty() || !cold.empty() || !kept.empty() ||
+           (s.control.drive == FirmwareKind::product && design::thermal_model(s.sheet));
+  }
+};
+
+ThermalRemarks thermal_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const EndWatch& end,
+                               const Outcome& out) {
+  ThermalRemarks t;
+  // A product drive is made for a real bridge. Scenarios with other drives are studies: their limits are judged by
+  // export, and by the current that the run keeps up.
+  if (s.control.drive == FirmwareKind::product) t.limit = limit_above_nominal(s, c.motor);
+  t.cold = on_cold_winding(s, out);
+  t.hot = on_heat(s, w, out);
+  if (t.cold.empty() && t.hot.empty()) t.kept = on_kept_current(s, end, w.winding_degC, c.motor);
+  return t;
+}
+
+}  // namespace
+
+void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const EndWatch& end, Outcome& out) {
+  const auto add = [&out](std::string text) {
+    if (!text.empty()) out.remarks.push_back(std::move(text));
+  };
+  ThermalRemarks thermal = thermal_remarks(s, c, w, end, out);
+  if (const std::string unused = unused_keys(s, thermal.use_ambient(s)); !unused.empty())
+    add("given without effect: " + unused);
+  if (!s.not_usable.empty()) add("the design of this drive is NOT USABLE: " + s.not_usable);
+  for (std::string& text : belief_costs(s, c)) add(std::move(text));
+  add(sheet_contradiction(s));
+  add(on_supply(s));
+  add(std::move(thermal.limit));
+  on_protection(s, c, out);
+  add(on_load_after_trip(s, out));
+  add(on_late_values(s));
+  for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
+  add(std::move(thermal.cold));
+  add(std::move(thermal.kept));
+  for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
+    add(std::move(text));
+  if (!c.own.is) add_loop_remarks(s, c, w, out);
+  add(std::move(thermal.hot));
 }
 
 }  // namespace sixstep::study

@@ -34,6 +34,52 @@ TEST(TraceComparison, StraightBetweenRowsAndOnTheLaterSideOfAJump) {
   EXPECT_DOUBLE_EQ(found[0].at_s, 2.0);
 }
 
+/// Codes are labels: other codes for the same states change nothing, and no code is nearer than another.
+TEST(TraceComparison, LabelsDifferOrDoNot) {
+  const std::vector<double> t_s{0, 1, 2, 2, 3, 4, 5}, logged_s{0.5, 1, 2, 2.5, 3, 4.5, 5};
+  const int simulated[] = {1, 1, 1, 2, 2, 3, 3}, logged[] = {1, 2, 2, 2, 1, 2, 3};
+  std::optional<TraceComparison> first;
+  for (const std::vector<double>& codes : {std::vector<double>{0, 1, 2, 3}, {0, 5, 4, 6}, {0, 6, 1, 5}}) {
+    study::Trace here = trace({{"t_s", t_s}, {"hall", {}}}), log = trace({{"t_s", logged_s}, {"hall", {}}});
+    for (const int n : simulated) here.values[1].push_back(codes[static_cast<std::size_t>(n)]);
+    for (const int n : logged) log.values[1].push_back(codes[static_cast<std::size_t>(n)]);
+    const std::vector<TraceComparison> found = trace_comparison(here, log, 0.0);
+    ASSERT_EQ(found.size(), 1u);
+    if (!first) first = found[0];
+    EXPECT_EQ(found[0].rows, 7u);
+    // At 1 s it is another one, at 2 s that after the edge, at 3 s another one; at 4.5 s neither of the two.
+    EXPECT_EQ(found[0].differing, 3u);
+    EXPECT_DOUBLE_EQ(found[0].at_s, 1.0);
+    EXPECT_DOUBLE_EQ(found[0].rms, first->rms);
+  }
+  EXPECT_FALSE(trace_comparison(trace({{"t_s", {0, 1}}, {"duty", {0, 1}}}),
+                                trace({{"t_s", {0, 1}}, {"duty", {0, 1}}}), 0)[0]
+                   .differing);
+}
+
+/// Hall codes alone give the shift of a clock, to where no row differs.
+TEST(TraceComparison, FindsTheShiftByTheEdgesOfLabels) {
+  constexpr double off = 1.3e-3;
+  const auto code = [](double t) {
+    constexpr double codes[] = {4, 6, 2, 3, 1, 5};
+    return codes[static_cast<std::size_t>((t + 0.3 * t * t) / 2e-3) % 6];
+  };
+  study::Trace simulated = trace({{"t_s", {}}, {"hall", {}}}), log = simulated;
+  for (int n = 0; n <= 4000; ++n) {
+    simulated.values[0].push_back(n * 25e-6);
+    simulated.values[1].push_back(code(n * 25e-6));
+  }
+  for (int n = 50; n < 900; ++n) {
+    const double t = n * 1e-4;
+    log.values[0].push_back(t - off);
+    log.values[1].push_back(code(t));
+  }
+  const double shift = best_shift_s(simulated, log, 2e-3, 1e-4);
+  EXPECT_NEAR(shift, off, 1e-4);
+  EXPECT_EQ(trace_comparison(simulated, log, shift)[0].differing, 0u);
+  EXPECT_GT(trace_comparison(simulated, log, 0.0)[0].differing, 100u);
+}
+
 TEST(TraceComparison, NothingMeetsNothing) {
   const study::Trace simulated = trace({{"t_s", {0, 1}}, {"duty", {0, 1}}});
   EXPECT_TRUE(trace_comparison(simulated, trace({{"t_s", {5, 6}}, {"duty", {0, 1}}}), 0.0).empty());

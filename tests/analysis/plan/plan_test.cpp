@@ -8,6 +8,8 @@
 #include <set>
 
 #include "sixstep/analysis/plan/permuted.hpp"
+#include "sixstep/analysis/plan/plan_table.hpp"
+#include "tests/support/scenarios.hpp"
 
 namespace SIXSTEP_TEST_FILE {
 
@@ -22,6 +24,8 @@ Axis range(const std::string& key, double from, double to, std::size_t points = 
   return {.key = key, .values = {}, .from = from, .to = to, .points = points};
 }
 
+Plan range_plan() { return {.axes = {range("a", 1, 2, 3)}}; }
+
 TEST(Plan, AGridHasEveryValueWithEveryOtherTheLastAxisFirst) {
   const Plan plan{.axes = {{.key = "pwm.chopping", .values = {"\"soft\"", "\"hard\""}}, range("b", 1, 2, 3)}};
   ASSERT_EQ(analysis::runs_of(plan), 6u);
@@ -30,6 +34,23 @@ TEST(Plan, AGridHasEveryValueWithEveryOtherTheLastAxisFirst) {
   EXPECT_THAT(analysis::point_of_run(plan, 2), ElementsAre("\"soft\"", "2"));
   EXPECT_THAT(analysis::point_of_run(plan, 3), ElementsAre("\"hard\"", "1"));
   EXPECT_THAT(analysis::point_of_run(plan, 5), ElementsAre("\"hard\"", "2"));
+}
+
+/// A temperature's size counts from the ambient temperature on, a swing of temperature from 0. Another zero of the scale
+/// changes no size.
+TEST(Plan, TheSizeOfATemperatureIsItsRise) {
+  for (const double zero : {0.0, 273.15}) {
+    study::Scenario s = sixstep::testing::maxon_scenario(control::Mode::duty, 1.0);
+    s.heat.ambient_degC = 25 + zero;
+    for (const study::MetricKind metric : {study::MetricKind::maximum, study::MetricKind::peak_to_peak}) {
+      study::Requirement r;
+      r.measure = sixstep::testing::measure(metric, study::Signal::winding_temperature);
+      r.max = metric == study::MetricKind::maximum ? 85 + zero : 60;
+      s.require.push_back(r);
+    }
+    const auto columns = analysis::columns_of(range_plan(), s);
+    for (const analysis::FigureColumn& f : columns->figures) EXPECT_DOUBLE_EQ(f.size(*f.max), 60) << f.name;
+  }
 }
 
 TEST(Plan, ALogarithmicGridHasEqualRatiosAndExactEnds) {

@@ -8,6 +8,7 @@
 
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/measure/columns.hpp"
 
 namespace sixstep::analysis {
 
@@ -34,20 +35,50 @@ std::optional<double> value_at(const Values& t_s, const Values& values, double t
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+/// Whether the column has this label at a time: the one of either row around it. Empty beyond the column's ends.
+std::optional<bool> has_label(const Values& t_s, const Values& labels, double t, double label) {
+  const auto next = static_cast<std::size_t>(std::upper_bound(t_s.begin(), t_s.end(), t) - t_s.begin());
+  if (next == 0 || (next == t_s.size() && t != t_s.back())) return {};
+  const bool between = next < t_s.size() && t != t_s[next - 1];
+  if (!std::isfinite(labels[next - 1]) || (between && !std::isfinite(labels[next]))) return {};
+  return labels[next - 1] == label || (between && labels[next] == label);
+}
+
 /// The columns of one name in simulation and log, with their times.
 struct Both {
   const Values *simulated_t, *simulated, *log_t, *log;
+  bool labels = false;
 };
 
 std::optional<Both> both(const study::Trace& simulated, const study::Trace& log, const std::string& column) {
   const Both found{values_of(simulated, "t_s"), values_of(simulated, column), values_of(log, "t_s"),
-                   values_of(log, column)};
+                   values_of(log, column), study::holds_labels(column)};
   if (!found.simulated_t || !found.simulated || !found.log_t || !found.log) return {};
   return found;
 }
 
+TraceComparison compared_labels(const Both& b, double shift_s, std::size_t every) {
+  TraceComparison out;
+  std::size_t differing = 0;
+  for (std::size_t n = 0; n < b.log_t->size(); n += every) {
+    const double t = (*b.log_t)[n] + shift_s, measured = (*b.log)[n];
+    if (!std::isfinite(measured)) continue;
+    const std::optional<bool> same = has_label(*b.simulated_t, *b.simulated, t, measured);
+    if (!same) continue;
+    ++out.rows;
+    if (*same) continue;
+    if (differing++ == 0) out.at_s = t;
+  }
+  out.differing = differing;
+  if (out.rows == 0) return out;
+  out.span = 1.0;
+  out.rms = std::sqrt(static_cast<double>(differing) / static_cast<double>(out.rows));
+  return out;
+}
+
 /// Compares each `every`-th row.
 TraceComparison compared(const Both& b, double shift_s, std::size_t every = 1) {
+  if (b.labels) return compared_labels(b, shift_s, every);
   TraceComparison out;
   double low = std::numeric_limits<double>::infinity(), high = -low, squares = 0.0;
   for (std::size_t n = 0; n < b.log_t->size(); n += every) {
@@ -102,6 +133,8 @@ struct Weighed {
   Both both;
   double scale = 1.0;  ///< the column's span, or the least step of its log
   double step = 0.0;
+  double floor =
+      0.0;  ///< rms that its resolution alone causes: 1/sqrt(12) of the step; of labels, half a row
   std::size_t rows = 0;  ///< rows that can be compared without a shift
 };
 
@@ -112,8 +145,11 @@ std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study:
     const std::optional<Both> found = both(simulated, log, column.name);
     if (column.name == "t_s" || !found) continue;
     const TraceComparison here = compared(*found, 0.0, every);
-    const double step = least_step(*found->log), scale = std::max(here.span, step);
-    if (scale > 0.0) out.push_back({*found, scale, step, here.rows});
+    constexpr double rms_of_a_step = 0.28867513459481287;
+    const double step = found->labels ? 0.0 : least_step(*found->log), scale = std::max(here.span, step);
+    const double rows = static_cast<double>(std::max<std::size_t>(here.rows, 1));
+    const double floor = found->labels ? std::sqrt(0.5 / rows) : rms_of_a_step * step;
+    if (scale > 0.0) out.push_back({*found, scale, step, floor, here.rows});
   }
   // A column that never has a value in the run has no common row at any shift.
   if (std::any_of(out.begin(), out.end(), [](const Weighed& w) { return w.rows > 0; }))
@@ -130,14 +166,13 @@ struct Apart {
   bool within_steps = true;  ///< true: no column's rms exceeds the step of its log
 };
 std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, std::size_t every) {
-  // Rms caused by a log's step: 1/sqrt(12) of the step.
-  constexpr double rms_of_a_step = 0.28867513459481287, least_part = 1e-6;
+  constexpr double least_part = 1e-6;
   double logs = 0.0;
   Apart out;
   for (const Weighed& column : columns) {
     const TraceComparison one = compared(column.both, shift_s, every);
     if (one.rows == 0 || one.rows < column.rows / 2) return {};
-    const double left = std::max(one.rms, rms_of_a_step * column.step) / column.scale;
+    const double left = std::max(one.rms, column.floor) / column.scale;
     logs += base::log(std::max(left, least_part));
     out.within_steps &= one.rms <= column.step;
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares a board's log with a simulation of the board, column by column. Both are traces: a jump has two
-// rows at one instant; between rows a trace is linear.
+// rows at one instant; between rows a trace is linear. A column of labels (study::holds_labels()) has the label of
+// either row between two rows, since its edge lies somewhere between them.
 #pragma once
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +18,10 @@ struct TraceComparison {
   study::Column column;
   std::size_t rows = 0;
   double span = 0.0;      ///< highest minus lowest simulated value over the compared rows
-  double rms = 0.0;       ///< rms of log minus simulation
+  double rms = 0.0;       ///< rms of log minus simulation; of labels sqrt(differing/rows)
   double greatest = 0.0;  ///< the difference log minus simulation that is farthest from 0, with its sign
-  double at_s = 0.0;      ///< time of this difference
+  double at_s = 0.0;      ///< time of this difference; of labels of the first differing row
+  std::optional<std::size_t> differing{};  ///< labels only: rows with another label than the simulation's
 };
 
 /// Compares each column that both traces have, except the time. `shift_s` is added to the log's times. A
