@@ -173,7 +173,7 @@ std::string step_sentences(const Step& step, const StepCurrent& current, double 
                                  asked ? "after the step" : "of the run", ampere(current.peak_A),
                                  computed(current.peak_after_s, "s"));
   if (current.asked_A && step.of != "current")
-    text += fmt::format(" ({} asked for then)", ampere(*current.asked_A));
+    text += fmt::format(" (reference then: {})", ampere(*current.asked_A));
   text += fmt::format(", {} rms.", ampere(current.rms_A));
   if (current.then_mean_A)
     text += fmt::format(" From then until the {}: {} on average, between {} and {}.",

@@ -41,7 +41,7 @@ class Parameters(ProgramTest):
         shown = self.run_program("motor", "show", "mine.toml").stdout
         found = float(re.search(r"K_e +([0-9.]+) mV s", shown)[1])
         self.assertAlmostEqual(found, 1e3 * PAIRS * PSI, delta=0.01)
-        self.assertIn("is there already", self.run_program("motor", "new", "mine", "--from", "a.cfg", code=2).stderr)
+        self.assertIn("already exists", self.run_program("motor", "new", "mine", "--from", "a.cfg", code=2).stderr)
 
     def test_a_question_is_answered_by_an_option(self):
         (self.path / "a.ino").write_text(SKETCH)

@@ -274,7 +274,8 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
     ASSERT_TRUE(rippled);
     ASSERT_GT(rippled->ripple.worst_A, rippled->nominal_current_A);
     for (const Warning& w : rippled->warnings)
-      if (w.of == Concern::ripple) bare.machine.L_H += 1e-3 * std::stod(w.what.substr(w.what.find(": ") + 2));
+      if (w.of == Concern::ripple)
+        bare.machine.L_H += 1e-3 * std::stod(w.what.substr(w.what.find("choke of ") + 9));
     const auto choked = design_drive(bare, hurried);
     ASSERT_TRUE(choked);
     EXPECT_NEAR(choked->ripple.worst_A, 0.2 * choked->nominal_current_A, 0.005 * choked->nominal_current_A);

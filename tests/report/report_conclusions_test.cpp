@@ -22,6 +22,7 @@
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
+#include "tests/support/scenarios.hpp"
 
 namespace SIXSTEP_TEST_FILE {
 
@@ -185,7 +186,8 @@ TEST(Setup, names_the_controllers_that_run) {
 }
 
 TEST(Highlights, what_held_the_run_back_is_timed) {
-  const SyntheticRun run = stepped_run();
+  SyntheticRun run = stepped_run();
+  run.scenario.sheet = sixstep::testing::maxon_sheet();
   const auto held = held_back(run.trace, run.scenario);
   ASSERT_TRUE(held);
   EXPECT_EQ(held->bus_s, 2.0);

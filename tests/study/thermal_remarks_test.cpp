@@ -82,7 +82,7 @@ std::vector<Scenario> drives_that_keep_a_current() {
 
 TEST(ThermalRemarks, ACurrentThatIsKeptPassesTheWindingsLimitWhenItIsTold) {
   for (Scenario s : drives_that_keep_a_current()) {
-    const auto within_s = told(s, "withstands it for ");
+    const auto within_s = told(s, "withstands this current for ");
     ASSERT_TRUE(within_s);
     s.heat.motor = true;
     const auto passes = [&s](double duration_s) {
@@ -118,8 +118,8 @@ TEST(ThermalRemarks, OnlyWhatIsKeptAndTooMuchIsTold) {
   EXPECT_TRUE(silent(accelerates)) << "5 A that end with the run-up";
   warm.heat.motor = true;
   EXPECT_FALSE(silent(warm)) << "0.3 s do not warm the winding";
-  EXPECT_NEAR(*told(warm, "withstands it for "), *told(lift(), "withstands it for "),
-              0.1 * *told(lift(), "withstands it for "))
+  EXPECT_NEAR(*told(warm, "withstands this current for "), *told(lift(), "withstands this current for "),
+              0.1 * *told(lift(), "withstands this current for "))
       << "the loss counts at the sheet's temperature";
   const auto no_books = study::run(lift(), {.keep_books = false});
   ASSERT_TRUE(no_books);
@@ -150,7 +150,7 @@ TEST(ThermalRemarks, AnAmbientTemperatureCountsWhereARemarkUsesIt) {
   EXPECT_FALSE(unused(lift()));
   Scenario hot = lift();
   hot.heat.ambient_degC = 60.0;
-  EXPECT_LT(*told(hot, "withstands it for "), 0.8 * *told(lift(), "withstands it for "));
+  EXPECT_LT(*told(hot, "withstands this current for "), 0.8 * *told(lift(), "withstands this current for "));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

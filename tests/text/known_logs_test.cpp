@@ -210,7 +210,7 @@ TEST(KnownLogs, HostileSistersAreRefused) {
   EXPECT_THAT(told(with(odrive(), "0.795774715459", "ERR")), HasSubstr("is not a number"));
   // A unit of another kind in the heading of a column that is known.
   EXPECT_THAT(told(with(blackbox("eRPM[0], "), "vbatLatest (V)", "vbatLatest (A)")),
-              HasSubstr("where V belongs"));
+              HasSubstr("but V is expected"));
   // Columns that are missing.
   EXPECT_THAT(told(blackbox("")), HasSubstr("is a Betaflight log without eRPM; turn on bidirectional DShot"));
   EXPECT_THAT(told(with(vesc(), "ms_today", "clock")), HasSubstr("has no column of time"));

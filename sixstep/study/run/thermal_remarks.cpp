@@ -13,8 +13,8 @@ std::string withstood(const design::WithstandTimes& times, double ambient_degC) 
   const auto duration = [](const std::optional<double>& t) {
     return t ? "for " + few_digits(*t) + " s" : std::string("without end");
   };
-  return ": by the sheet's thermal values the winding withstands it " + duration(times.by_values) + " from " +
-         few_digits(ambient_degC) + " degC" +
+  return ": by the sheet's thermal values the winding withstands this current " + duration(times.by_values) +
+         " from " + few_digits(ambient_degC) + " degC" +
          (times.differ() ? ", and by the worse ends of their ranges " + duration(times.by_worse_ends) : "");
 }
 
@@ -25,12 +25,12 @@ std::string on_cold_winding(const Scenario& s, const Outcome& out) {
       design::withstand_times(s.sheet, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
   if (!times || !times->by_worse_ends || !(*times->by_worse_ends < out.simulated_s)) return {};
   const bool by_values = times->by_values && *times->by_values < out.simulated_s;
-  return "the copper loss of " + few_digits(mean_W) + " W in the mean takes the winding past its limit of " +
+  return "the copper loss of " + few_digits(mean_W) + " W on average heats the winding above its limit of " +
          few_digits(by_values ? times->limit_degC : times->worse_limit_degC) + " degC within " +
          few_digits(by_values ? *times->by_values : *times->by_worse_ends) + " s by " +
          (by_values ? "the sheet's thermal values" : "the worse ends of the sheet's thermal ranges") +
          ", and the run lasts " + few_digits(out.simulated_s) +
-         " s; here nothing warms up: heat.motor = true computes it";
+         " s; set heat.motor = true to simulate the temperatures";
 }
 
 std::string on_kept_current(const Scenario& s, const EndWatch& watch, double winding_degC,
@@ -55,7 +55,7 @@ std::string on_kept_current(const Scenario& s, const EndWatch& watch, double win
   return "from t = " + few_digits(kept->since_s) + " s to the end the winding loses a steady " +
          few_digits(copper_W) + " W, as with " + few_digits(equal_A) + " A through two phases" + multiple +
          (times ? withstood(*times, s.heat.ambient_degC)
-                : "; the sheet has no thermal values that say how long the winding withstands it") +
+                : "; the sheet has no thermal values that say how long the winding withstands this current") +
          "; lower the load or the current, or keep it for " +
          (times ? "less than that time" : "a short time only");
 }
