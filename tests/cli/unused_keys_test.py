@@ -59,14 +59,12 @@ min = 0
 # Keys without effect on this run: it cannot reach their range, or they affect only a written file.
 ELSEWHERE = {
     "motor_override.magnet_loss_percent_K": "acts through [heat], and in the tolerances of designs",
-    "heat.ambient_degC": "from it a remark warms the motor by the sheet's thermal values",
     "control.full_scale.current_A": "of fixed point, which a header may be exported in",
     "control.full_scale.voltage_V": "of fixed point",
     "control.full_scale.speed_rad_s": "of fixed point",
     "control.full_scale.position_deg": "of fixed point",
     "record.grid_s": "rows that nobody asked for here",
     "record.events": "rows that nobody asked for here",
-    "sensors.hall_calibration_turns": "of learned edges, which another sensor may still learn",
 }
 AT_REST = {"motor_override.flat_deg": "a wider top than the sector's: no difference while the rotor hardly turns"}
 SMOOTH = {"control.smooth_chopping.on": "the current is above its borders"}

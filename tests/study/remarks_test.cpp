@@ -243,8 +243,6 @@ TEST(Remarks, KeysWithoutEffectAreNamed) {
        [](Scenario& s) { s.protection.align.sector = 3; }},
       {"control.current.band_A", [](Scenario& s) { s.control.current.band_A = 0.3; }},
       {"control.current.on", [](Scenario& s) { s.control.current.on = study::HysteresisOn::phase; }},
-      {"control.full_scale.current_A (control.arithmetic is no fixed-point format)",
-       [](Scenario& s) { s.control.full_scale.current_A = 20.0; }},
       {"control.speed.law", [](Scenario& s) { s.control.speed.law = study::SpeedLaw::sliding_mode; }},
       {"control.speed.form", [](Scenario& s) { s.control.speed.form = study::SpeedForm::positional; }},
       {"sensors.current_delay_s", [](Scenario& s) { s.sensors.current_delay_s = 1e-6; }},

@@ -8,7 +8,6 @@
 #include "sixstep/study/check/unused_list.hpp"
 #include "sixstep/study/measure/device_watch.hpp"
 #include "sixstep/study/scenario/changes.hpp"
-#include "sixstep/study/scenario/control_description.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -62,8 +61,6 @@ void of_control(const Scenario& s, Unused& out) {
     out.add("control.current.on", x.current.on, usual.current.on, reason);
     out.add("control.current.comparator", x.current.comparator, usual.current.comparator, reason);
   }
-  if (x.arithmetic == Arithmetic::float64 || x.arithmetic == Arithmetic::float32)
-    out.add_table("control.full_scale", x.full_scale, "control.arithmetic is no fixed-point format");
   if (!x.regeneration.limit_V)
     out.add("control.regeneration.gain_A_per_V", x.regeneration.gain_A_per_V, usual.regeneration.gain_A_per_V,
             "no control.regeneration.limit_V");
