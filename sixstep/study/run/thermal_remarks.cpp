@@ -15,7 +15,8 @@ std::string withstood(const design::WithstandTimes& times, double ambient_degC) 
   };
   return ": by the sheet's thermal values the winding withstands this current " + duration(times.by_values) +
          " from " + few_digits(ambient_degC) + " degC" +
-         (times.differ() ? ", and by the worse ends of their ranges " + duration(times.by_worse_ends) : "");
+         (times.differ() ? ", and by the worse ends of the thermal ranges " + duration(times.by_worse_ends)
+                         : "");
 }
 
 std::string on_cold_winding(const Scenario& s, const Outcome& out) {

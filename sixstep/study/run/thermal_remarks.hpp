@@ -11,7 +11,7 @@
 
 namespace sixstep::study {
 
-/// ": ... withstands this current for 12.8 s from 25 degC, and by the worse ends of their ranges for 6.82 s".
+/// ": ... withstands this current for 12.8 s from 25 degC, and by the worse ends of the thermal ranges for 6.82 s".
 std::string withstood(const design::WithstandTimes& times, double ambient_degC);
 
 /// Applies the run's mean copper loss to the sheet's thermal model, from ambient temperature on. Empty if the winding

@@ -58,7 +58,7 @@ def winding_after(lines, current, seconds, ambient=25.0, steps=4000):
 
 
 def stands(test, spot):
-    """What the winding stands takes it to its limit, by the values and by the worse ends of their ranges."""
+    """What the winding stands takes it to its limit, by the values and by the worse ends of the thermal ranges."""
     told = re.findall(r"(?:ranges \(([^)]*)\) )?the winding stays below ([\d.]+) degC with ([\d.]+) A \([^)]*\) for ever, ([\d.]+) A for 60 s, ([\d.]+) A for 10 s", spot.text)
     for ends, limit, *amperes in told:
         lines = THERMAL | {k: float(v) for k, v in re.findall(r"(\w+) = ([\d.]+)", ends) if k in THERMAL}

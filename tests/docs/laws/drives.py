@@ -134,7 +134,7 @@ def lifted(test, spot):
         loss, flow = R * current**2 * (1 + 0.00393 * (winding - 25)), (winding - housing) / to_housing
         winding += dt * (loss - flow) * to_housing / tau_w
         housing += dt * (flow - (housing - 25) / to_air + B * w * w) * to_air / tau_h
-    told, allowed = map(float, re.search(r"reached (\d+) degC, and its sheet allows (\d+)", spot.text).groups())
+    told, allowed = map(float, re.search(r"reached (\d+) degC, and the motor's sheet allows (\d+)", spot.text).groups())
     curve.same(test, spot, "rise of the winding", told - 25, winding - 25, 0.05)
     test.assertEqual(125, allowed, str(spot))
 

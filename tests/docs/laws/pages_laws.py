@@ -242,7 +242,7 @@ DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file |
 # Tables with a named test that measures every row and has its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
-                 ("docs/reference/loops.md", "| law | a step")]
+                 ("docs/reference/loops.md", "| law | a step"), ("docs/gallery/beliefs.md", "| wrong belief |")]
 
 
 NO_RESULTS = (definition, message, measured_by_a_test, default_in_range)
