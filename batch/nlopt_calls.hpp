@@ -15,6 +15,8 @@ namespace batch {
 // clang-format on
 
 struct NloptCalls {
+// A declaration cannot stand in parentheses.
+// NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define SIXSTEP_NLOPT_MEMBER(name) decltype(&nlopt_##name) name = nullptr;
   SIXSTEP_NLOPT_CALLS(SIXSTEP_NLOPT_MEMBER)
 #undef SIXSTEP_NLOPT_MEMBER

@@ -94,6 +94,7 @@ std::string figure_row(const std::string& name, const std::string& unit, const s
     return "";
   std::string html = fmt::format("<tr><th scope=\"row\">{}</th>", with_subscripts(name));
   std::vector<std::optional<double>> values;
+  values.reserve(found.size());
   for (const std::optional<Measured>& m : found) values.push_back(m ? std::optional(m->value) : std::nullopt);
   const std::vector<std::string> texts = computed_alike(values, unit);
   for (std::size_t k = 0; k < found.size(); ++k) {

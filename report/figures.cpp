@@ -127,6 +127,7 @@ std::vector<std::string> computed_alike(const std::vector<std::optional<double>>
   const Scale shared = small_fits && smallest * large.factor < least ? small : large;
   const bool apart = largest == 0.0 || largest > most * smallest;
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const std::optional<double>& x : values)
     texts.push_back(!x                            ? ""
                     : apart || !std::isfinite(*x) ? computed(*x, unit)

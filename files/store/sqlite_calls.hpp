@@ -15,6 +15,8 @@ namespace files {
 // clang-format on
 
 struct SqliteCalls {
+// A declaration cannot stand in parentheses.
+// NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define SIXSTEP_SQLITE_MEMBER(name) decltype(&sqlite3_##name) name = nullptr;
   SIXSTEP_SQLITE_CALLS(SIXSTEP_SQLITE_MEMBER)
 #undef SIXSTEP_SQLITE_MEMBER

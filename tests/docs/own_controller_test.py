@@ -131,7 +131,7 @@ class OwnControllerPage(unittest.TestCase):
         for source, kind in (("again.c", "mine.c"), ("again.cpp", "data/controllers/six_step_again.cpp")):
             shutil.copy(self.path / kind, self.path / source)
             told = self.run_program("run", "mine.toml", "--set", f"control.own.controller={source}", "--set", "control.own.number=[]", code=2).stderr
-            command = re.search(r"name the result: (.*), where FOLDER", told).group(1).replace("FOLDER", ".")
+            command = re.search(r"name the compiled file: (.*), where FOLDER", told).group(1).replace("FOLDER", ".")
             (self.path / "again.so").unlink(missing_ok=True)
             subprocess.run(command, shell=True, check=True, cwd=self.path)
             self.run_program("run", "mine.toml", "--set", "control.own.controller=again.so", "--set", "control.own.number=[]", "--quiet")
@@ -149,7 +149,7 @@ class OwnControllerPage(unittest.TestCase):
             (("--set", "control.own.controller=nowhere.so"), 2, "nowhere.so"),
             (("--set", "control.own.controller=own.toml"), 2, "is not a compiled library"),
             (("--set", "control.own.controller=short.c"), 2, "is not a compiled library"),
-            (("--set", "control.own.controller=mine.so"), 2, "is not a number of the controller"),
+            (("--set", "control.own.controller=mine.so"), 2, "is not the name of a number of the controller"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
             (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),
             (("--set", "control.limits.current_A=3"), 2, "--set control.limits.current_A: control.limits applies to the built-in loops"),

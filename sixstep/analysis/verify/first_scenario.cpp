@@ -167,7 +167,7 @@ bool runs_and_passes(const study::Scenario& s) {
 /// the motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
-  const std::string more = "a design of the motor shows the cause";
+  std::string more = "a design of the motor shows the cause";
   DesignOrder order = order_of(spec);
   order.tolerances.clear();
   TrialBudget budget{trial_periods};
