@@ -16,6 +16,12 @@ using Index = Eigen::Index;
 
 /// Largest number of trials of one search. A search from a good start needs about ten.
 constexpr int most_trials = 80;
+/// Trials of a search whose result is only the start of the next one.
+constexpr int few_trials = 12;
+
+/// Least noise of a column, as a part of its span: while the search approaches, and at its end. A recording without noise
+/// is a simulation.
+constexpr double approach_noise = 0.01, least_noise = 1e-5;
 
 class Fitting {
  public:
@@ -41,21 +47,30 @@ class Fitting {
   /// simulated rotor loses step with the recorded one after some turns, and the sum of squares has a minimum at each of
   /// them. Within a short part it has one minimum.
   base::Problems approach() {
+    solution_.u = problem_.with_frictions_of_inertia(true, solution_.u);
     for (const double part : {0.03, 0.06, 0.12, 0.25, 0.5, 1.0}) {
       problem_.use(part);
       if (problem_.cells() < 5) continue;
       for (int round = 0; round < 2; ++round)
-        if (base::Problems problems = improve(12); !problems.empty()) return problems;
+        if (base::Problems problems = improve(few_trials, approach_noise); !problems.empty()) return problems;
     }
-    return {};
+    base::Problems problems = search();
+    solution_.u = problem_.with_frictions_of_inertia(false, solution_.u);
+    return problems;
   }
 
-  /// Searches until the noise of each column fits its residuals. Then takes the derivatives and the covariance there.
-  base::Problems settle() {
-    for (int round = 0; round < 4; ++round) {
-      if (base::Problems problems = improve(most_trials); !problems.empty()) return problems;
+  /// Searches until the noise of each column fits its residuals.
+  base::Problems search() {
+    for (int round = 0; round < 15; ++round) {
+      if (base::Problems problems = improve(few_trials, least_noise); !problems.empty()) return problems;
       if (change_ < 0.05) break;
     }
+    return improve(most_trials, least_noise);
+  }
+
+  /// Searches, then takes the derivatives and the covariance at the solution.
+  base::Problems settle() {
+    if (base::Problems problems = search(); !problems.empty()) return problems;
     base::Result<Eigen::VectorXd> residuals = problem_.residuals(solution_.u);  // in the latest noise
     if (!residuals) return residuals.problems();
     solution_.residuals = std::move(*residuals);
@@ -66,7 +81,7 @@ class Fitting {
     return {};
   }
 
-  base::Problems improve(int trials) {
+  base::Problems improve(int trials, double least) {
     base::Result<FitSolution> found = solve(problem_, solution_.u, free_, trials);
     if (!found) return found.problems();
     solution_ = std::move(*found);
@@ -75,7 +90,7 @@ class Fitting {
       double& u = solution_.u[static_cast<Index>(k)];
       if (p.positive) u = std::max(u, -p.start / p.scale);
     }
-    change_ = problem_.take_noise(solution_.residuals, count());
+    change_ = problem_.take_noise(solution_.residuals, count(), least);
     return {};
   }
 
@@ -135,13 +150,13 @@ class Fitting {
     for (const FitModel& model : problem_.models()) {
       const study::Trace& log = model.bench().log;
       for (std::size_t c = 1; c < log.columns.size(); ++c, ++group) {
-        FitColumn column{model.bench().name,
-                         log.columns[c],
-                         {},
-                         {},
-                         {},
-                         problem_.noise(group),
-                         lag_correlation(problem_, solution_.residuals, group)};
+        analysis::FitColumn column{model.bench().name,
+                                   log.columns[c],
+                                   {},
+                                   {},
+                                   {},
+                                   problem_.noise(group),
+                                   lag_correlation(problem_, solution_.residuals, group)};
         for (std::size_t n = 0; n < model.cells().size(); ++n) {
           const FitCell& cell = model.cells()[n];
           if (cell.column != c) continue;

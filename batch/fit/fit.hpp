@@ -14,7 +14,7 @@
 
 #include "batch/rooms.hpp"
 #include "sixstep/analysis/for_each.hpp"
-#include "sixstep/analysis/identification/interval.hpp"
+#include "sixstep/analysis/identification/fit/fit_result.hpp"
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -39,42 +39,14 @@ struct FitRequest {
   std::function<bool()> keep_going = {};  ///< called from time to time; false ends the search
 };
 
-/// R, L, torque constant, inertia and both frictions of the motor; the offset of each column.
-std::vector<std::string> usual_free();
+/// The scenario with both frictions of its motor as keys of the sheet; a friction that the sheet does not have is 0. A fit
+/// can vary only keys that the sheet has.
+study::Scenario with_both_frictions(study::Scenario scenario);
 
-struct FittedValue {
-  std::string key;    ///< as in FitRequest::free, with the column's name
-  std::string bench;  ///< a probe's parameter: name of its recording
-  std::string unit;
-  double start = 0.0;
-  analysis::Interval value;
-  bool by_profile = false;  ///< whether the sum of squares is not parabolic within the bounds
-  bool at_zero = false;  ///< whether the best value would be negative: the value is 0, the upper bound holds
-};
+/// R, L, torque constant, inertia and both frictions of the scenario's motor; the offset of each column.
+std::vector<std::string> usual_free(const study::Scenario& scenario);
 
-/// A free parameter that the recordings do not determine. It has its starting value in the fit.
-struct Undetermined {
-  std::string key, bench, unit;
-  double value = 0.0;
-  std::string reason;     ///< "no recorded column depends on it"
-  std::string recording;  ///< a recording that would determine it; may be empty
-};
-
-struct FitColumn {
-  std::string bench;
-  study::Column column;
-  std::vector<double> t_s, recorded, model;  ///< rows of the fit; model includes gain and offset of the probe
-  double noise = 0.0;                        ///< rms of recorded less model, in the column's unit
-  double correlation = 0.0;                  ///< of one row's residual with that of the next; white noise: 0
-};
-
-struct Fit {
-  std::vector<FittedValue> values;
-  std::vector<Undetermined> undetermined;
-  std::vector<FitColumn> columns;
-  std::size_t simulations = 0;
-  bool converged = false;
-};
+using analysis::Fit;
 
 /// Problems: no free parameter, a key that cannot vary, a column that the scenario does not have, too few rows, a
 /// simulated drive that stops, keep_going() was false.

@@ -15,6 +15,9 @@ namespace {
 
 using Index = Eigen::Index;
 
+/// Growth of the sum of squares at the parabola's bound, relative to the parabola's, from which on the profile is searched.
+constexpr double most_curved = 4.0;
+
 /// Rows of one column of one bench, in the order of time.
 std::vector<Index> rows_of(const FitProblem& problem, std::size_t group) {
   std::vector<Index> rows;
@@ -141,8 +144,13 @@ FitCovariance covariance_of(const FitProblem& problem, const Eigen::MatrixXd& de
       sum += 2.0 * std::max(0.0, correlation_at(residuals, rows, lag));
     independent += static_cast<double>(rows.size()) / sum;
   }
+  Eigen::MatrixXd without_start = j;
+  without_start.bottomRows(of_start.rows()) *= 0.1;
   FitCovariance out;
   out.of_white_noise = spread_out(inverse, free);
+  out.growth_without_start = spread_out(inverse_of(without_start), free)
+                                 .diagonal()
+                                 .cwiseQuotient(out.of_white_noise.diagonal().cwiseMax(1e-300));
   out.covariance = white ? out.of_white_noise : spread_out(inverse * scores * inverse, free);
   out.degrees_of_freedom = std::max(1.0, independent - static_cast<double>(j.cols()));
   return out;
@@ -165,13 +173,19 @@ base::Result<UnknownBounds> bounds_of(FitProblem& problem, const FitSolution& so
   for (double* const bound : {&out.low, &out.high}) {
     double step = *bound - solution.u[at];
     const base::Result<Eigen::VectorXd> there = problem.residuals(solution.u + step * along);
-    if (there && std::fabs((there->squaredNorm() - least) / growth - 1.0) < 0.25) continue;
+    const double near = there ? (there->squaredNorm() - least) / growth : most_curved;
+    if (near > 1.0 / most_curved &&
+        near < most_curved) {  // nearly parabolic: the parabola through this point
+      step /= std::sqrt(std::clamp(near, 0.75, 1.25) == near ? 1.0 : near);
+      *bound = solution.u[at] + step;
+      continue;
+    }
     out.by_profile = true;
-    for (int trial = 0; trial < 6; ++trial) {
-      const base::Result<FitSolution> best = solve(problem, solution.u + step * along, others, 20);
+    for (int trial = 0; trial < 4; ++trial) {
+      const base::Result<FitSolution> best = solve(problem, solution.u + step * along, others, 8);
       if (!best && problem.stopped()) return best.problems();
-      const double grown = best ? (best->square() - least) / growth : 4.0;
-      if (std::fabs(grown - 1.0) < 0.05) break;
+      const double grown = best ? (best->square() - least) / growth : most_curved;
+      if (std::fabs(grown - 1.0) < 0.1) break;
       step *= std::clamp(1.0 / std::sqrt(std::max(grown, 0.01)), 0.3, 3.0);
     }
     *bound = solution.u[at] + step;

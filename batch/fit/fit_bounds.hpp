@@ -13,6 +13,8 @@ namespace batch {
 struct FitCovariance {
   Eigen::MatrixXd of_white_noise;  ///< for residuals that are independent from row to row
   Eigen::MatrixXd covariance;      ///< for the residuals as they are correlated
+  /// Growth of each unknown's variance if the start counts a hundredth. 1: the recordings alone determine the unknown.
+  Eigen::VectorXd growth_without_start;
   double degrees_of_freedom = 0.0;
 };
 

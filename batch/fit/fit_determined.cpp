@@ -14,6 +14,9 @@ using Index = Eigen::Index;
 /// Standard deviation of u from which on a value counts as undetermined. The start alone has 1.
 constexpr double widest = 0.5;
 
+/// Growth of the variance without the start from which on the value is rather the start's than the recordings'.
+constexpr double most_by_start = 2.0;
+
 /// A derivative below this has no effect: it moves the model by less than a thousandth of the noise of all cells together.
 constexpr double no_effect = 1e-3;
 
@@ -43,7 +46,8 @@ constexpr Hint hints[] = {
 
 bool is_determined(const FitCovariance& covariance, std::size_t k) {
   const auto at = static_cast<Index>(k);
-  return std::sqrt(covariance.covariance(at, at)) < widest;
+  return std::sqrt(covariance.covariance(at, at)) < widest &&
+         covariance.growth_without_start[at] < most_by_start;
 }
 
 std::string why_undetermined(const FitProblem& problem, const Eigen::MatrixXd& derivatives,
@@ -58,7 +62,8 @@ std::string why_undetermined(const FitProblem& problem, const Eigen::MatrixXd& d
     others += (others.empty() ? "" : ", ") + problem.parameters()[static_cast<std::size_t>(n)].key;
   }
   if (others.empty()) return "the bounds are wider than the value";
-  return "a change of it has the same effect on the recorded columns as one of " + others;
+  return "a change of it has the same effect on the recorded columns as one of " + others +
+         "; if one of them is known and fixed, the others follow";
 }
 
 std::string recording_for(const FitParameter& parameter) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/study/scenario/spread.hpp"
 
 namespace batch {
@@ -14,6 +15,7 @@ namespace batch {
 namespace {
 
 constexpr std::string_view motor_table = "motor_override.";
+constexpr std::string_view inertia_key = "motor_override.inertia_gcm2";
 
 struct ProbeWord {
   std::string_view word;
@@ -117,7 +119,7 @@ void scale_frictions(const FitRequest& request, std::vector<FitParameter>& param
   const double speed = s.supply.voltage_V / motor->K_t_Nm_A;
   for (FitParameter& p : parameters) {
     if (!p.positive || p.start > 0) continue;
-    p.scale = p.unit == "mN m" ? 1e3 * torque : p.unit == "N m" ? torque : torque / speed;
+    p.scale = p.key.ends_with("_mNm") ? 1e3 * torque : torque / speed;
   }
 }
 
@@ -128,23 +130,31 @@ double FitParameter::value(double u) const {
   return positive ? std::max(x, 0.0) : x;
 }
 
-std::vector<std::string> usual_free() {
-  return {"motor_override.resistance_ohm",
-          "motor_override.inductance_mH",
-          "motor_override.torque_constant_mNm_A",
-          "motor_override.inertia_gcm2",
-          "motor_override.viscous_friction_Nm_s",
-          "motor_override.coulomb_friction_mNm",
-          "offset"};
+study::Scenario with_both_frictions(study::Scenario scenario) {
+  design::Sheet& sheet = scenario.sheet;
+  sheet = design::in_standard_keys(std::move(sheet));
+  if (!sheet.coulomb_friction_mNm) sheet.coulomb_friction_mNm.emplace();
+  if (!sheet.viscous_friction_Nm_s) sheet.viscous_friction_Nm_s.emplace();
+  return scenario;
+}
+
+std::vector<std::string> usual_free(const study::Scenario& scenario) {
+  std::vector<std::string> out;
+  for (const char* const key :
+       {"resistance_ohm", "inductance_mH", "d_axis_inductance_mH", "q_axis_inductance_mH",
+        "torque_constant_mNm_A", "inertia_gcm2", "viscous_friction_Nm_s", "coulomb_friction_mNm"})
+    if (const std::string path = std::string(motor_table) + key; study::varying_number(scenario, path))
+      out.push_back(path);
+  out.emplace_back("offset");
+  return out;
 }
 
 base::Result<std::vector<FitParameter>> fit_parameters(const FitRequest& request) {
   std::vector<FitParameter> out;
-  const bool usual = request.free.empty();
-  for (const std::string& free : usual ? usual_free() : request.free) {
+  for (const std::string& free :
+       request.free.empty() ? usual_free(request.benches[0].scenario) : request.free) {
     if (add_probes(free, request, out)) continue;
     base::Result<FitParameter> key = of_key(free, request);
-    if (!key && usual) continue;  // a salient motor has no inductance_mH
     if (!key) return key.problems();
     out.push_back(std::move(*key));
   }
@@ -152,13 +162,24 @@ base::Result<std::vector<FitParameter>> fit_parameters(const FitRequest& request
   return out;
 }
 
+bool is_inertia(const FitParameter& parameter) { return parameter.key == inertia_key; }
+
+double inertia_factor(std::span<const FitParameter> parameters, std::span<const double> u) {
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (is_inertia(parameters[k])) return parameters[k].value(u[k]) / parameters[k].start;
+  return 1.0;
+}
+
 base::Result<study::Scenario> bench_with(const study::Scenario& scenario,
                                          std::span<const FitParameter> parameters,
                                          std::span<const double> u) {
   study::Scenario s = scenario;
+  const double inertia = inertia_factor(parameters, u);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (parameters[k].role != FitRole::key) continue;
-    base::Result<study::Scenario> next = study::strayed_to(s, parameters[k].key, parameters[k].value(u[k]));
+    const FitParameter& p = parameters[k];
+    if (p.role != FitRole::key) continue;
+    const double x = p.of_inertia ? p.value(u[k]) * inertia : p.value(u[k]);
+    base::Result<study::Scenario> next = study::strayed_to(s, p.key, x);
     if (!next) return next.problems();
     s = std::move(*next);
   }

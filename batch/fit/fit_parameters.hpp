@@ -21,15 +21,19 @@ struct FitParameter {
   std::size_t column = 0;  ///< index in the bench's log; only for offset, gain and delay
   double start = 0.0, scale = 1.0;
   bool logarithmic = false;
-  bool positive = false;  ///< a friction: its value is at least 0
+  bool positive = false;    ///< a friction: its value is at least 0
+  bool of_inertia = false;  ///< whether value() is that of the starting inertia, and grows with the inertia
 
   double value(double u) const;
-  /// Step of u for a central difference. The model is exact to 1e-12, so that truncation and rounding stay below 1e-7.
-  double step() const { return logarithmic ? 1e-4 : 1e-3; }
 };
 
 /// The parameters that request.free names.
 base::Result<std::vector<FitParameter>> fit_parameters(const FitRequest& request);
+
+bool is_inertia(const FitParameter& parameter);
+
+/// The inertia relative to its start; 1 if it is not free.
+double inertia_factor(std::span<const FitParameter> parameters, std::span<const double> u);
 
 /// The bench's scenario with the values of all keys. Problems: a value out of its key's range.
 base::Result<study::Scenario> bench_with(const study::Scenario& scenario,

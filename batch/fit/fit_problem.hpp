@@ -22,6 +22,9 @@ class FitProblem {
   std::size_t rows() const { return cells() + parameters_.size(); }
   /// Restricts the problem to the first part of each recording's time, 0 to 1.
   void use(double part);
+  /// Lets the frictions grow with the inertia, or not, and returns the same values as unknowns of that choice. Coasting
+  /// determines frictions divided by the inertia: if they grow with it, a search can change the inertia alone.
+  Eigen::VectorXd with_frictions_of_inertia(bool of_inertia, const Eigen::VectorXd& u);
   const std::vector<FitParameter>& parameters() const { return parameters_; }
   const std::vector<FitModel>& models() const { return models_; }
   /// Columns of all benches, as groups of cells with one noise each.
@@ -39,13 +42,23 @@ class FitProblem {
 
   /// Recorded less model for each cell, in the noise of its column. Problems: as FitModel::values().
   base::Result<Eigen::VectorXd> residuals(const Eigen::VectorXd& u);
-  /// Derivatives of residuals() by the free unknowns, by central differences; the columns of fixed unknowns are 0.
+  /// Derivatives of residuals() by the free unknowns, by central differences; the columns of fixed unknowns are 0. A step
+  /// moves the model by about its noise: firmware that samples makes the model rough, and a wide step averages this.
   base::Result<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& u, const std::vector<bool>& free);
-  /// Sets the noise of each column to the rms of its residuals. Returns the largest relative change.
-  double take_noise(const Eigen::VectorXd& residuals, std::size_t free);
+  /// Sets the noise of each column to the rms of its residuals, or nearer to it; at least to `least` times the column's
+  /// span. Returns the largest relative change.
+  double take_noise(const Eigen::VectorXd& residuals, std::size_t free, double least);
 
  private:
   base::Result<Eigen::VectorXd> model(const Eigen::VectorXd& u);
+  /// u with unknown k moved by `by`. If k is the inertia, the free frictions move with it: the model's difference is exactly 0
+  /// where a recording determines only their quotients.
+  Eigen::VectorXd moved(const Eigen::VectorXd& u, const std::vector<bool>& free, std::size_t k,
+                        double by) const;
+  /// Subtracts the frictions' part from the inertia's column.
+  void part_inertia(const Eigen::VectorXd& u, const std::vector<bool>& free,
+                    Eigen::MatrixXd& derivatives) const;
+  void adapt_steps(const std::vector<bool>& free, const Eigen::MatrixXd& derivatives);
 
   const FitRequest& request_;
   std::vector<FitModel> models_;
@@ -55,6 +68,7 @@ class FitProblem {
   std::vector<double> noise_;        ///< for each group
   std::vector<double> step_;         ///< for each group
   std::vector<double> span_;         ///< for each group: highest less lowest recorded value
+  std::vector<double> difference_;   ///< step of each unknown for derivatives
   Eigen::VectorXd recorded_;
   std::size_t simulations_ = 0;
   bool stopped_ = false;

@@ -9,11 +9,9 @@
 #include <numbers>
 #include <utility>
 
-#include "faces/cli/duplicate_outputs.hpp"
-#include "faces/cli/open_or_report.hpp"
+#include "faces/cli/result_files.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
@@ -102,27 +100,6 @@ base::Result<text::Recording> recording_of(const BenchArguments& a) {
   return text::read_recording(a.path, *text);
 }
 
-/// The output files. They are opened before the measurement, so that an unwritable path fails at once.
-struct BenchOutputs {
-  std::optional<files::AtomicFile> write, html, shape;
-
-  base::Problems open(const BenchArguments& a, const std::string& shape_path) {
-    base::Problems problems =
-        duplicate_outputs({{"--write", a.write}, {"--html", a.html}, {"--shape", shape_path}});
-    if (!problems.empty()) return problems;
-    if (!a.write.empty()) open_or_report(write, files::AtomicFile::create({a.write, a.force}), problems);
-    if (!a.html.empty()) open_or_report(html, files::AtomicFile::create({a.html, a.force}), problems);
-    if (!shape_path.empty())
-      open_or_report(shape, files::AtomicFile::create({shape_path, a.force}), problems);
-    return problems;
-  }
-};
-
-void put(std::optional<files::AtomicFile>& file, const std::string& text, base::Problems& problems) {
-  file->write(text);
-  append(problems, file->commit());
-}
-
 Exit identify_command(const BenchArguments& arguments) {
   BenchArguments a = arguments;
   if (const base::Problems wrong = check(a); !wrong.empty()) return refused(wrong);
@@ -132,8 +109,8 @@ Exit identify_command(const BenchArguments& arguments) {
   const base::Result<analysis::HallLog> log = text::hall_log_of(*recording, a.columns, notes);
   if (!log) return refused(of_recording(log.problems(), a.path));
   catch_interrupts();
-  BenchOutputs out;
-  base::Problems problems = out.open(a, "");
+  ResultFiles out;
+  base::Problems problems = out.open({{"--write", a.write}, {"--html", a.html}}, a.force);
   if (!problems.empty()) return refused(problems);
   const base::Result<analysis::HallIdentity> found =
       analysis::identify(*log, a.pole_pairs.value_or(1), [] { return !interrupted(); });
@@ -141,8 +118,10 @@ Exit identify_command(const BenchArguments& arguments) {
   if (!found) return refused(of_recording(found.problems(), a.path));
   tell(a, notes);
   const std::string name = file_name(a.path);
-  if (out.write) put(out.write, files::with_own_mark(a.command, text::identify_toml(name, *found)), problems);
-  if (out.html) put(out.html, report::render_identify({name, *found, a.command, SIXSTEP_VERSION}), problems);
+  if (out.has("--write"))
+    out.put("--write", files::with_own_mark(a.command, text::identify_toml(name, *found)), problems);
+  if (out.has("--html"))
+    out.put("--html", report::render_identify({name, *found, a.command, SIXSTEP_VERSION}), problems);
   if (a.json)
     print(text::identify_json(name, *found));
   else if (!a.quiet)
@@ -176,12 +155,14 @@ std::string shape_beside(const EmfArguments& a) {
 }
 
 void write_emf(const EmfArguments& a, const text::MeasuredEmf& measured, const analysis::EmfRecord& record,
-               BenchOutputs& out, base::Problems& problems) {
-  if (out.shape) put(out.shape, files::csv_head(a.command) + text::emf_shape_csv(measured), problems);
-  if (out.write)
-    put(out.write, files::with_own_mark(a.command, text::emf_motor_lines(measured, shape_beside(a))),
-        problems);
-  if (out.html) put(out.html, report::render_emf({measured, record, a.command, SIXSTEP_VERSION}), problems);
+               ResultFiles& out, base::Problems& problems) {
+  if (out.has("--shape"))
+    out.put("--shape", files::csv_head(a.command) + text::emf_shape_csv(measured), problems);
+  if (out.has("--write"))
+    out.put("--write", files::with_own_mark(a.command, text::emf_motor_lines(measured, shape_beside(a))),
+            problems);
+  if (out.has("--html"))
+    out.put("--html", report::render_emf({measured, record, a.command, SIXSTEP_VERSION}), problems);
   if (a.json)
     print(text::emf_json(measured));
   else if (!a.quiet)
@@ -204,8 +185,8 @@ Exit emf_command(const EmfArguments& arguments) {
   const base::Result<analysis::EmfRecord> record = text::emf_record_of(*recording, a.columns, notes);
   if (!record) return refused(of_recording(record.problems(), a.path));
   catch_interrupts();
-  BenchOutputs out;
-  problems = out.open(a, a.shape);
+  ResultFiles out;
+  problems = out.open({{"--write", a.write}, {"--html", a.html}, {"--shape", a.shape}}, a.force);
   if (!problems.empty()) return refused(problems);
   const std::optional<double> speed_rad_s =
       a.speed_rpm ? std::optional(*a.speed_rpm * std::numbers::pi / 30.0) : std::nullopt;

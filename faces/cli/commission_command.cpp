@@ -6,11 +6,9 @@
 #include <optional>
 
 #include "faces/cli/choose.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
-#include "faces/cli/open_or_report.hpp"
+#include "faces/cli/result_files.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "report/commission_page.hpp"
@@ -33,28 +31,11 @@ struct CommissionArguments {
   std::string command;  ///< the command that writes the files again
 };
 
-/// The output files. They are opened before the measurement, so that an unwritable path fails at once.
-struct CommissionFiles {
-  std::optional<files::AtomicFile> write, html;
-
-  base::Problems open(const CommissionArguments& a) {
-    base::Problems found = duplicate_outputs({{"--write", a.write}, {"--html", a.html}});
-    if (!found.empty()) return found;
-    if (!a.write.empty()) open_or_report(write, files::AtomicFile::create({a.write, a.force}), found);
-    if (!a.html.empty()) open_or_report(html, files::AtomicFile::create({a.html, a.force}), found);
-    return found;
-  }
-};
-
-base::Problems write(const analysis::CommissionStudy& s, const CommissionArguments& a, CommissionFiles& out) {
+base::Problems write(const analysis::CommissionStudy& s, const CommissionArguments& a, ResultFiles& out) {
   base::Problems found;
-  const auto put = [&](std::optional<files::AtomicFile>& file, const std::string& text) {
-    file->write(text);
-    const base::Problems failed = file->commit();
-    found.insert(found.end(), failed.begin(), failed.end());
-  };
-  if (out.write) put(out.write, files::with_own_mark(a.command, text::commission_toml(s)));
-  if (out.html) put(out.html, report::render_commission({s, a.command, SIXSTEP_VERSION}));
+  if (out.has("--write"))
+    out.put("--write", files::with_own_mark(a.command, text::commission_toml(s)), found);
+  if (out.has("--html")) out.put("--html", report::render_commission({s, a.command, SIXSTEP_VERSION}), found);
   return found;
 }
 
@@ -101,8 +82,10 @@ Exit commission_command(const CommissionArguments& a) {
   if (const auto bench = analysis::commission_bench(order.subject); !bench)
     return refused(told(bench.problems(), a));
   catch_interrupts();
-  CommissionFiles outputs;
-  if (const base::Problems found = outputs.open(a); !found.empty()) return refused(found);
+  ResultFiles outputs;
+  if (const base::Problems found = outputs.open({{"--write", a.write}, {"--html", a.html}}, a.force);
+      !found.empty())
+    return refused(found);
   const base::Result<analysis::CommissionStudy> s = analysis::study_commission(order);
   if (interrupted()) return told_interrupted("motor commission " + a.motor);
   if (!s) return refused(told(s.problems(), a));

@@ -10,6 +10,7 @@
 
 #include "faces/cli/bench_commands.hpp"
 #include "faces/cli/commission_command.hpp"
+#include "faces/cli/fit_command.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/terminal.hpp"
 #include "faces/cli/wiring_command.hpp"
@@ -176,9 +177,10 @@ Verb declare_motor(CLI::App& app) {
       ->type_name("WORD=CHOICE")
       ->delimiter(',');
   const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),
-             identify = declare_identify(motor), emf = declare_emf(motor);
-  return {&motor, [a, &list, &show, &check, wiring, commission, identify, emf](const std::string& command) {
-            for (const Verb& verb : {wiring, commission, identify, emf})
+             identify = declare_identify(motor), emf = declare_emf(motor), fit = declare_fit(motor);
+  return {&motor,
+          [a, &list, &show, &check, wiring, commission, identify, emf, fit](const std::string& command) {
+            for (const Verb& verb : {wiring, commission, identify, emf, fit})
               if (*verb.app) return verb.call(command);
             if (list) return list_motors(*a);
             if (show) return show_motor(*a);

@@ -14,7 +14,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
-using batch::Fit;
+using analysis::Fit;
 using batch::FitBench;
 using batch::FitRequest;
 using study::ColumnId;
@@ -84,7 +84,7 @@ DrawnFit drawn_fit(std::uint64_t seed) {
     case 1:  // with a locked rotor, so that no value hangs on one that the recordings do not determine
       add_bench(drawn, Bench::locked_pulse, sheet, draw);
       add_bench(drawn, Bench::turned, sheet, draw);
-      drawn.request.free = batch::usual_free();
+      drawn.request.free = batch::usual_free(drawn.request.benches[0].scenario);
       drawn.request.free.push_back("drift");
       break;
     case 2:
@@ -162,7 +162,7 @@ TEST(FitCalibration, BoundsHoldTheTruthAndAreAsNarrowAsTheNoiseAllows) {
     ASSERT_TRUE(found) << "seed " << seed << ": " << to_string(found.problems()[0]);
     simulations += found->simulations;
     const std::map<std::string, double> least = least_deviations(drawn, *found);
-    for (const batch::FittedValue& v : found->values) {
+    for (const analysis::FittedValue& v : found->values) {
       held.count(v.value.holds(true_value(drawn, v.key, v.bench)), static_cast<std::uint64_t>(seed));
       of_key.try_emplace(v.key, HeldOften(v.key))
           .first->second.count(v.value.holds(true_value(drawn, v.key, v.bench)),

@@ -11,9 +11,9 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
-using batch::Fit;
+using analysis::Fit;
+using analysis::FittedValue;
 using batch::FitBench;
-using batch::FittedValue;
 using study::ColumnId;
 using ::testing::HasSubstr;
 
@@ -26,7 +26,7 @@ double fitted(const Fit& fit, const std::string& key) {
   const FittedValue* const v = value_of(fit, key);
   return v ? v->value.value : NAN;
 }
-const batch::Undetermined* undetermined(const Fit& fit, const std::string& key) {
+const analysis::Undetermined* undetermined(const Fit& fit, const std::string& key) {
   for (const auto& u : fit.undetermined)
     if (u.key == key) return &u;
   return nullptr;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sixstep/analysis/identification/fit/fit_result.hpp"
+#include "sixstep/base/visitor.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/study/scenario/spread.hpp"
+
+namespace sixstep::analysis {
+
+namespace {
+
+constexpr std::string_view motor_table = "motor_override.";
+
+/// x to two digits of the half width of its bounds.
+double rounded(double x, const Interval& bounds) {
+  const double width = bounds.half_width();
+  if (!(width > 0.0)) return x;
+  const double step = std::pow(10.0, 1.0 - std::floor(std::log10(width)));
+  return std::round(x * step) / step;
+}
+
+/// Writes source and range of the fitted values into a sheet.
+class SourceWriter final : public base::Visitor {
+ public:
+  explicit SourceWriter(const Fit& fit) : fit_(fit) {
+    source_ = "fitted from ";
+    std::vector<std::string> names;
+    for (const FitColumn& column : fit.columns)
+      if (std::find(names.begin(), names.end(), column.bench) == names.end()) names.push_back(column.bench);
+    for (std::size_t n = 0; n < names.size(); ++n) source_ += (n ? ", " : "") + names[n];
+  }
+
+ private:
+  void visit_quantity(std::string_view key, const base::QuantityMember& member, const base::About&) override {
+    const auto fitted = std::find_if(fit_.values.begin(), fit_.values.end(),
+                                     [&](const FittedValue& v) { return motor_key(v) == key; });
+    base::Quantity* const quantity = quantity_in(member);
+    if (fitted == fit_.values.end() || quantity == nullptr) return;
+    quantity->value = rounded(fitted->value.value, fitted->value);
+    quantity->source = source_;
+    quantity->kind = base::Trust::measured;
+    quantity->range =
+        base::Interval{rounded(fitted->value.low, fitted->value), rounded(fitted->value.high, fitted->value)};
+    quantity->last_digit.reset();
+  }
+
+  const Fit& fit_;
+  std::string source_;
+};
+
+}  // namespace
+
+std::string_view motor_key(const FittedValue& value) {
+  const std::string_view key = value.key;
+  return key.starts_with(motor_table) ? key.substr(motor_table.size()) : std::string_view();
+}
+
+design::Sheet fitted_sheet(const study::Scenario& scenario, const Fit& fit) {
+  study::Scenario s = scenario;
+  for (const FittedValue& v : fit.values)
+    if (!motor_key(v).empty())
+      if (base::Result<study::Scenario> next = study::strayed_to(s, v.key, v.value.value))
+        s = std::move(*next);
+  SourceWriter writer(fit);
+  describe(writer, s.sheet);
+  return s.sheet;
+}
+
+}  // namespace sixstep::analysis
