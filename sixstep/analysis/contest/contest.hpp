@@ -48,7 +48,7 @@ struct Contest {
   TableColumns columns;
 };
 
-/// The contest before any run, with `drives` drives of each entry.
+/// Creates the contest with `drives` drives of each entry. No run has started.
 Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::size_t drives,
                    std::uint64_t seed, const UnitOfKey& unit_of = {});
 
@@ -59,7 +59,7 @@ double most_peak_A(const ContestBench& bench);
 /// within most_peak_A(). A larger current would be an unfair advantage.
 bool may_win(const Contest& contest, std::size_t row);
 
-/// The gauges of a run, found by their labels; NaN: the run has none.
+/// The gauges of a run, found by their labels. NaN: the run does not contain the gauge.
 GaugeValues gauges_of(const RunRecord& record);
 
 /// Stores the run of an entry's nominal drive.

@@ -37,7 +37,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
 
 base::Problems check(const CurveRequest& r) {
   base::Problems problems = check_temperatures(r);
-  // With lost magnets there is no model to check.
+  // If the magnets have lost their magnetisation, no motor model exists that could be checked.
   if (!design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC))
     for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)

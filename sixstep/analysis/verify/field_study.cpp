@@ -30,7 +30,8 @@ double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 /// Speed in rad/s at which the magnet's back-EMF equals the radius of the voltage circle.
 double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
 
-/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 if R i exceeds the circle's radius.
+/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for the speed w; i: current i_q, other symbols
+/// of model.md 7. Returns 0 if R i exceeds the circle's radius.
 double speed_for_current_rad_s(const FieldStudy& f, double i_q_A) {
   const double e = f.machine.magnet_V_s, x = f.machine.pole_pairs * f.machine.L_q_H * i_q_A,
                r = f.machine.R_ohm * i_q_A;
@@ -208,7 +209,8 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
                           "set control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
-/// Adds the lag of the estimated speed: w_n^2/(s + w_n)^2 for a tracking loop with damping 1.
+/// Adds the lag of the estimated speed. For a tracking loop with natural frequency w_n and damping 1 it is
+/// w_n^2/(s + w_n)^2.
 void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f) {
   if (!c.estimator.on) return;
   f.axes.insert(f.axes.end(), c.estimator_steps.begin(), c.estimator_steps.end());

@@ -24,7 +24,7 @@ namespace {
 using control::Mode;
 
 /// Tolerance of the straight line that predicts the speed. The line neglects commutation time and PWM ripple,
-/// some per cent. With a different duty the requirement would not be met.
+/// which change the speed by some per cent. A run with a different duty does not meet the requirement.
 constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
@@ -49,8 +49,9 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  // The commutation acts like a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere, here at
-  // the final speed. For a motor with many pole pairs this exceeds R.
+  // The commutation acts like a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere, with
+  // the electrical speed w_el at the end of the run-up and the phase inductance L_s. For a motor with many
+  // pole pairs this exceeds R.
   const auto line = [&](double duty, double ohm) {
     return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
   };
@@ -78,7 +79,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, more than the allowed 600 s",
                          "check the inertia and the torque constant of the motor's sheet"};
-  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the run-up is left when the window begins
+  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // when the window begins, exp(-9) of the change remains
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
       measure(study::MetricKind::mean, study::Signal::speed, calm, "speed at the end");
@@ -163,8 +164,8 @@ bool runs_and_passes(const study::Scenario& s) {
   return outcome && outcome->passed() && !outcome->fault;
 }
 
-/// Text of an alternative if this mode has no usable design: a bus that drives the nominal current, or else
-/// the motor without a loop.
+/// Text that offers an alternative if this mode has no usable design: a bus that drives the nominal current,
+/// or a run without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
   std::string more = "a design of the motor shows the cause";
@@ -195,8 +196,9 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
                       [](const design::Warning& w) { return w.grave; });
 }
 
-/// Sets the largest mean of the whole signal above samples at the ripple's lowest point: half of the ripple
-/// at the duty of the held rotor or, if the run needs it, at the worst duty.
+/// Sets the upper limit of the mean of the whole signal. The samples are at the ripple's lowest point, so
+/// that the limit is half of the ripple above them. The ripple is computed at the duty of the held rotor. If
+/// the run exceeds this limit, it is computed at the worst duty.
 void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   s.notes =
       "The current is sampled at the start of each period, where its ripple is lowest: with samples in the middle of "
@@ -216,11 +218,12 @@ void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   if (!runs_and_passes(s)) *mean.max = samples_most + d.ripple.worst_A / 2;
 }
 
-/// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so
-/// is the mean that it controls. Samples in the middle of a centred pulse equal the mean, but the output then
-/// acts half a period later; this sampling is therefore kept only if the run passes. If a pulse begins a dead
-/// time late, its middle is half a dead time late. The sample is then below the mean by the current's rise in
-/// this time; for a winding of small inductance the difference exceeds the requirement's band.
+/// Sets the requirement on the mean current. The controller's samples are at the lowest point of the ripple,
+/// and the controller controls their mean. Samples in the middle of a centred pulse equal the mean of the
+/// signal, but the output then acts half a period later; this sampling is therefore kept only if the run
+/// passes. If a pulse begins a dead time late, its middle is half a dead time late. The sample is then below
+/// the mean by the current's rise in this time; for a winding of small inductance the difference exceeds the
+/// requirement's band.
 void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   study::Scenario middle = s;
   const bool stands = foretell_in_middle(study.design.spec, middle);

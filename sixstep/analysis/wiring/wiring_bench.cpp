@@ -148,8 +148,8 @@ study::Scenario turned_run(const WiringBench& b, const WiringSubject& subject, c
   study::Scenario s = on_bench(b, subject, wiring);
   s.title = "Turned slowly by a dynamometer, connected as in bridge.phases and sensors.hall_lines";
   s.duration_s = b.turned_from_s + b.turned_s;
-  // A row lies in the middle of its two degrees: no row is then on a sector's edge, where the torque has two
-  // values.
+  // Each row lies in the middle of an interval of two degrees. No row is then on a sector's edge, where the
+  // torque has two values.
   constexpr double first_deg = -60 + 180.0 / turned_rows;
   s.pwm.period_s = b.turned_pwm_s;
   s.initial.angle_rad = first_deg * base::pi / 180 / b.motor.machine.pole_pairs;

@@ -224,8 +224,8 @@ constexpr double times_of_torque = 1.5;
 
 /// Chooses the default settling time: the thesis's time, or the longer limit by sensor or torque.
 void choose_settling(DriveDesign& d) {
-  if (d.spec.mode == Mode::speed)  // a move is at its limits most of the time, for any settling time of the
-                                   // loop
+  if (d.spec.mode == Mode::speed)  // not for a move, which is at its limits most of the time for any settling
+                                   // time of the loop
     d.settle_by_torque_s =
         times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.most_torque_Nm();
   if (d.spec.settle_s) return;
@@ -271,8 +271,8 @@ void add_sensing(DriveDesign& d) {
                              {.lowest = d.lowest_speed_rad_s, .highest = d.high_speed_rad_s});
 }
 
-/// Derivation for a P loop with counted edges: one step away from the setpoint it commands K_p steps per
-/// second.
+/// Derivation for a P loop with counted edges: one step away from the setpoint it commands K_p (its gain)
+/// steps per second.
 void add_steps(DriveDesign& d) {
   if (!d.spec.rotor.hall || d.loops.size() < 3) return;
   std::erase_if(d.sensing, [](const DerivationStep& s) { return s.symbol == "q" || s.symbol == "1/K_p"; });

@@ -120,7 +120,7 @@ struct Warning {
   std::string what;  ///< the warning, in one sentence
   /// Cure that trials found (analysis/verify/advice.hpp); empty if no trial helped.
   std::string cure;
-  bool grave = false;  ///< true: not safe for a motor
+  bool grave = false;  ///< true: the design is not usable
   Concern of = Concern::other;
 };
 
@@ -191,8 +191,8 @@ double settling_band(const DriveDesign& design, const LoopDesign& loop);
 double settling_band(const DriveDesign& design);
 
 /// Designs the gains for the spec. In position mode the gain is the largest gain without overshoot of the
-/// linear loop. study/ then finds the largest gain that the limits allow, and sets it with
-/// with_position_gain(). Problems name the option.
+/// linear loop. analysis/verify/position_gain.hpp then finds the largest gain that the limits allow, and sets
+/// it with with_position_gain(). Problems name the option.
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec);
 
 /// The same design with another position gain; figures and warnings are recomputed.

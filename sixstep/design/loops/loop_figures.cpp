@@ -23,7 +23,7 @@ double root(double low, double high, F f) {
   return low + (high - low) / 2.0;
 }
 
-/// Turns w T_s per sample, rad, from low to pi, evenly spaced in their logarithm.
+/// Angles w T_s per sample, rad, from low to pi, evenly spaced in their logarithm.
 std::vector<double> grid(double low, int points) {
   std::vector<double> turns(static_cast<std::size_t>(points));
   const double ratio = base::exp(base::log(base::pi / low) / (points - 1));

@@ -25,7 +25,7 @@ double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, doub
 
 double volts_per_duty(control::Chopping chopping) { return chopping == control::Chopping::hard ? 2.0 : 1.0; }
 
-// Inverts u/U = s d - (s - 1), with s = volts_per_duty().
+// Inverts u/U = s d - (s - 1), with s = volts_per_duty(); u: mean voltage, U: bus voltage, d: duty.
 double duty_for_voltage(control::Chopping chopping, double part_of_bus) {
   const double s = volts_per_duty(chopping);
   return (part_of_bus + s - 1.0) / s;
@@ -48,8 +48,8 @@ Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, cont
   return r;
 }
 
-// At d = 1/2 the ripple is (dU/R) tanh(x/4), where dU is the swing of the voltage. Therefore x = 2 ln((1 +
-// y)/(1 - y)) with y = ripple R/dU.
+// At the duty 1/2 the ripple is (dU/R) tanh(x/4), with x = R T/L and the swing dU of the voltage. Therefore x
+// = 2 ln((1 + y)/(1 - y)) with y = ripple R/dU.
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A) {
   const double y = ripple_A * 2.0 * motor.machine.R_ohm / (volts_per_duty(chopping) * bus_V);

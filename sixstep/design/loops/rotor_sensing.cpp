@@ -71,8 +71,8 @@ double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double s
 
 namespace {
 
-/// Crossover of the loop with its proportional gain only; the chip's window is computed from it too. With its
-/// integral and lags the loop crosses over at another frequency.
+/// Adds the crossover of the loop with its proportional gain only, from which the chip's window is computed.
+/// With its integral and lags the loop crosses over at another frequency.
 void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
   if (!(crossover_rad_s > 0.0)) return;
   steps.push_back(

@@ -118,9 +118,10 @@ class Scale {
   const control::DriveExtras<double>* extras_ = nullptr;
 };
 
-/// Conditions of pi_positional.hpp and derivative.hpp. The derivative's |y| is at most g times the largest
-/// step of the speed, and g/b times its largest change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e
-/// may saturate. K_i and its increments are proved with DriveConfig::speed.
+/// Conditions of pi_positional.hpp and derivative.hpp; y: output of the derivative, I: integral, e: error.
+/// |y| is at most g times the largest step of the speed, and g/b times its largest change per sample. |I| is
+/// at most limit + |y| + |K_c| |e|/K_b. K e may saturate. K_i and its increments are proved with
+/// DriveConfig::speed.
 template <class Scalar>
 bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   const control::DerivativeConfig<double>& d = extras_->speed_derivative;

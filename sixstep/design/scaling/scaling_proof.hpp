@@ -18,7 +18,8 @@ namespace sixstep::design::detail {
 template <class Scalar>
 inline constexpr double full_scale = static_cast<double>(Scalar::max());
 
-/// Four digits for messages, rounded away from the other number of a comparison.
+/// Four digits for messages. The number is rounded away from zero; at_most() rounds the compared number
+/// towards zero.
 inline std::string at_least(double x) {
   return base::written(base::shortened(x, 4, x < 0 ? base::Towards::down : base::Towards::up));
 }
@@ -32,7 +33,7 @@ struct BaseOf {
   double value = 1.0;
 };
 
-/// Full scale over base: a power of two, of which the largest number of the format is one digit less.
+/// Full scale divided by base: a power of two. The largest number of the format is one digit less.
 template <class Scalar>
 inline constexpr double scale_per_base =
     std::int64_t{1} << (control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits);
@@ -43,7 +44,7 @@ struct Proof {
   std::vector<Headroom> rows;
   base::Problems problems;
 
-  /// `room`: multiple of full scale that the place of this quantity holds.
+  /// `room`: the number of full scales up to which this quantity may grow.
   void fits(const char* name, double largest, const BaseOf& of, double room = 1.0) {
     const double base = room * of.value, end = base * full_scale<Scalar>;
     rows.push_back({name, largest, end});

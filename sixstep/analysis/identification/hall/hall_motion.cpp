@@ -18,8 +18,8 @@ constexpr double contradiction = 5.0;
 /// Largest fraction of sightings that may be excluded.
 constexpr double most_left_out = 0.05;
 
-/// Excludes in each neighbourhood the sighting with the largest contradiction. Only one is excluded, because
-/// an edge with a large error shifts its neighbours.
+/// Excludes in each neighbourhood the sighting with the largest contradiction. No other sighting is excluded,
+/// because an edge with a large error shifts its neighbours.
 void leave_out(FoundMotion& m) {
   const auto size = m.points.size();
   std::vector<std::size_t> worst;

@@ -8,7 +8,7 @@ namespace sixstep::analysis {
 struct HallOffsetEstimate {
   bool mirrored = false;  ///< the lines' order is opposite to the rotor's direction
   double mirrored_probability = 0.0;
-  int rotation = 0;    ///< the rotor's sector while the lines show sector 0; if mirrored, one more
+  int rotation = 0;    ///< the rotor's sector while the lines show sector 0; if mirrored, this sector plus 1
   FoundMotion motion;  ///< in electrical angles
   VoltageModel voltages;
   bool between_turns = false;  ///< true: enough edges lie between the rotor's reversals to find the

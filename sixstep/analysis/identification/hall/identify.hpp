@@ -34,7 +34,7 @@ struct IdentifiedEdge {
 struct IdentifiedPlace {
   PinCodes codes{};                ///< codes at the pins, in sectors 0 to 5
   double probability = 0.0;        ///< probability that all six codes are right
-  double order_probability = 0.0;  ///< probability that the lines' direction is not the opposite one
+  double order_probability = 0.0;  ///< probability that the lines' direction is right
   std::vector<HallWires> wires;    ///< all wirings with these codes, the simplest first
   bool forward = true;             ///< direction of most of the log
   /// Common offset of all edges, in the direction of positive angles. If the log has one direction only, the
@@ -57,8 +57,8 @@ struct IdentifiedPlace {
 struct EdgePassage {
   double t_s = 0.0, speed_deg_s = 0.0;  ///< electrical speed
   std::size_t edge = 0;                 ///< index in HallIdentity::edges
-  /// Distance from the edge's nominal angle, including the offset and the edge's own deviation; without
-  /// voltages, except for an unknown constant.
+  /// Distance from the edge's nominal angle, including the offset and the edge's own deviation. Without
+  /// voltages, an unknown constant is added to this distance.
   double place_deg = 0.0;
   bool left_out = false, begins = false;
 };
