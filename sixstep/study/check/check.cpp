@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds contradictions that no single value's range shows: keys that contradict each other, or that need
-// something absent.
+// Finds contradictions that no single value's range shows: keys that contradict each other, or that need an
+// absent part.
 #include "sixstep/study/check/check.hpp"
 
 #include <algorithm>

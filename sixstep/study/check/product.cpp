@@ -21,7 +21,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Requires measurements that a register shows, because the product drive reads registers only.
+/// Requires sensors whose values are in a register, because the product drive reads registers only.
 void check_registers(const Scenario& s, base::Problems& out) {
   const std::string asks =
       "has no converter, and control.drive = \"product\" reads the registers of converters and pins";

@@ -21,8 +21,8 @@ struct Tuned {
   std::vector<LoopGains> gains;
   std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
                                                                  ///< chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the sensorless drive, likewise
-  std::optional<control::FieldDriveConfig<double>> field;        ///< the field-oriented drive, likewise
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< sensorless drive around `drive`
+  std::optional<control::FieldDriveConfig<double>> field;        ///< field-oriented drive around `drive`
   rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
   control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
 };
@@ -58,8 +58,8 @@ struct Compiled {
   control::DriveConfig<double> drive;
   std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
                                                                  ///< chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the sensorless drive, likewise
-  std::optional<control::FieldDriveConfig<double>> field;        ///< the field-oriented drive, likewise
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< sensorless drive around `drive`
+  std::optional<control::FieldDriveConfig<double>> field;        ///< field-oriented drive around `drive`
   rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
   control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
   std::vector<LoopGains> gains;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives a user's own controller the data from which it designs itself.
+// Passes to a user's own controller the data for its design.
 #include "sixstep/control/own/own_controller.h"
 
 #include "sixstep/design/loops/field_current.hpp"

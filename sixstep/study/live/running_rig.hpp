@@ -24,7 +24,8 @@ void count_events(const Rig& rig, Outcome& out) {
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
-/// Writes the results of a run up to the present instant. The run may have ended there, or may continue.
+/// Writes the results of a run up to the present instant. The run may have ended at this instant, or may
+/// continue.
 template <class Rig>
 base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
   const double t_s = rig.now().seconds();

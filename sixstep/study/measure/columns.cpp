@@ -118,7 +118,7 @@ std::vector<Column> linear_columns() {
   return columns;
 }
 
-/// Whether the sensor of this column is fitted.
+/// True if the sensor of this column is fitted.
 bool fitted(ColumnId id, RotorSensing rotor) {
   if (id <= ColumnId::encoder_Z) return rotor == RotorSensing::encoder;
   if (id == ColumnId::absolute_code) return rotor == RotorSensing::absolute;

@@ -74,7 +74,7 @@ struct ChipReport {
   double latest_edge_s = 0.0;  // largest delay of a shown Hall edge
   std::string sent;            // text from the chip's serial line, in whole lines
 
-  /// Whether periods passed without a control interrupt; the last one may still be unanswered.
+  /// True if periods passed without a control interrupt; the last one may still be unanswered.
   bool overran() const { return times.periods > times.conversions + 1; }
 };
 

@@ -174,7 +174,8 @@ Series copper_loss(const Span& part) {
   return loss;
 }
 
-/// B w^2 + T_c |w|, and the loss in an elastic shaft: all torques against the motion except the load's.
+/// Friction loss B w^2 + T_c |w| (viscous friction B, dry friction T_c, speed w) and the loss in an elastic
+/// shaft: all torques against the motion except the load's.
 Series friction_loss(const Span& part) {
   const plant::View& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);

@@ -5,7 +5,7 @@
 
 namespace sixstep::study {
 
-/// Whether products of two series of this degree must be formed over half segments. Products of series up to
+/// True if products of two series of this degree must be formed over half segments. Products of series up to
 /// degree 8 are exact over the whole segment. For higher degrees, over half segments, the omitted terms are
 /// below 2^-53 of the factors' magnitudes: as in series/quadrature.hpp, term j is at most M^2 (2 x)^j/j! with
 /// 2 x <= 1/2, and (1/2)^17/17! < 2^-65.

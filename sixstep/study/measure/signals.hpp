@@ -54,7 +54,7 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
 }
 
 /// The duty in effect, negative if its source leg differs from the source leg of the positive pair of the
-/// board's sector. With armed comparators: whether the upper switch is on. With three legs: the largest
+/// board's sector. With armed comparators it is the state of the upper switch, with three legs the largest
 /// difference of two duties.
 double signed_duty(const ModulatorView& modulator, int sector);
 

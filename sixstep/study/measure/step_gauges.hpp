@@ -25,7 +25,7 @@ struct Step {
   /// it.
   std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
                                  double length) const;
-  /// Whether a value has reached `fraction` of the step.
+  /// True if a value has reached `fraction` of the step.
   bool made(double fraction, double value) const {
     return sign() * (value - *start - fraction * (level - *start)) >= 0.0;
   }

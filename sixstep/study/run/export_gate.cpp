@@ -25,7 +25,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Whether comparators on the board limit the current, so that the drive needs no converter for the currents.
+/// True if comparators on the board limit the current, so that the drive needs no converter for the currents.
 bool by_comparators(const Scenario& s) {
   const CurrentLoop& loop = s.control.current;
   return loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;

@@ -31,9 +31,9 @@ std::string sheet_contradiction(const Scenario& scenario);
 
 /// The result of a second run with a supply that cannot take current back.
 struct WithoutSink {
-  bool matters = false;  ///< the scenario's supply takes current back
-  bool holds = false;    ///< with a supply that cannot take current back, the requirements of run and stop
-                         ///< hold too
+  bool matters = false;  ///< true: the scenario's supply takes current back
+  bool holds = false;    ///< true: the requirements of run and stop also hold with a supply that cannot take
+                         ///< current back
   std::string note;      ///< what fails with such a supply; empty if nothing fails
 };
 WithoutSink without_sink(const Scenario& scenario, const design::MotorModel& motor,

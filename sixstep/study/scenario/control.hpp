@@ -40,7 +40,7 @@ struct CurrentLoop {
                                               // u/nominal bus
 };
 
-/// Whether the loop gives any key from which a PI's gains follow.
+/// True if the loop gives any key from which a PI's gains follow.
 template <class Loop>
 bool gives_gains(const Loop& loop) {
   return loop.d1 || loop.d0 || loop.kp || loop.ki || loop.ki_per_s || loop.settle_s || loop.damping;

@@ -63,7 +63,7 @@ enum class Signal : std::uint8_t {
   winding_temperature,
   housing_temperature,
   junction_temperature,
-  direct_current,  // from here on: only with a field-oriented drive
+  direct_current,  // this signal and the next ones: only with a field-oriented drive
   quadrature_current,
   direct_current_reference,
   quadrature_current_reference,

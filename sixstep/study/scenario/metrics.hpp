@@ -139,10 +139,10 @@ static_assert([] {
   return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::commutation_error_rms) + 1;
 }());
 
-/// Whether the figure is computed for each step of the reference if no level is given.
+/// True if the figure is computed for each step of the reference if no level is given.
 constexpr bool is_of_a_step(MetricKind kind) { return fact_of(kind).over == TakenOver::steps; }
 constexpr bool is_of_a_level(MetricKind kind) { return fact_of(kind).over == TakenOver::levels; }
-/// Whether the figure is a time. A time is infinite if its event never occurs.
+/// True if the figure is a time. A time is infinite if its event never occurs.
 constexpr bool is_time(MetricKind kind) { return fact_of(kind).unit == "s"; }
 
 }  // namespace sixstep::study

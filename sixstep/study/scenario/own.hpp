@@ -24,7 +24,7 @@ struct Own {
   bool operator==(const Own&) const = default;
 };
 
-/// Whether the controller commands three legs; otherwise it commands a driven pair.
+/// True if the controller commands three legs; otherwise it commands a driven pair.
 inline bool answers_legs(const Own& own) {
   return own.loaded != nullptr && own.loaded->answers == SIXSTEP_ANSWERS_LEGS;
 }

@@ -13,7 +13,7 @@ namespace sixstep::study {
 struct UsedNumber {
   const sixstep_parameter* is = nullptr;
   double value = 0.0;
-  bool preset = true;  ///< whether this is the controller's preset, because the scenario gives no value
+  bool preset = true;  ///< true: this is the controller's preset, because the scenario gives no value
 };
 
 /// All numbers in the controller's order; empty as long as the controller's file has not been loaded.

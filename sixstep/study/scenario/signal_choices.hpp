@@ -194,21 +194,21 @@ static_assert([] {
 /// Unit of a signal, as shown behind a figure.
 constexpr std::string_view unit_of(Signal signal) { return fact_of(signal).unit; }
 
-/// Whether only a field-oriented drive has the signal.
+/// True if only a field-oriented drive has the signal.
 constexpr bool is_of_field(Signal signal) { return signal >= Signal::direct_current; }
 constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
 constexpr bool is_power(Signal signal) { return fact_of(signal).kind == SignalKind::power; }
-/// Whether the signal is a product of two of the engine's series (signal_products.hpp).
+/// True if the signal is a product of two of the engine's series (signal_products.hpp).
 constexpr bool is_product(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::voltage || kind == SignalKind::emf || kind == SignalKind::power;
 }
-/// Whether the signal alternates about zero at the electrical frequency.
+/// True if the signal alternates about zero at the electrical frequency.
 constexpr bool alternates(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::phase_current || kind == SignalKind::voltage || kind == SignalKind::emf;
 }
-/// Whether the controller's samples represent the signal. False for signals that jump at the sample instants.
+/// True if the controller's samples represent the signal. False for signals that jump at the sample instants.
 constexpr bool is_known_at_samples(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return !is_power(signal) && kind != SignalKind::gate && kind != SignalKind::duty &&
