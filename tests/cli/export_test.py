@@ -22,7 +22,7 @@ class Export(ProgramTest):
         self.assertIn("using Scalar = double;", printed)
         self.assertIn("c.mode = Mode::position;", printed)
         self.assertIn("= 0x1.2p+2;", printed)  # 4.5 V/A
-        self.assertIn("2.4 rad/s per deg; given as gain_rad_s_per_deg, for at most 716.4 rad/s, the bus over K_t", printed)
+        self.assertIn("2.4 rad/s per deg; given as gain_rad_s_per_deg, for at most 716.4 rad/s, the bus voltage divided by K_t", printed)
         self.assertRegex(printed, r"// 24 V: duty 1\n")
         self.assertEqual(self.run_program("export", "header", position, *DESPITE, "--out", "d.hpp").stdout, "")
         written = (self.path / "d.hpp").read_text()

@@ -209,8 +209,7 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
-    return base::Problem{"the motor", spec.motor,
-                         "is a linear motor, and the comparison takes rotary motors only",
+    return base::Problem{"the motor", spec.motor, "is a linear motor, and only rotary motors can be compared",
                          "design each controller separately"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();

@@ -118,12 +118,12 @@ void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
 
 void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   const design::FieldMachine& m = f.machine;
-  f.axes = {{"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
-            {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
-            {"p L_d", "decoupling: voltage across the magnet over speed and i_d", c.current.d_V_s_A, "V s/A"},
-            {"p L_q", "decoupling: voltage along the magnet over speed and i_q", c.current.q_V_s_A, "V s/A"},
-            {"n T p", "angle by which the magnet turns until a command acts, over the speed", c.advance.rad_s,
-             "s"}};
+  f.axes = {
+      {"p psi", "peak of the back-EMF's fundamental per speed", m.magnet_V_s, "V s"},
+      {"K_q", "3/2 p psi, torque per i_q", torque_per_q_A(m), "N m/A"},
+      {"p L_d", "decoupling: voltage across the magnet per speed and i_d", c.current.d_V_s_A, "V s/A"},
+      {"p L_q", "decoupling: voltage along the magnet per speed and i_q", c.current.q_V_s_A, "V s/A"},
+      {"n T p", "angle by which the magnet turns until a command acts, per speed", c.advance.rad_s, "s"}};
   if (!c.current.decouples) f.axes.erase(f.axes.begin() + 2, f.axes.begin() + 4);
   if (c.per_ampere.k_per_A != 0)
     f.axes.push_back({"k", "(L_q - L_d)/(2 psi), most torque per ampere", c.per_ampere.k_per_A, "1/A"});
@@ -131,7 +131,7 @@ void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
     const design::HarmonicFigures shape = design::harmonic_figures(c.harmonic);
     f.axes.push_back({"g", "torque swing of a constant i_q, relative to its mean", shape.swing, ""});
     f.axes.push_back(
-        {"1/|g|^2", "copper loss of the shape's current, over that of a constant i_q", shape.copper, ""});
+        {"1/|g|^2", "copper loss of the shape's current, relative to a constant i_q", shape.copper, ""});
   }
   if (!(c.weakening.most_A > 0)) return;
   f.axes.push_back({"K", "weakening, per sample", c.weakening.K_A_per_V, "A/V"});
@@ -176,7 +176,7 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
   if (!loop.figures.stable || !built.stable) return warn("is unstable" + with, true);
   const double phase_deg = built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < design::least_phase_deg - 0.1)
-    warn("keeps " + base::three_digits(phase_deg) + " degrees of phase" + with + ", less than " +
+    warn("has a phase margin of " + base::three_digits(phase_deg) + " degrees" + with + ", less than " +
              base::three_digits(design::least_phase_deg),
          phase_deg < design::unusable_phase_deg);
   else if (built.sensitivity_peak > design::greatest_sensitivity)
@@ -205,7 +205,7 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
   if (asked_rad_s > base_speed_rad_s(f) && !(c.weakening.most_A > 0))
     f.warnings.push_back({"the reference is " + base::three_digits(asked_rad_s) + " rad/s, and above " +
                               base::three_digits(base_speed_rad_s(f)) +
-                              " rad/s the back-EMF alone exceeds the bus voltage",
+                              " rad/s the back-EMF exceeds the bus voltage even without a current",
                           "set control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
@@ -244,7 +244,7 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   if (s.control.drive != study::FirmwareKind::field)
     return base::Problem{"control.drive", "", "is not field-oriented", "set it to \"field-oriented\""};
   if (s.control.mode == Mode::off)
-    return base::Problem{"control.mode", "\"off\"", "leaves no loop",
+    return base::Problem{"control.mode", "\"off\"", "has no loop",
                          "set it to \"current\", \"speed\" or \"position\""};
   if (s.control.field.law == study::FieldLaw::finite_set)
     return base::Problem{"control.field.law", "\"finite-set\"", "has no gains and no linear loop",

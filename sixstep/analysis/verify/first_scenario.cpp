@@ -86,7 +86,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   s.require = {{mean, (1 - line_tolerance) * least, (1 + line_tolerance) * speed}};
   s.compare = {{mean, speed, "straight line of the sheet, with its friction"},
                {measure(study::MetricKind::maximum, study::Signal::current, 0, "peak current of the start"),
-                d * U / R, "half the voltage over the winding's resistance"}};
+                d * U / R, "half the voltage divided by the winding's resistance"}};
   return s;
 }
 
@@ -202,8 +202,7 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
 void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   s.notes =
       "The current is sampled at the start of each period, where its ripple is lowest: with samples in the middle of "
-      "centred pulses, whose answer comes half a period later, this drive does not hold its requirements. So the "
-      "upper limit of the mean allows half of the ripple.";
+      "centred pulses, whose answer comes half a period later, this drive does not meet its requirements. Therefore the upper limit of the mean allows half of the ripple.";
   study::Requirement& mean = s.require.front();
   mean.measure.sampled = false;
   mean.measure.label = "mean of the last ten periods, upper limit with half the ripple";
@@ -281,7 +280,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
       if (study->usable() && study->outcome.passed()) {
         study::Scenario s = own_scenario(spec, *study);
         if (runs_and_passes(s)) return s;
-        why = "with the values rounded for a file, the run does not hold its requirements";
+        why = "with the values rounded for a file, the run does not meet its requirements";
       }
       for (const design::Warning& w : study->warnings)
         if (w.grave) why = w.what;

@@ -269,7 +269,7 @@ void fields(Walk&& w, const control::DriveConfig<double>& d, Kept& kept) {
   }
   if (speed_runs) {
     w.part("speed", d.speed, speed, PiUse{{Base::one, Base::speed}, "per rad/s", "of full torque"});
-    w.gain({"current_at_full_torque_A", "A", "torque limit over the motor's torque per ampere"},
+    w.gain({"current_at_full_torque_A", "A", "torque limit divided by the motor's torque per ampere"},
            d.current_at_full_torque_A, current_at_full_torque_A, {Base::current, Base::one});
     w.signal({"current_limit_A", "A"}, d.current_limit_A, current_limit_A, Base::current);
     w.gain({"position_gain", "rad/s per deg"}, d.position_gain, position_gain, {Base::speed, Base::position});

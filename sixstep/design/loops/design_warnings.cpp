@@ -40,7 +40,7 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < least_phase_deg)
     out.add(Concern::delay,
-            with + loop.name + " loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
+            with + loop.name + " loop has a phase margin of " + base::three_digits(phase_deg) + " degrees" +
                 below_bound(phase_deg),
             phase_deg < unusable_phase_deg);
   else if (loop.figures.sensitivity_peak > greatest_sensitivity)
@@ -62,7 +62,7 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
   // Rounding of a settling time may cost a tenth of a degree.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
-            "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
+            "the speed loop has a phase margin of " + base::three_digits(phase_deg) + " degrees" +
                 below_bound(phase_deg) + "," + at,
             phase_deg < unusable_phase_deg);
 }
@@ -146,10 +146,10 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   if (d.spec.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
     out.add(
         Concern::braking,
-        "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) + " A" +
-            (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
+        "soft chopping cannot limit the braking current of " + base::three_digits(d.nominal_current_A) +
+            " A" + (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
             base::three_digits(d.braking_limit_rad_s) +
-            " rad/s, (i/K_t) R: above this speed the lower switches short the motor, and the current is larger");
+            " rad/s, i R_tt/K_t (i: this current, R_tt: line-to-line resistance, K_t: torque constant): above this speed the lower switches short the motor, and the current is larger");
 }
 
 /// Checks the voltage that a step needs: the first command after a step of the nominal current i is d1 i,
@@ -222,8 +222,8 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   look_at_braking(d, out);
   look_at_heat(d, out);
   if (!d.motor.left_to_a_run.empty())
-    out.add(Concern::other, "this design leaves out " + d.motor.left_to_a_run + ", which a run has", false,
-            "check it by a run of your scenario");
+    out.add(Concern::other, "this design neglects " + d.motor.left_to_a_run + ", which a run simulates",
+            false, "check it by a run of your scenario");
   return out.found;
 }
 

@@ -118,7 +118,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
       return base::Problem{
           "bandwidth_rad_s", base::written(*w.bandwidth_rad_s),
           "must be below the limit from the current loop's lag, " + base::written(1.0 / lag) + " rad/s",
-          "lower it; at a third of this limit the rule leaves 53 degrees of phase"};
+          "lower it; at a third of this limit the rule gives a phase margin of 53 degrees"};
     return by_rule("speed", "symmetrical optimum",
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
   }
@@ -257,7 +257,7 @@ void add_speed_step(DriveDesign& d, double crossover) {
                        d.speed_step_part, ""});
   d.sensing.push_back({"du", "change of the voltage: d1 dw times T_max/K_t times the current loop's d1",
                        d.speed_step_V, "V"});
-  d.sensing.push_back({"u_left", "voltage that the bus has left at w_high and half the nominal current",
+  d.sensing.push_back({"u_left", "remaining voltage of the bus at w_high and half the nominal current",
                        d.high_speed_left_V, "V"});
 }
 

@@ -179,7 +179,7 @@ struct DriveDesign {
 /// Name of nominal_current_A in messages; the name shows if the value is not from the sheet.
 inline const char* nominal_current_words(const DriveDesign& d) {
   return d.nominal_printed ? "the nominal current"
-                           : "a tenth of the stall current (the sheet names no nominal one)";
+                           : "a tenth of the stall current (the sheet names no nominal current)";
 }
 
 /// Relative band of a loop's settling time, for the linear step and for the run.

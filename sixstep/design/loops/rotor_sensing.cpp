@@ -75,8 +75,7 @@ namespace {
 /// With its integral and lags the loop crosses over at another frequency.
 void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
   if (!(crossover_rad_s > 0.0)) return;
-  steps.push_back(
-      {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
+  steps.push_back({"w_c", "d1 T_max/J, crossover of the speed loop with d1 only", crossover_rad_s, "rad/s"});
 }
 
 /// True if at this speed the speed is measured over one edge: the errors of the probes' positions then do not

@@ -54,7 +54,7 @@ struct Proof {
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
       problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
                           of.member.empty()
-                              ? "take a format with more bits before the point"
+                              ? "use a format with more bits before the point"
                               : "take a " + full_scale_words(of.member, at_least(needed / room)) +
                                     " or more, or a format with more bits before the point"});
   }
@@ -73,11 +73,11 @@ struct Proof {
     const double least = std::ldexp(1.0, (bits - 2) - control::Gain<Scalar>::most_right);
     if (std::fabs(per_unit) > most)
       problems.push_back({name, at_least(per_unit), "per unit is above " + at_most(most),
-                          "take a base of its output that is larger by a factor of " +
+                          "use a base of its output that is larger by a factor of " +
                               at_least(std::fabs(per_unit) / most) + ", or a smaller one of its input"});
     else if (per_unit != 0 && std::fabs(per_unit) < least)
       problems.push_back({name, at_most(per_unit), "per unit is below " + at_least(least),
-                          "take a base of its output that is smaller by a factor of " +
+                          "use a base of its output that is smaller by a factor of " +
                               at_least(least / std::fabs(per_unit)) + ", or 32 bits"});
     return control::Gain<Scalar>(per_unit);
   }
@@ -92,7 +92,7 @@ struct Proof {
       problems.push_back(
           {name + ".K_i", at_most(K_i_pu),
            "per unit is too small: an error of one digit has no effect below " + at_least(vanishes),
-           "take 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
+           "use 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
                at_least(vanishes / std::fabs(K_i_pu))});
     fits((name + ".limit").c_str(), c.limit, out);
     fits((name + " integral increment").c_str(), std::fabs(K_i) * largest_error, out, 14.0);

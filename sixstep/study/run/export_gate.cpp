@@ -261,7 +261,7 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
   if (scenario.sheet.kind == design::MotorKind::linear)
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
                          "is linear, and a header supports rotary motors only",
-                         "take the gains from the run's report"};
+                         "copy the gains from the run's report"};
   base::Result<Outcome> outcome = run(watching_peaks(scenario), listeners);
   if (!outcome) return outcome.problems();
   Clearance c{

@@ -100,11 +100,11 @@ inline void describe(base::Visitor& v, Heat& s) {
       "ambient_degC", s.ambient_degC,
       {.meaning = "temperature of the air around the motor", .unit = "degC", .range = between(-100, 1000)});
   v.value("winding_degC", s.winding_degC,
-          {.meaning = "temperature of the winding at the start; without it ambient_degC",
+          {.meaning = "temperature of the winding at the start. Default: ambient_degC",
            .unit = "degC",
            .range = between(-100, 1000)});
   v.value("housing_degC", s.housing_degC,
-          {.meaning = "temperature of housing and magnets at the start; without it ambient_degC",
+          {.meaning = "temperature of housing and magnets at the start. Default: ambient_degC",
            .unit = "degC",
            .range = between(-100, 1000)});
   v.value("step_s", s.step_s,

@@ -8,8 +8,9 @@ namespace sixstep::study {
 
 inline constexpr base::Choice<control::VoltageLimit> voltage_limit_choices[] = {
     {"circle", control::VoltageLimit::circle,
-     "voltage vector within the measured bus over sqrt 3; the part that weakens the field has priority"},
-    {"axes", control::VoltageLimit::axes, "each axis within half the nominal bus"},
+     "the voltage vector is limited to the measured bus voltage divided by sqrt 3; its component along the magnet, which weakens the field, has priority"},
+    {"axes", control::VoltageLimit::axes,
+     "the voltage of each axis is limited to half the nominal bus voltage"},
 };
 
 inline constexpr base::Choice<FieldAngle> field_angle_choices[] = {
@@ -87,7 +88,7 @@ inline void describe(base::Visitor& v, Field& s) {
       "harmonic_current", s.harmonic_current,
       {.meaning =
            "whether the current follows the shape of a non-sinusoidal back-EMF, so that its torque is the "
-           "same at every angle. It is the least such current, along the magnet and across it"});
+           "same at every angle. The drive uses the smallest current with this torque"});
   v.value(
       "switching_weight_A", s.switching_weight_A,
       {.meaning =

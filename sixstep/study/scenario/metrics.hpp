@@ -84,25 +84,23 @@ inline constexpr MetricFact metric_facts[] = {
      "the reference",
      TakenOf::signal, TakenOver::steps},
     {MetricKind::settling_time, "settling_time_s", "settling time of", "s",
-     "time of the last exit from level +- band |level - start|, counted from from_s; of samples: of the "
-     "first one from which on all lie inside",
+     "time of the last exit from level +- band |level - start|, counted from from_s; with sampled: time of the first sample after which all samples lie inside",
      TakenOf::signal, TakenOver::steps},
     {MetricKind::steady_error, "steady_error", "steady error of", "",
      "mean of level - signal; without level: of reference - signal at the end of each of the reference's "
      "levels, the largest by size",
      TakenOf::signal, TakenOver::levels},
     {MetricKind::largest_error, "largest_error", "largest error of", "",
-     "largest distance of the signal from level: half width of the band it keeps; without level as for "
+     "largest distance of the signal from level: half width of the band that the signal keeps; without level as for "
      "steady_error",
      TakenOf::signal, TakenOver::levels},
     {MetricKind::thd, "thd", "THD of", "1",
-     "total harmonic distortion: rms of all but mean and fundamental, over the rms of the fundamental; over "
-     "whole electrical turns, or whole periods of frequency_Hz",
+     "total harmonic distortion: rms of everything except mean and fundamental, divided by the rms of the fundamental; measured over whole electrical turns, or whole periods of frequency_Hz",
      TakenOf::fundamental},
     {MetricKind::energy, "energy_J", "energy of", "J", "energy over the window of a power or a loss",
      TakenOf::power},
     {MetricKind::efficiency, "efficiency", "efficiency", "1",
-     "energy given to load and inertia over energy taken from the bus; while braking the inverse ratio",
+     "energy given to load and inertia divided by energy taken from the bus; while braking the inverse ratio",
      TakenOf::energies},
     {MetricKind::band_excess, "band_excess_A", "excess above the band of", "A",
      "largest excess above the upper limit of the hysteresis band", TakenOf::band},

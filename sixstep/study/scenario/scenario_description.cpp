@@ -51,21 +51,20 @@ void describe(base::Visitor& v, Initial& s) {
           {.meaning = "mechanical speed at the start", .unit = "rad/s", .also = words::speed});
   v.value("angle_rad", s.angle_rad,
           {.meaning = "mechanical angle at the start", .unit = "rad", .also = words::position});
-  v.value(
-      "bus_V", s.bus_V,
-      {.meaning = "bus voltage at the start; without it supply.voltage_V", .unit = "V", .range = above(0)});
+  v.value("bus_V", s.bus_V,
+          {.meaning = "bus voltage at the start. Default: supply.voltage_V", .unit = "V", .range = above(0)});
 }
 
 void describe(base::Visitor& v, Record& s) {
   v.value("grid_s", s.grid_s,
-          {.meaning = "spacing of the recorded rows; without it pwm.period_s",
+          {.meaning = "spacing of the recorded rows. Default: pwm.period_s",
            .unit = "s",
            .range = from(shortest_period_s)});
   v.value(
       "events", s.events,
       {.meaning =
            "whether rows are recorded at every event, with both sides of each jump, instead of on the grid"});
-  v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
+  v.value("columns", s.columns, {.meaning = "columns to record, t_s always first. Default: all columns"});
 }
 
 void describe(base::Visitor& v, Spread& s) {

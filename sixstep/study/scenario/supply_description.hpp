@@ -14,9 +14,10 @@ inline void describe_battery(base::Visitor& v, Supply& s) {
   v.value("battery_charges", s.battery_charges,
           {.meaning = "relative charges of a battery at which battery_voltages_V are given, rising, 1: full",
            .range = between(0, 1)});
-  v.value(
-      "battery_voltages_V", s.battery_voltages_V,
-      {.meaning = "open-circuit voltages at battery_charges, lines between", .unit = "V", .range = above(0)});
+  v.value("battery_voltages_V", s.battery_voltages_V,
+          {.meaning = "open-circuit voltages at battery_charges, linear between the points",
+           .unit = "V",
+           .range = above(0)});
   v.value("battery_capacity_Ah", s.battery_capacity_Ah,
           {.meaning = "charge of the full battery", .unit = "A h", .range = from(0)});
   v.value(
