@@ -128,8 +128,7 @@ RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector
   if (!result) return *without_figures(base::to_string(result.problems().front()));
   std::optional<std::vector<double>> figures = figures_of(*result, *columns);
   if (!figures)
-    return *without_figures(
-        "the figures of this run, or their units, differ from those of the table's other runs");
+    return *without_figures("the figures of this run, or their units, differ from the table's other runs");
   values.end = result->fault ? RunEnd::fault : RunEnd::whole;
   if (result->fault) values.problem = base::to_string(*result->fault);
   values.remarks = result->remarks;

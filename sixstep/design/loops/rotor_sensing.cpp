@@ -115,7 +115,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
     steps.push_back(
         {"T_6",
          "(pi/8)(12/7)/w_c: six edges within this time cost at most pi/8 of phase, and the speed is "
-         "averaged over them; else over one",
+         "averaged over six edges; else over one edge",
          hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back(

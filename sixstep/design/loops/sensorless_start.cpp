@@ -135,7 +135,7 @@ std::vector<DerivationStep> steps_of(const SensorlessBasis& b, const SensorlessS
     steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
   }
   if (b.spec.comparators.followed) {
-    steps.push_back({"y_c", "offset and half the hysteresis, beside y_0", b.comparators_V(), "V"});
+    steps.push_back({"y_c", "offset and half the hysteresis, added to y_0", b.comparators_V(), "V"});
     steps.push_back(
         {"tau_c", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.comparator_lag_s, "s"});
   }

@@ -55,7 +55,7 @@ struct Proof {
       problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
                           of.member.empty()
                               ? "use a format with more bits before the point"
-                              : "take a " + full_scale_words(of.member, at_least(needed / room)) +
+                              : "use a " + full_scale_words(of.member, at_least(needed / room)) +
                                     " or more, or a format with more bits before the point"});
   }
 
@@ -74,7 +74,7 @@ struct Proof {
     if (std::fabs(per_unit) > most)
       problems.push_back({name, at_least(per_unit), "per unit is above " + at_most(most),
                           "use a base of its output that is larger by a factor of " +
-                              at_least(std::fabs(per_unit) / most) + ", or a smaller one of its input"});
+                              at_least(std::fabs(per_unit) / most) + ", or a smaller base of its input"});
     else if (per_unit != 0 && std::fabs(per_unit) < least)
       problems.push_back({name, at_most(per_unit), "per unit is below " + at_least(least),
                           "use a base of its output that is smaller by a factor of " +

@@ -75,7 +75,7 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
         q ? reader.value_of(sheet.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2", *q) : "",
         "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
             " rad/s, and no motor is above 1e5",
-        "check the unit of the inertia, then those of inductance and torque constant");
+        "check the unit of the inertia, then the units of inductance and torque constant");
   }
 }
 

@@ -158,11 +158,11 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     if (q)
       doubt(braked ? "inertia_with_brake_gcm2" : "inertia_gcm2", q,
             slow_words(linear ? "R m/K_f^2" : "R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            linear ? "check the unit of the mass, then those of force constant and resistance"
-                   : "check the unit of the inertia, then those of torque constant and resistance");
+            linear ? "check the unit of the mass, then the units of force constant and resistance"
+                   : "check the unit of the inertia, then the units of torque constant and resistance");
     else
       doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            "check the units of the rotor's dimensions, then those of torque constant and resistance");
+            "check the units of the rotor's dimensions, then the units of torque constant and resistance");
   }
 }
 

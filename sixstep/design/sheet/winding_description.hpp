@@ -69,7 +69,7 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
   v.value(
       "harmonic_orders", s.harmonic_orders,
       {.meaning =
-           "odd harmonics of the back-EMF beside the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
+           "odd harmonics of the back-EMF in addition to the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
   v.value("harmonic_sizes", s.harmonic_sizes,
           {.meaning = "amplitudes of the harmonics, relative to the sine's amplitude; cos n (theta - 60 deg)",
            .range = base::between(-1, 1)});

@@ -221,7 +221,7 @@ void check_commutation_step(const Scenario& s, base::Problems& out) {
   refuse(s.control.current.type == CurrentLoopType::deadbeat,
          "sets a duty during a commutation, which the deadbeat loop's prediction does not include", leave);
   refuse(s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on,
-         "holds the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
+         "keeps the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
          "set chopping = \"soft\" or \"complementary\"");
 }
 

@@ -63,7 +63,7 @@ base::Problems under_the_key(const Scenario& s, const base::Problems& problems) 
   base::Problems out;
   for (const base::Problem& p : problems)
     out.push_back({"control.arithmetic", "\"" + word + "\"",
-                   "cannot hold this drive: " + p.where + " = " + p.value + " " + p.limit,
+                   "cannot represent this drive: " + p.where + " = " + p.value + " " + p.limit,
                    with_keys(p.cure)});
   return out;
 }

@@ -107,7 +107,7 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor",
           in_the_field(s)
-              ? "the exact angle and speed at every instant, and a board has only those of a decoder"
+              ? "the exact angle and speed at every instant, and a board has only the values of a decoder"
               : "the exact speed and position at every instant, and a board has only Hall edges",
           in_the_field(s)
               ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"

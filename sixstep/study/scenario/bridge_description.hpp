@@ -67,7 +67,7 @@ inline void describe(base::Visitor& v, Bridge& s) {
            {.meaning = "phases of the motor at legs a, b, c of the bridge"});
   v.choice("device", s.device, device_choices, {.meaning = "kind of the six switches"});
   v.value("on_resistance_ohm", s.on_resistance_ohm,
-          {.meaning = "resistance of a switch that is on; of an IGBT beside saturation_V",
+          {.meaning = "resistance of a switch that is on; for an IGBT in addition to saturation_V",
            .unit = "ohm",
            .range = from(0)});
   v.value("saturation_V", s.saturation_V,

@@ -95,7 +95,7 @@ void describe(base::Visitor& v, Scenario& s) {
   v.value(
       "extends", s.extends,
       {.meaning =
-           "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier one. Lists of tables are appended; an empty list [] or table {} removes the inherited one"});
+           "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier file. Lists of tables are appended; an empty list [] or table {} removes the inherited list or table"});
   v.value("motor", s.motor,
           {.meaning = "motor file: a path, or a name looked up beside the scenario, in the data folder and "
                       "in the built-in list",
@@ -110,7 +110,7 @@ void describe(base::Visitor& v, Scenario& s) {
           {.meaning = "reason for which the design is not usable. A design writes it and each run prints "
                       "it; while it is present, no header is exported"});
   v.table("motor_override", s.sheet,
-          {.meaning = "single values that replace those of the motor file", .partial = true});
+          {.meaning = "values that replace single values of the motor file", .partial = true});
   v.table("believed", s.believed,
           {.meaning = "values of motor and sensor that the drive believes, instead of the true ones; its "
                       "design, its firmware and the exported header use them, and the simulated motor does "

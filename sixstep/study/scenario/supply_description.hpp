@@ -44,7 +44,7 @@ inline void describe(base::Visitor& v, Supply& s) {
   v.value("capacitance_F", s.capacitance_F,
           {.meaning = "bus capacitor behind resistance_ohm; 0: stiff bus", .unit = "F", .range = from(0)});
   v.value("sinks", s.sinks,
-          {.meaning = "whether the source takes current back; false: regeneration lifts the bus"});
+          {.meaning = "whether the source takes current back; false: regeneration raises the bus voltage"});
   v.value("inductance_H", s.inductance_H,
           {.meaning = "inductance between source and bus capacitor, in series with resistance_ohm",
            .unit = "H",
