@@ -29,8 +29,8 @@ ContestValues no_contest_values();
 struct ContestRow {
   std::optional<RunRecord> nominal{};
   ContestTrace trace{};
-  /// Lowest speed in rad/s that the nominal drive holds (lowest_speed.hpp). Empty if it does not hold the
-  /// course's low speed.
+  /// Lowest speed in rad/s that counts as held for the nominal drive (lowest_speed.hpp). Empty if the
+  /// course's low speed does not count as held.
   std::optional<double> lowest_rad_s{};
   ContestValues values = no_contest_values();  ///< figures of the nominal drive
   std::optional<ContestValues> worst{};        ///< worst over nominal and all drives; empty without drives

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor on a test bench that holds its speed, for the torque-speed curve.
+// A motor on a test bench that imposes its speed, for the torque-speed curve.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -19,11 +19,13 @@ struct Bench {
   double duty = 1.0;  ///< in [-1, 1], not 0; a negative duty drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
-  /// Called repeatedly, on any thread. If it returns false, the work ends with a Problem. May be empty.
+  /// Called repeatedly, on any thread. If it returns false, the computation ends with a Problem. May be
+  /// empty.
   std::function<bool()> keep_going{};
 };
 
-/// told_to_stop(): true if keep_going ends the work. interrupted_work(): the Problem of the ended work.
+/// told_to_stop(): true if keep_going ends the computation. interrupted_work(): the Problem of the ended
+/// computation.
 inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
 inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
 

@@ -19,7 +19,7 @@ ShapeMeans shape_means(const plant::Machine& machine);
 /// independent theta and t.
 void spread_over_angles(const design::MotorModel& motor, const Sums& sums, OperatingPoint& p);
 
-/// The torque of the same current with a held rotor; its ripple is taken at the angle of least torque.
+/// The torque of the same current with a held rotor; its ripple is computed at the angle of least torque.
 LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums);
 
 }  // namespace sixstep::analysis

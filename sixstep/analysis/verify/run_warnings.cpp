@@ -60,8 +60,8 @@ bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
-/// Names the chopping: it decides whether a small negative duty brakes with its own voltage or with the whole
-/// bus.
+/// Names the chopping: it decides whether a small negative duty brakes with the duty's voltage or with the
+/// whole bus.
 std::string in_simulation(const DesignStudy& s) {
   return "in the simulation, with " +
          std::string(base::word(study::chopping_choices, s.design.spec.chopping)) + " chopping,";

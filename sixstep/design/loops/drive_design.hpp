@@ -85,8 +85,8 @@ struct LoopDesign {
   std::optional<PolePlacement> placed;
   Transfer loop;        ///< open loop with the spec's delay and with closed inner loops
   LoopFigures figures;  ///< figures of `loop`
-  LoopFigures other;    ///< figures of the loop with the other of the board's two delays, one period longer
-                        ///< or shorter
+  LoopFigures other;    ///< figures of the loop with the board's second possible delay, one period longer or
+                        ///< shorter
   LoopFigures built;    ///< figures of `loop` with the lag of the speed sensor at the lowest speed
   StepResponse step;    ///< step of the closed loop with the sensor's lag
 };
@@ -159,7 +159,7 @@ struct DriveDesign {
   double braking_limit_rad_s = 0.0;  ///< highest speed at which soft chopping can limit the braking current
                                      ///< to the nominal current
   double commutation_limit_rad_s =
-      0.0;  ///< highest speed at which a duty can hold the nominal current's torque through a commutation
+      0.0;  ///< highest speed at which a duty can keep the nominal current constant through a commutation
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;

@@ -16,7 +16,7 @@ namespace {
 /// Ripple, A peak to peak, of a pair that switches between two voltages with the difference `swing_V`.
 double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, double period_s) {
   const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
-  // R b0 = 1 - exp(-R T/L) without cancellation; b0 is taken from pole_placement's plant with R = L = 1.
+  // R b0 = 1 - exp(-R T/L) without cancellation; b0 is computed by pole_placement's plant with R = L = 1.
   const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
   return swing_V / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
 }

@@ -85,9 +85,9 @@ double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);
 /// Back-EMF that a commutation must overcome, relative to the peak E of a phase: 2 e_staying - e_entering -
 /// e_leaving at the edge. It is 4 for a flat top of at least 120 degrees, and 3 for a sine.
 double commutation_emfs(const plant::Machine& machine);
-/// Highest speed w at which a duty can hold the staying phase's current i through a commutation:
+/// Highest speed w at which a duty can keep the staying phase's current i constant through a commutation:
 /// commutation_emfs() K_e w + 3 R_s i = U_s, with R_s of a phase (sixstep/control/commutation_step.hpp). 0 if
-/// there is no such speed.
+/// no such speed exists.
 double commutation_limit_rad_s(const MotorModel& motor, double bus_V, double current_A);
 
 }  // namespace sixstep::design

@@ -59,7 +59,7 @@ constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   return 1.0;
 }
 
-/// Member of Bases from which a field's base comes; empty if it has none.
+/// Member of Bases that contains a field's base; empty if the field has no base.
 constexpr std::string_view member_of(Base base, control::Mode mode) {
   switch (base) {
     case Base::one:

@@ -93,7 +93,7 @@ class Lines final : public base::Visitor {
       return "a second value of the torque constant, which the model reads from " + constants_.K_e_V_s->from;
     return "the other values that this line needs are missing";
   }
-  /// A no-load point determines the friction only if the point is complete and no other line gives the
+  /// A no-load point determines the friction only if the point is complete and no other line contains the
   /// friction.
   std::string why_no_point(std::string_view key) const {
     const Friction& f = constants_.friction;

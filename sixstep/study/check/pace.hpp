@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_pace() refuses numbers that are each in range but together make a drive so fast that its run would
-// take too long.
+// check_pace() refuses numbers that are each in range but together describe a drive so fast that its run
+// would take too long.
 #pragma once
 #include <string>
 

@@ -136,7 +136,7 @@ void check_braking(const Scenario& s, base::Problems& out) {
                    "lower it"});
 }
 
-/// Refuses keys that only the product drive has: the lean drive gets sector and edges directly.
+/// Refuses keys that only the product drive has: the lean drive reads sector and edges directly.
 void check_lean(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
   const auto refuse = [&out](const char* key, const std::string& value, const char* limit,

@@ -179,7 +179,8 @@ base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Co
   return {};
 }
 
-/// The user's controller gets the gains of the library's loops as an input. The loops themselves do not run.
+/// The user's controller receives the gains of the library's loops as an input. The loops themselves do not
+/// run.
 base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   if (s.control.drive != FirmwareKind::own) return {};
   auto designed = own_designed(s, basis, tuned.drive);

@@ -12,7 +12,7 @@ namespace {
 
 using control::Mode;
 
-/// The largest current reference, A, if [control.limits] gives no lower bound.
+/// The largest current reference, A, if [control.limits] contains no lower bound.
 double unlimited_current(const Scenario& s, const control::DriveConfig<double>& drive) {
   return s.control.mode == Mode::current ? std::max(drive.current_limit_A, largest_reference(s))
                                          : drive.current_limit_A;

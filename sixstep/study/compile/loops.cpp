@@ -10,8 +10,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Returns the loop's gains as given, else by pole placement. For given gains the exact design is computed as
-/// well, for comparison.
+/// Returns the loop's gains as given, else by pole placement. For given gains the exact design is also
+/// computed, for comparison.
 template <class Loop>
 base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
                                    double usual_settle_s, double period_s) {

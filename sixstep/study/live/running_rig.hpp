@@ -57,7 +57,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
 template <class Firmware, class PlantType>
 class RunningRig final : public AnyRun {
  public:
-  /// Makes the chip of a scenario: once at the start, and once in each call of take().
+  /// Creates the chip of a scenario: once at the start, and once in each call of take().
   using MakeChip = base::Result<Chip<Firmware>> (*)(const Scenario&, const Compiled&);
 
   static base::Result<std::unique_ptr<AnyRun>> made(MakeChip make_chip, const Scenario& scenario,

@@ -81,8 +81,8 @@ bool tells_apart(const Requirement& r, double samples, double whole) {
   return meets(r, samples) != meets(r, whole);
 }
 
-/// True if the figure averages the ripple out. Samples at the ripple's mean then give the whole signal's
-/// value.
+/// True if the figure averages the ripple out. Its value from samples at the ripple's mean then equals its
+/// value from the whole signal.
 bool levels_the_ripple(MetricKind metric) {
   return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
 }

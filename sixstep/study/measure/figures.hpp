@@ -90,7 +90,8 @@ std::string figure_name(const Scenario& scenario, const Measure& measure);
 /// scale, whose zero is arbitrary; else 0.
 double figure_zero(const Scenario& scenario, const Measure& measure);
 
-/// Unit of a figure in results, with its factor: a linear motor's unit replaces that of measure_choices.hpp.
+/// Unit of a figure in results, with its factor. For a linear motor its unit replaces the unit of
+/// measure_choices.hpp.
 inline base::LinearUnit unit_in(const Scenario& scenario, std::string_view unit) {
   return scenario.sheet.kind == design::MotorKind::linear ? base::in_linear(unit)
                                                           : base::LinearUnit{unit, unit, 1.0};

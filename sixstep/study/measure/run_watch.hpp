@@ -20,8 +20,8 @@ struct RunWatch {
   double winding_degC = 0.0, junction_degC = 0.0;  ///< highest temperatures so far; only with the general
                                                    ///< kernel
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
-  std::int64_t samples = 0, hidden_samples = 0;  ///< all samples of the shunt, and those in which it shows no
-                                                 ///< current
+  std::int64_t samples = 0, hidden_samples = 0;  ///< all samples of the shunt, and the samples in which it
+                                                 ///< shows no current
   bool held_a_commutation = false;               ///< true: the drive made at least one duty step
   bool held_other_duty = false;  ///< true: in or just before a duty step, the duty was below 1
   double duty_before = 0.0;      ///< the drive's last duty outside of a duty step, magnitude

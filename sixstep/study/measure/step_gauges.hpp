@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the step of a signal from `start` to `level`: when the signal reaches the level, and from when on
-// it stays there. A time is infinite if its event never occurs.
+// Measures the step of a signal from `start` to `level`: the time at which the signal reaches the level, and
+// the time from which it stays at the level. A time is infinite if its event never occurs.
 #pragma once
 #include <optional>
 

@@ -14,8 +14,9 @@
 
 namespace sixstep::study {
 
-/// A sentence if a cascade's limit allows more than the nominal current. It says how long the winding
-/// withstands the limit, by the sheet's thermal values and by the worse ends of the thermal ranges. Empty
+/// A sentence if a cascade's limit allows more than the nominal current. It contains the time for which the
+/// winding withstands the limit, by the sheet's thermal values and by the worse ends of the thermal ranges.
+/// Empty
 /// - if the winding withstands the limit without end,
 /// - if the sheet has neither a nominal current nor thermal values,
 /// - for a field-oriented drive, whose nominal current refers to a sine.

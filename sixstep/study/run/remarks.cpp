@@ -86,9 +86,9 @@ std::string on_shunt_amplifier(const Scenario& s) {
          " us the sensor shows 90 %";
 }
 
-/// Finds samples that the drive takes before the shunt shows the current. The drive computes the least duty
-/// from shunt_settle_s and the dead time only. For duties between this computed least duty and the real least
-/// duty the drive reads 0 A.
+/// Finds samples that the drive uses although the shunt does not show the current yet. The drive computes the
+/// least duty from shunt_settle_s and the dead time only. For duties between this computed least duty and the
+/// real least duty the drive reads 0 A.
 std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const double taken_duty = least_visible_duty(s);
   if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};

@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// True if the event gives the chip another configuration.
+/// True if the chip's configuration changes at the event.
 inline bool retunes(const At& at) { return at.control != AtControl{} || at.pwm != AtPwm{}; }
 
 /// The events in time order. Two events at one instant keep their order in the file.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller of a scenario. control_description.hpp says what each key means.
+// The controller of a scenario. control_description.hpp describes each key.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -72,7 +72,7 @@ struct SpeedLoop {
 /// The profile of the position loop's setpoint (control/profiled_position.hpp). Values that are not given are
 /// computed from the drive's torque and speed limits (compile/position_profile.cpp).
 struct PositionProfile {
-  bool on = false;  // false: the setpoint goes to the loop unshaped
+  bool on = false;  // false: the setpoint is not shaped
   std::optional<double> speed_rad_s, acceleration_rad_s2;
   std::optional<double> jerk_rad_s3, smoothing_s;
   bool feed_forward = true;

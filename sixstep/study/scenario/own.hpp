@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp says what each
-// key means.
+// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp describes each
+// key.
 #pragma once
 #include <string>
 #include <vector>

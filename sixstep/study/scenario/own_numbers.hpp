@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers with which a user's controller runs: those of the scenario, else the controller's presets.
+// The numbers with which a user's controller runs: the scenario's values, else the controller's presets.
 #pragma once
 #include <algorithm>
 #include <cstdint>

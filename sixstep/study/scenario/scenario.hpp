@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario as typed data: everything that one run needs, with files already resolved to numbers. Only
-// scenario_description.hpp says what each key means, with unit, range and default.
+// scenario_description.hpp describes each key, with unit, range and default.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -86,7 +86,7 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;         // 0: edges are not quantised
-  double minimum_pulse_s = 0.0;  // shorter pulses are left out, and shorter off-times become on-time
+  double minimum_pulse_s = 0.0;  // shorter pulses are omitted, and shorter off-times become on-time
 };
 
 struct Initial {

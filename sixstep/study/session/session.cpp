@@ -112,8 +112,8 @@ Instant next_change(const Instant& now, const Instant& next_tick, const Instant&
   return {tick, 0.0};
 }
 
-/// Keeps the run on the general kernel, even if the event that needed this kernel now comes after the end:
-/// adds an event with straight wires, which changes nothing.
+/// Keeps the run on the general kernel, even if the event that needed this kernel is now after the end. Adds
+/// an event with straight wires, which changes nothing.
 Scenario on_same_kernel(Scenario s, const Compiled& before) {
   if (!before.general || needs_general_plant(s)) return s;
   At straight;

@@ -19,8 +19,8 @@ namespace sixstep::study {
 
 class Session {
  public:
-  /// Opens a session at t = 0. In fixed point, the scaling [control.full_scale] holds for the whole session.
-  /// `instead` is a chip that sets the gates in the drive's place; copies of the session share it.
+  /// Opens a session at t = 0. In fixed point, the scaling [control.full_scale] applies to the whole session.
+  /// `instead` is a chip that sets the gates instead of the drive; copies of the session share it.
   static base::Result<Session> open(const Scenario& scenario, const Listeners& listeners = {},
                                     const rig::ChipPort& instead = {});
 

@@ -18,7 +18,7 @@ namespace sixstep::analysis {
 struct EmfRequest {
   EmfRecord record;
   std::optional<int> pole_pairs;
-  std::optional<double> speed_rad_s;  ///< speed of the shaft; frequency and speed give the pole pairs
+  std::optional<double> speed_rad_s;  ///< speed of the shaft; the pole pairs follow from frequency and speed
 };
 
 struct EmfHarmonic {

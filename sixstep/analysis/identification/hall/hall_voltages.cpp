@@ -215,8 +215,8 @@ double turned_into_place(VoltageModel& model) {
 
 namespace {
 
-/// Rows over a few degrees of the path. They give one common correction of the path's angle, by one
-/// Gauss-Newton step.
+/// Rows over a few degrees of the path. One Gauss-Newton step computes from them a common correction of the
+/// path's angle.
 class Window {
  public:
   bool holds(double angle_deg) const { return rows_ == 0 || std::fabs(angle_deg - begin_deg_) < longest_deg; }
