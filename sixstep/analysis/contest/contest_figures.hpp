@@ -15,7 +15,7 @@ namespace sixstep::analysis {
 enum class CoursePart : std::uint8_t { start, high, load_step, brake, slow };
 
 struct ContestGauge {
-  std::string_view label;  ///< in the scenario's [[compare]]
+  std::string_view label;  ///< name in the scenario's [[compare]]
   study::MetricKind metric;
   study::Signal signal;
   CoursePart part;

@@ -16,7 +16,7 @@ struct Bench {
   design::MotorModel motor;
   plant::Devices devices{};
   double voltage_V = 0.0;
-  double duty = 1.0;  ///< in [-1, 1], not 0; a negative duty drives backwards
+  double duty = 1.0;  ///< from -1 to 1, except 0; a negative duty drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
   /// Called repeatedly, on any thread. If it returns false, the computation ends with a Problem. May be

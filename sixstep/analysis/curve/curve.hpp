@@ -20,7 +20,7 @@ struct CurveRequest {
   design::Sheet sheet;
   Bench bench;  ///< bench with the motor at `motor_degC` (design::warmed)
   design::Temperatures motor_degC{};
-  int points = 41;  ///< from standstill to no load, both included
+  int points = 41;  ///< number of points from standstill to no load, both included
   double ambient_degC = design::sheet_degC;
 };
 

@@ -7,7 +7,7 @@
 namespace sixstep::analysis {
 
 struct NoLoad {
-  OperatingPoint point;           ///< at an imposed speed, with mean shaft torque 0
+  OperatingPoint point;           ///< the point at the imposed speed with mean shaft torque 0
   double half_width_rad_s = 0.0;  ///< quasi-periodic orbit: the torque's half width divided by the slope
   double slope_Nm_s = 0.0;        ///< slope of the shaft torque over speed at that point, negative
   double free_speed_rad_s = 0.0;  ///< mean of a free rotor

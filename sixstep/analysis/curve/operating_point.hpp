@@ -28,7 +28,7 @@ enum class Orbit : std::uint8_t { standstill, periodic, quasi_periodic };
 struct LockedRotor {
   double phase_rms_A = 0.0;                                ///< rms current of each of the two phases
   double least_torque_Nm = 0.0, greatest_torque_Nm = 0.0;  ///< least and greatest magnitude over all angles
-  double ripple_Nm = 0.0;  ///< within a PWM period, peak to peak, at the angle of least torque
+  double ripple_Nm = 0.0;  ///< torque ripple within a PWM period, peak to peak, at the angle of least torque
 };
 
 /// Mean values over the steady state. Powers are positive for a motor: supplied = copper + devices + air gap,

@@ -106,7 +106,8 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
 /// of degrees from its setpoint.
 constexpr double coarsest_step_deg = 20.0;
 
-/// Specifications to try, in this order: the usual design, then changes for motors that it does not suit.
+/// Specifications to try, in this order: the usual design, then changes for motors for which the usual design
+/// is unsuitable.
 std::vector<design::DesignSpec> candidates(const DesignOrder& order, const design::DriveDesign& usual) {
   std::vector<design::DesignSpec> all;
   if (usual.ripple.worst_A < usable_ripple * usual.nominal_current_A) all.push_back(order.spec);

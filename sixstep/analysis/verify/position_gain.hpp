@@ -12,8 +12,7 @@ namespace sixstep::analysis {
 
 struct PositionGain {
   double gain_rad_s_per_deg = 0.0;
-  double estimate =
-      0.0;  ///< gain by the closed form for braking from full speed; the search begins with this gain
+  double estimate = 0.0;    ///< gain by the closed form for braking from full speed; first tried gain
   double linear = 0.0;      ///< gain of the linear loop, the upper end of the search
   double overshoots = 0.0;  ///< the smallest tried gain that overshoots; 0 if no tried gain overshoots
   /// Largest gain for the sheet's motor. The tolerances may require a smaller gain.

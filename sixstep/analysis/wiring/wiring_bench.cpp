@@ -18,7 +18,7 @@ namespace {
 constexpr double most_periods = 3e5;
 constexpr double rows = 1500;
 
-/// Duration of the run-up in time constants: six, times three, because with half the torque the run-up takes
+/// Duration of the run-up in time constants: six, multiplied by three. With half the torque the run-up lasts
 /// three times as long (wiring_theory.hpp, mean(g^2)).
 constexpr double run_up = 18;
 /// Electrical turns of an ideal motor during the measured part of a run. Every motor that runs makes more

@@ -33,7 +33,7 @@ struct Field {
   const char* name;        ///< name of the member
   const char* unit = "";   ///< SI unit; with the base `setpoint` the unit follows from the mode
   const char* about = "";  ///< comment after the number in an exported header
-  bool always = false;     ///< shown even if it has its default value
+  bool always = false;     ///< true: the field is shown even if it has its default value
 };
 
 /// Copies every field to another floating-point number.

@@ -126,7 +126,7 @@ struct Warning {
 
 struct DriveDesign {
   DesignSpec spec;
-  MotorModel motor;  ///< with the sum of the load's and the rotor's inertia
+  MotorModel motor;  ///< its inertia is the sum of the load's and the rotor's inertia
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;
@@ -141,7 +141,7 @@ struct DriveDesign {
   double settle_by_torque_s =
       0.0;  ///< speed: 1.5 times the time that the torque limit needs to change the speed by half the lowest
             ///< speed, J w_low/(2 T_max)
-  std::vector<LoopDesign> loops;  ///< from the inside out
+  std::vector<LoopDesign> loops;  ///< all loops, from the inside out
   Ripple ripple;
   double longest_period_s =
       0.0;  ///< longest period at which the current loop has 45 degrees of phase margin with the longer

@@ -19,7 +19,7 @@ struct OperatingRange {
   double speed_rad_s = 0.0;   ///< mechanical
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
-  double setpoint = 0.0;  ///< in the unit of the mode
+  double setpoint = 0.0;  ///< largest setpoint, in the unit of the mode
   double speed_change_rad_s =
       0.0;  ///< change of the measured speed from one sample to the next; 0: any change within speed_rad_s
 };

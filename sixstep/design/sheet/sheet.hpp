@@ -48,7 +48,7 @@ struct Sheet {
   WindingConnection connection = WindingConnection::star;
   double mutual_inductance_mH = 0.0;  // delta: between two branches
   std::vector<double> phase_resistance_deviation,
-      phase_back_emf_deviation;                                        // relative deviations of a, b, c
+      phase_back_emf_deviation;  // relative deviations of phases a, b, c
   std::vector<double> cogging_orders, cogging_mNm, cogging_phase_deg;  // periods per turn of the shaft
 
   std::optional<base::Quantity> nominal_voltage_V;

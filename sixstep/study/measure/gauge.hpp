@@ -45,7 +45,7 @@ class Gauge {
   Window window_;
   bool sampled_;
   bool seen_ = false;
-  bool numbers_ = true;  ///< no value so far was infinite or NaN
+  bool numbers_ = true;  ///< true: no value so far was infinite or NaN
 };
 
 }  // namespace sixstep::study

@@ -102,7 +102,7 @@ struct Outcome {
   std::optional<ChipReport> chip;      // empty: no chip
   double simulated_s = 0.0;
   std::int64_t segments = 0;
-  std::int64_t turn_ons = 0;  // of the chopped leg, which commutation changes, or of all three upper switches
+  std::int64_t turn_ons = 0;  // of the leg that is chopped at the time, or of all three upper switches
   int chopped_switches = 1;   // number of switches that turn_ons counts
   std::uint64_t digest = 0;   // digest of every event of the trajectory (study/measure/digest.hpp)
 

@@ -24,7 +24,7 @@ struct RunWatch {
                                                  ///< shows no current
   bool held_a_commutation = false;               ///< true: the drive made at least one duty step
   bool held_other_duty = false;  ///< true: in or just before a duty step, the duty was below 1
-  double duty_before = 0.0;      ///< the drive's last duty outside of a duty step, magnitude
+  double duty_before = 0.0;      ///< magnitude of the drive's last duty outside of a duty step
   double held_rad_s = 0.0,
          held_A = 0.0;  ///< speed and current reference of the duty step at which their product was largest
 

@@ -25,7 +25,7 @@ struct SegmentView {
   plant::Gates gates{};         ///< gates of the board's legs
   int board_sector = 0;         ///< the rotor's sector according to the board
   int probe_sector = 0;         ///< sector of the motor's Hall code
-  bool ticked = false;          ///< a control sample was taken at the segment's beginning
+  bool ticked = false;          ///< true: a control sample is at the segment's beginning
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {

@@ -134,7 +134,7 @@ struct Control {
   CurrentLoop current;
   SpeedLoop speed;
   PositionLoop position;
-  std::optional<double> slew;  // of the setpoint, in the mode's unit
+  std::optional<double> slew;  // largest rate of the setpoint, in the mode's unit
   Limits limits;
   Regeneration regeneration;
   SmoothChopping smooth_chopping;

@@ -84,7 +84,7 @@ struct Measure {
   std::optional<double> tail;   // steady_error, largest_error: evaluated part at the end of each level, as a
                                 // fraction of the level's duration
   std::optional<double> frequency_Hz;  // thd: frequency of the fundamental; default: the electrical frequency
-  bool sampled = false;                // use only the controller's samples
+  bool sampled = false;                // true: only the controller's samples are evaluated
   std::string label;                   // shown instead of metric and signal
 };
 

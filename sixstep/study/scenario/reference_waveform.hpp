@@ -12,7 +12,7 @@ namespace sixstep::study {
 /// An interval from at_s to the beginning of the next interval.
 struct Stretch {
   double at_s = 0.0;
-  double value = 0.0;  ///< at at_s
+  double value = 0.0;  ///< value at at_s
   rig::Waveform waveform{};
 
   double at(double t_s) const { return waveform.after(value, t_s - at_s); }

@@ -6,7 +6,7 @@
 namespace sixstep::analysis {
 
 struct HallOffsetEstimate {
-  bool mirrored = false;  ///< the lines' order is opposite to the rotor's direction
+  bool mirrored = false;  ///< true: the lines' order is opposite to the rotor's direction
   double mirrored_probability = 0.0;
   int rotation = 0;    ///< the rotor's sector while the lines show sector 0; if mirrored, this sector plus 1
   FoundMotion motion;  ///< in electrical angles
