@@ -60,7 +60,7 @@ control::CommissioningWish wish_of(const Paces& p, double I_A) {
   return w;
 }
 
-/// Longest time in s of all phases together, including all tries of the fast turn.
+/// Largest duration of the whole test in s, including all tries of the fast turn.
 double longest_of(const control::CommissioningWish& w, const Paces& p) {
   const double spun = w.spin_up_s * std::min(1.0, 1.5 * p.half_emf_turns_s / w.fastest_turns_s) + 1.0;
   return 2.0 + 2 * w.settle_s + 10 * w.step_s + 8.0 / w.slow_turns_s + 16 * spun + w.tries * w.settle_s;

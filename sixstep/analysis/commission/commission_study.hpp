@@ -59,7 +59,7 @@ struct CommissionStudy {
   bool lines_found() const { return state.probes.verdict == control::HallSurvey::good; }
   /// Largest error of the six edges, degrees.
   double worst_edge_deg() const;
-  /// True if every value was found and is within its bounds, and the Hall table turns the motor.
+  /// True if every value was found and is within its bounds, and the Hall table turns the motor forward.
   bool holds() const;
 };
 

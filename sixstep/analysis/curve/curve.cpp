@@ -23,7 +23,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
   const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
                                                          {"winding_degC", r.motor_degC.winding_degC},
                                                          {"housing_degC", r.motor_degC.housing_degC}};
-  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's limit
+  for (const auto& [name, degC] : temperatures)  // from near absolute zero to above every winding's limit
     if (!base::between(-200, 500).holds(degC))
       problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
                           "give the temperature in degC; data sheets refer to 25"});

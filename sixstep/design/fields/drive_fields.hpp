@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the drive's configuration (control/drive.hpp) once, in the order of an exported
-// header. Each list binds all members of its struct: if a member is missing here, it does not compile.
+// header. Each list binds all members of its struct: the list does not compile if a member is missing.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/design/fields/field.hpp"
 
 namespace sixstep::design {
 
-/// True if a drive runs the loop.
+/// True if a drive runs the loop that the function's name contains.
 template <class Scalar>
 constexpr bool runs_speed(const control::DriveConfig<Scalar>& d) {
   return d.mode == control::Mode::speed || d.mode == control::Mode::position;

@@ -59,7 +59,7 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
                          milliseconds(d.lag.delay_s()) + " old";
   if (!speed.built.stable) return out.add(Concern::sensing, "the speed loop is unstable" + at, true);
   const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
-  // Rounding of a settling time may cost a tenth of a degree.
+  // Rounding of a settling time may reduce the phase margin by a tenth of a degree.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
             "the speed loop has a phase margin of " + base::three_digits(phase_deg) + " degrees" +

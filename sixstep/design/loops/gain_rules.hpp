@@ -29,8 +29,8 @@ base::Result<RuleGains> symmetrical_optimum(double J_kg_m2, double torque_max_Nm
                                             double period_s);
 double symmetrical_optimum_phase_rad(double a);
 
-/// Lag of a closed PI loop around b0/(z + a0) at low frequency, s: 1/T - 1 is then s T_s (1 + a0)/(b0 K_i).
-/// The lag includes half a period for the hold of the reference.
+/// Lag of a closed PI loop T around b0/(z + a0) at low frequency, s. At low frequency, 1/T - 1 is s T_s (1 +
+/// a0)/(b0 K_i). The lag includes half a period for the hold of the reference.
 double lag_of_loop_s(const ZohPlant& plant, const PiGains& gains, double period_s);
 
 }  // namespace sixstep::design

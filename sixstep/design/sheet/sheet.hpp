@@ -58,8 +58,7 @@ struct Sheet {
                                                                              // inductance_mH
 
   std::optional<base::Quantity>
-      saturation_current_A;  // I_sat of the flux linkage of a phase along the magnet: L_d i_d (1 - i_d/(2
-                             // I_sat))
+      saturation_current_A;  // I_sat of a phase's flux linkage along the magnet, L_d i_d (1 - i_d/(2 I_sat))
 
   // The torque constant in its printed forms. The first given form, in this order, is used.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair

@@ -53,7 +53,7 @@ sixstep_given given_of(const Scenario& s, const Basis& basis, const control::Dri
 std::vector<double> values_of(const Own& own) {
   std::vector<double> values;
   for (const UsedNumber& number : used_numbers(own)) values.push_back(number.value);
-  values.push_back(0.0);  // one entry more, so that the list is not empty even without numbers
+  values.push_back(0.0);  // an additional entry, so that the list is never empty
   return values;
 }
 

@@ -14,7 +14,7 @@ constexpr bool needs_halves(int degree) { return 2 * degree > series::max_degree
 /// The product over [from, to] of the segment; `signal` must satisfy is_product().
 Piece product_piece(const SegmentView& g, Signal signal, double from, double to);
 
-/// w_a i_a + w_b i_b + w_c i_c.
+/// The sum w_a i_a + w_b i_b + w_c i_c.
 Series weighted_current(const plant::PerLeg<double>& w, const plant::Expansion<double>& y);
 
 /// The bus current as weights of i_a, i_b, i_c.

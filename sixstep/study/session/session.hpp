@@ -37,7 +37,8 @@ class Session {
   /// Advances like advance() without reading: present() keeps its values. Reading costs as much as one or two
   /// PWM periods. A later advance() to an instant before now_s() reads the values of now_s().
   bool skip(double to_s);
-  /// Advances like advance(), and calls done(present()) once per PWM period; `true` ends the advance.
+  /// Advances like advance(), and calls done(present()) once per PWM period. If done() returns true, the
+  /// advance ends.
   template <class Done>
   bool advance_until(double to_s, Done&& done);
 

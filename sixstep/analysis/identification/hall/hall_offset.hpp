@@ -13,7 +13,7 @@ struct HallOffsetEstimate {
   VoltageModel voltages;
   bool between_turns = false;  ///< true: enough edges lie between the rotor's reversals to find the
                                ///< hysteresis
-  std::size_t at_turns = 0;    ///< edges that are excluded, because the rotor reversed beyond them
+  std::size_t at_turns = 0;    ///< number of edges that are excluded because the rotor reversed next to them
 
   /// The rotor's sector while the lines show the sector `shown`, counted as if each line were at its own pin.
   int sector_of(int shown) const {
