@@ -41,7 +41,8 @@ struct CommissionTruth {
   bool sine = true;  ///< true: the back-EMF has no harmonics; the rotor then aligns with a standing field
                      ///< exactly
   double cogging_Nm = 0.0;  ///< cogging torque: sum of the peaks of all harmonics
-  double beyond_L_H = 0.0;  ///< L_q - L_d: inductance across the magnet's axis minus that along it
+  double beyond_L_H = 0.0;  ///< L_q - L_d: inductance across the magnet's axis minus inductance along this
+                            ///< axis
 };
 
 struct CommissionBench {

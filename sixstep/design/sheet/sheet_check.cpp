@@ -125,7 +125,7 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
-/// The limit as text: "makes R J/K_t^2 440 s, and next to no motor is above 100 s".
+/// The limit as text: "makes R J/K_t^2 440 s, and almost no motor is above 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
   return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and almost no motor is above " +
          rounded(usual_s, 3) + " s";

@@ -83,7 +83,7 @@ void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveC
 }
 
 /// Converts the gains of drive.speed to the positional form. Its derivative part K T_d s/(T_f s + 1) acts on
-/// the measured speed.
+/// the measured speed; K: gain, T_d: derivative time, T_f: time constant of the filter.
 void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   const SpeedLoop& loop = s.control.speed;
   const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;

@@ -152,7 +152,7 @@ void take_harmonics(MeanShape& mean, EmfResult& out) {
 /// shape's harmonics and of the fundamental add.
 struct Doubt {
   double fundamental = 0.0;  ///< relative standard deviation
-  double shape = 0.0;        ///< standard deviation of a value of the shape, absolute
+  double shape = 0.0;        ///< absolute standard deviation of a value of the shape
   double student = 0.0;
   Interval of(double size, double figure, double shape_part) const {
     const double relative =

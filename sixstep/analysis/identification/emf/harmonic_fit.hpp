@@ -34,7 +34,8 @@ struct ChannelFit {
 
 struct HarmonicFit {
   EmfPhase phase;
-  double speed_deviation = 0.0;  ///< standard deviation of the electrical speed at the middle, rad/s
+  double speed_deviation =
+      0.0;  ///< standard deviation of the electrical speed at the recording's middle, rad/s
   double degrees_of_freedom = 0.0;
   double periods = 0.0;
   std::vector<ChannelFit> channels;
