@@ -48,7 +48,8 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
 /// caused by a wrong unit, and its simulation would need steps of nanoseconds.
 constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
 
-/// Lower bound: in no winding a current decays for minutes, and a simulation until its decay would not end.
+/// Lower bound of R/L, rad/s: no winding's current decays for minutes, and a simulation of this decay would
+/// not end.
 constexpr double slowest_winding_rad_s = 0.01;
 
 /// Checks two rates, rad/s, both with terminal values: R/L of the winding, and K_t/sqrt(L J), the oscillation

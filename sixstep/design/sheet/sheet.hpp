@@ -97,7 +97,7 @@ struct Sheet {
   std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
   std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
   std::optional<base::Quantity> max_winding_temperature_degC;
-  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; default: NdFeB
+  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; default: value of NdFeB
 };
 
 }  // namespace sixstep::design
