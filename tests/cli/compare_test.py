@@ -24,7 +24,7 @@ MADE_OF = {
     "peak current of the start": (["peak current of the start"], []),
     "error after the load step": (["largest error after the load step"], []),
     "settling after the load step": (["settling of the load step"], []),
-    "peak current of the way down": (["peak current of the way down"], []),
+    "peak current of the deceleration": (["peak current of the deceleration"], []),
     "swing of the low speed": (["swing of the low speed"], []),
     "rms torque ripple": (["torque ripple, rms"], []),
     "peak-to-peak torque ripple": (["torque ripple, peak to peak"], []),
@@ -32,7 +32,7 @@ MADE_OF = {
     "distortion of the phase current": (["distortion of a phase's current"], []),
     "copper loss": (["copper loss"], []),
     "bridge loss": (["conduction loss", "switching loss"], []),
-    "loss in all": (["copper loss", "conduction loss", "switching loss"], []),
+    "total loss": (["copper loss", "conduction loss", "switching loss"], []),
     "turn-ons of a switch": (["turn-ons of a switch"], []),
     "rms torque ripple at the low speed": (["torque ripple at the low speed, rms"], []),
 }
@@ -157,14 +157,14 @@ class Compare(ProgramTest):
             for kind in ("nominal", "worst"):
                 f = controller[kind]
                 self.assertLessEqual(f["peak current of the start"], 24 / (0.9 * R_OHM), (name, kind))
-                self.assertLessEqual(f["peak current of the way down"], 2 * 24 / (0.9 * R_OHM), (name, kind))
+                self.assertLessEqual(f["peak current of the deceleration"], 2 * 24 / (0.9 * R_OHM), (name, kind))
                 for time in ("settling after the start", "settling after the load step"):
                     self.assertTrue(f[time] == "never" or 0 <= f[time] <= course_s, (name, kind, time))
                 self.assertTrue(0 <= f["distortion of the phase current"] < 2, (name, kind))
                 self.assertTrue(0 < f["copper loss"] < 24 * 24 / (0.9 * R_OHM), (name, kind))
-                self.assertLessEqual(f["loss in all"], (f["copper loss"] + f["bridge loss"]) * (1 + 1e-12), (name, kind))
+                self.assertLessEqual(f["total loss"], (f["copper loss"] + f["bridge loss"]) * (1 + 1e-12), (name, kind))
             f = controller["nominal"]
-            self.assertAlmostEqual(f["loss in all"], f["copper loss"] + f["bridge loss"], delta=1e-12)
+            self.assertAlmostEqual(f["total loss"], f["copper loss"] + f["bridge loss"], delta=1e-12)
 
     def test_draws_a_page(self):
         page = (self.made / "c.html").read_text(encoding="utf-8")
@@ -174,7 +174,7 @@ class Compare(ProgramTest):
             self.assertRegex(page, f"<circle[^>]*/><text[^>]*>{n + 1}</text>")
         trades = page.partition('aria-label="Torque ripple against losses"')[2].partition("</svg>")[0]
         self.assertEqual(trades.count("<circle"), len(names))
-        figures = {name: (c["nominal"]["rms torque ripple"], c["nominal"]["loss in all"]) for name, c in self.controllers.items()}
+        figures = {name: (c["nominal"]["rms torque ripple"], c["nominal"]["total loss"]) for name, c in self.controllers.items()}
         front = [n for n, (r, l) in figures.items() if not any(a <= r and b <= l and (a, b) != (r, l) for a, b in figures.values())]
         self.assertEqual(trades.count('style="fill:var(--main)"'), len(front))
         least = min(figures, key=lambda n: figures[n][0])

@@ -197,7 +197,7 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
     def test_a_loop_that_is_unstable_within_the_tolerances_is_not_usable(self):
         board = str(SOURCE / "data" / "scenarios" / "firmware" / "cortex-m.toml")
         text = self.run_program("design", "--scenario", board, "--mode", "speed", "--current-settle", "0.25e-3", code=1).stdout
-        self.assertRegex(text.splitlines()[0], "^NOT USABLE: with one period of delay the current loop keeps [0-9.]+ degrees of phase, less than 20")
+        self.assertRegex(text.splitlines()[0], "^NOT USABLE: with one period of delay the current loop has a phase margin of [0-9.]+ degrees, less than 20")
         self.assertIn("- GRAVE: within the tolerances the current loop is unstable: with L -20 %", text)
         self.assertNotIn("-0 deg", text)
 

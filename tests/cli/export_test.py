@@ -22,7 +22,7 @@ class Export(ProgramTest):
         self.assertIn("using Scalar = double;", printed)
         self.assertIn("c.mode = Mode::position;", printed)
         self.assertIn("= 0x1.2p+2;", printed)  # 4.5 V/A
-        self.assertIn("2.4 rad/s per deg; given as gain_rad_s_per_deg, for at most 716.4 rad/s, the bus over K_t", printed)
+        self.assertIn("2.4 rad/s per deg; given as gain_rad_s_per_deg, for at most 716.4 rad/s, the bus voltage divided by K_t", printed)
         self.assertRegex(printed, r"// 24 V: duty 1\n")
         self.assertEqual(self.run_program("export", "header", position, *DESPITE, "--out", "d.hpp").stdout, "")
         written = (self.path / "d.hpp").read_text()
@@ -79,7 +79,7 @@ class Export(ProgramTest):
             self.assertIn(f"--namespace = {name} is not the name of a C++ namespace", told(position, "--namespace", name))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")
-        self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot hold this drive: speed.K_i = ", small)
+        self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot represent this drive: speed.K_i = ", small)
         self.assertIn("use a 32-bit format", small)
         # The ratio of such bases does not fit 16 bits, so that the message names the gain.
         self.assertIn("position_gain = ", told(position, "--arithmetic", "q15", "--set", "control.position.gain_rad_s_per_deg=1e6"))

@@ -76,7 +76,7 @@ TEST(SymmetricalOptimum, TheLagOfALoopIsItsRampError) {
 TEST(GainRules, NameWhatTheyCannotUse) {
   EXPECT_EQ(cancel_pole(R, L_H, -1.0, 0.0).problems().size(), 2u);
   EXPECT_EQ(to_string(symmetrical_optimum(1e-5, 0.78, 1e-4, 1.0, 1e-5).problems()[0]),
-            "a = 1 must be above 1; take a larger damping or a smaller bandwidth: a = 2 is the usual value");
+            "a = 1 must be above 1; use a larger damping or a smaller bandwidth: a = 2 is the usual value");
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -150,10 +150,10 @@ TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
       "check the unit of inductance and resistance\n");
   Sheet kilograms = maxon();
   kilograms.inertia_gcm2->value = 1.35e-5;
-  EXPECT_EQ(problems_of(kilograms),
-            "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and "
-            "no motor is above 1e5; check the unit of the inertia, then those of inductance and "
-            "torque constant\n");
+  EXPECT_EQ(
+      problems_of(kilograms),
+      "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and "
+      "no motor is above 1e5; check the unit of the inertia, then the units of inductance and torque constant\n");
 }
 
 TEST(MotorModel, EveryProblemIsReportedAtOnce) {

@@ -103,7 +103,7 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
   s.stall_current_A->value = 24 / 1.03 / 2;
   ends(s, "fits \"phase\"");
   s.stall_current_A->value = 24 / 1.03 * 2;
-  ends(s, "fits neither: it is U over half of the resistance");
+  ends(s, "fits neither: it is U divided by half of the resistance");
   s.stall_current_A->value = 30;
   ends(s, "30 A, fits neither");
   s = printed_251601();

@@ -105,7 +105,8 @@ TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
   EXPECT_THAT(
       text, HasSubstr("2.3301 A, a tenth of the stall current, because the sheet names no nominal current"));
   EXPECT_THAT(page, HasSubstr("a tenth of stall"));
-  EXPECT_THAT(text, HasSubstr(" A, a tenth of the stall current (the sheet names no nominal one), above "));
+  EXPECT_THAT(text,
+              HasSubstr(" A, a tenth of the stall current (the sheet names no nominal current), above "));
 }
 
 TEST(DesignPage, ShowsAMoveAndAHeldRotor) {

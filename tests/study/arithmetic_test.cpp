@@ -109,7 +109,7 @@ TEST(Arithmetic, AFullScaleThatIsTooSmallIsToldWithTheKeyThatFits) {
       if (out) return "";
       std::string text;  // the message with the largest full scale
       double most = 0.0;
-      const std::string word = "take control.full_scale.current_A of ";
+      const std::string word = "use control.full_scale.current_A of ";
       for (const base::Problem& p : out.problems())
         if (const std::size_t at = p.cure.find(word); at != std::string::npos)
           if (const double value = std::stod(p.cure.substr(at + word.size())); value > most) {

@@ -50,7 +50,7 @@ TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
     const base::Problems told = study::never_measured(s);
     EXPECT_EQ(told.empty(), amps < 0.98 * 0.195 / 33.5e-3 - 0.02) << amps;
     for (const base::Problem& p : told)
-      EXPECT_THAT(to_string(p), ::testing::HasSubstr("5.82 A, control.speed.torque_limit_Nm over K_t"));
+      EXPECT_THAT(to_string(p), ::testing::HasSubstr("5.82 A, control.speed.torque_limit_Nm divided by K_t"));
   }
   s.control.current.limit_A = 10.0;  // the torque limit is the lower limit
   s.protection.stall_current_A = 8.0;
@@ -76,13 +76,13 @@ TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   };
   using ::testing::HasSubstr;
   EXPECT_THAT(told(5.8),
-              HasSubstr("the drive's limits allow: 5.82 A, control.speed.torque_limit_Nm over K_t"));
+              HasSubstr("the drive's limits allow: 5.82 A, control.speed.torque_limit_Nm divided by K_t"));
   EXPECT_EQ(told(5.9), "");
   s.control.limits.current_A = 5.0;
   EXPECT_THAT(told(4.9), HasSubstr("5 A, control.limits.current_A"));
   EXPECT_EQ(told(5.1), "");
   s.control.limits.torque_Nm = 0.1;  // 2.99 A
-  EXPECT_THAT(told(2.9), HasSubstr("2.99 A, control.limits.torque_Nm over K_t"));
+  EXPECT_THAT(told(2.9), HasSubstr("2.99 A, control.limits.torque_Nm divided by K_t"));
   EXPECT_EQ(told(3.1), "");
 }
 
@@ -209,7 +209,8 @@ TEST(ExportProtection, AChecksMissingLineIsNamed) {
   EXPECT_THAT(
       told(),
       HasSubstr("for protection.stall_s = 60 s: the motor file has no thermal_time_constant_winding_s"));
-  EXPECT_THAT(told(), HasSubstr("withstands 5.82 A, control.speed.torque_limit_Nm over K_t, continuously"));
+  EXPECT_THAT(told(),
+              HasSubstr("withstands 5.82 A, control.speed.torque_limit_Nm divided by K_t, continuously"));
 }
 
 TEST(ExportProtection, AnOverSpeedThatNothingReachesStandsAgainstIt) {

@@ -22,21 +22,21 @@ using study::ColumnId;
 
 constexpr ColumnId phase_currents[] = {ColumnId::i_a, ColumnId::i_b, ColumnId::i_c};
 
-/// The multisine's lines lie between 1/30 of the crossover and 30 times the crossover, but at most at four
-/// fifths of half the sampling rate.
+/// The multisine's lines lie between 1/30 of the crossover and 30 times the crossover. The highest line is at
+/// most 0.8 of half the sampling rate.
 constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rate = 0.8;
-/// Samples in a period of the multisine.
+/// Number of samples in a period of the multisine: least, greatest and default.
 constexpr double fewest_samples = 64, most_samples = 262144, usual_samples = 4096;
 
-/// The scenario with the settings that its events have set until the end.
+/// The scenario with the settings that are valid after all of its events.
 study::Scenario as_at_the_end(const study::Scenario& s) {
   const std::vector<const study::At*> events = study::in_order(s);
   return study::settled(s, events.empty() ? nullptr : events.back());
 }
 
-/// Returns a problem for a reference that never rests. A reference that moves until the run's end has its
-/// final value at this instant. The remaining error of the drive then decays in the multisine's first period,
-/// as after a step.
+/// Returns a problem if the reference is still not constant after the run's end. A reference that becomes
+/// constant exactly at the run's end is allowed: the drive's remaining error decays in the multisine's first
+/// period, as after a step.
 base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
@@ -95,7 +95,8 @@ double controlled(const study::FullRow& row, const BodeStudy& b) {
   return field ? i_q_of(row, b.pole_pairs) : at(ColumnId::i_m);
 }
 
-/// The multisine's period and lines: around the loop's crossover if it is known.
+/// Chooses the multisine's period and lines. The lines lie around the loop's crossover if the crossover is
+/// known.
 Multisine multisine_for(const std::optional<design::LoopFigures>& figures, double period_s,
                         std::size_t lines) {
   Multisine signal;
@@ -112,7 +113,7 @@ Multisine multisine_for(const std::optional<design::LoopFigures>& figures, doubl
 }
 
 /// The event that adds the multisine to the reference after the end of the run. Its values change in the
-/// middle between two samples; each sample therefore reads an unambiguous value.
+/// middle between two samples, so that no sample coincides with a change.
 study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   study::Reference r;
   r.shape = study::Shape::csv;
@@ -128,7 +129,7 @@ study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   return at;
 }
 
-/// The scenario with the multisine after its end, without requirements and comparisons.
+/// The scenario, extended by the multisine, without requirements and comparisons.
 study::Scenario with_multisine(const study::Scenario& s, const BodeStudy& b, std::size_t periods) {
   study::Scenario out = s;
   out.require.clear();
@@ -169,9 +170,9 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
   return output;
 }
 
-/// Returns a problem if the drive drifts. A linear drift is the same in each period: the periods do not
-/// differ, but the drift adds to the response at the lines. A drift per period of w times the amplitude adds
-/// about w/line of the multisine's line to the response.
+/// Returns a problem if the controlled value drifts. A linear drift adds the same error to each period, so
+/// that the periods do not differ. At line n of the multisine, a drift of x times the amplitude per period
+/// changes the response by about x/n of the line's amplitude.
 base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output, double duration_s) {
   constexpr double most_way = 0.05;
   const std::size_t N = b.signal.samples, periods = output.size() / N;
@@ -199,7 +200,8 @@ double amplitude_of(const BodeOrder& order, double stands_at) {
   return order.amplitude.value_or(std::fabs(stands_at) / 20);
 }
 
-/// Sets operating point and signal, and computes the linear loop there, without a run.
+/// Sets the operating point and the multisine, and computes the linear loop at this point. No simulation
+/// runs.
 base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& order) {
   const std::vector<study::Stretch> waveform = study::reference_waveform(s);
   const study::Scenario& last = b.at_end;

@@ -20,8 +20,8 @@ struct BodeOrder {
   /// Amplitude of the multisine, in the mode's unit; empty: a twentieth of the reference's final value.
   std::optional<double> amplitude;
   std::size_t lines = 32;
-  std::size_t periods = 6;                       ///< evaluated periods, after one for the transient
-  std::function<bool(double t_s)> keep_going{};  ///< false ends the run early, which is then a Problem
+  std::size_t periods = 6;                       ///< evaluated periods; the transient's period precedes them
+  std::function<bool(double t_s)> keep_going{};  ///< returns false: the run ends early with a Problem
 };
 
 struct BodeStudy {
@@ -29,8 +29,8 @@ struct BodeStudy {
   study::Scenario at_end;    ///< the scenario with the settings that the events have set until the end
   control::Mode mode = control::Mode::current;
   double stands_at = 0.0,
-         amplitude = 0.0;                ///< values of the operating point and of the multisine, in the
-                                         ///< mode's unit
+         amplitude = 0.0;                ///< final value of the reference, and amplitude of the multisine, in
+                                         ///< the mode's unit
   double begin_s = 0.0, period_s = 0.0;  ///< start of the multisine; control period
   double pole_pairs = 1.0;
   Multisine signal;
@@ -48,16 +48,16 @@ struct BodeStudy {
   std::optional<design::LoopFigures> figures;  ///< figures of `designed`, lag included
 
   /// Phase of the designed L at each point, unwrapped over all points. Each measured phase is shifted by
-  /// whole turns to be nearest to it.
+  /// whole turns to be nearest to the designed phase.
   std::vector<double> designed_phase_rad;
 
   /// The designed L at a frequency, including the sensor's lag; empty if `designed` is empty.
   std::optional<design::Complex> designed_at(double w_rad_s) const;
 };
 
-/// Problems of the scenario, and of
+/// Returns the Problems of the scenario, and a Problem for
 /// - a mode without a loop,
-/// - a reference that does not rest at the end,
+/// - a reference that is not constant at the end,
 /// - a setpoint with a slew limit,
 /// - a run that ends early,
 /// - a drive that has not settled.

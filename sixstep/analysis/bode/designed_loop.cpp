@@ -34,7 +34,7 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
 }
 
 /// The reason why the linear loop with half a period more delay does not describe samples in the middle of a
-/// period. Empty if it describes them.
+/// period. Empty if the linear loop describes them.
 std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bool predicts) {
   if (predicts) return "a current that is predicted from the middle of a period is not in the linear model";
   if (s.pwm.alignment == study::Alignment::edge && !c.field)
@@ -60,7 +60,7 @@ design::Transfer speed_loop(const design::DriveLoops& loops, const control::Driv
   return open_speed_loop(loops);
 }
 
-/// Lag of the speed from the scenario's sensor; empty: none.
+/// Lag of the measured speed by the scenario's sensor. Empty: no lag.
 std::optional<design::SpeedLag> lag_of(const study::Scenario& s, const design::DriveLoops& loops,
                                        double speed_rad_s) {
   const design::RotorSensing sensing = rotor_sensing_of(s);
@@ -85,7 +85,7 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
     return out;
   }
   const design::DriveLoops loops = loops_of(s, c);
-  if (s.control.mode == Mode::current)  // a decoupled axis has the loop of a locked rotor
+  if (s.control.mode == Mode::current)  // a decoupled axis has the same loop as a locked rotor
     out.loop = s.load.locked || c.field ? open_current_loop(loops) : open_current_loop_turning(loops);
   else
     out.loop = s.control.mode == Mode::speed ? speed_loop(loops, drive) : open_position_loop(loops);

@@ -42,8 +42,8 @@ struct ReadMargins {
 };
 ReadMargins margins_of(const std::vector<LoopPoint>& points);
 
-/// Limit for an answered line: with a lower coherence, too much of the response has another source than the
-/// multisine.
+/// Least coherence of a line to which the loop responded. Below it, too much of the response has another
+/// source than the multisine.
 inline constexpr double little_coherence = 0.9;
 /// True if the loop responded at any line; otherwise no margin is computed.
 bool answered(const std::vector<LoopPoint>& points);

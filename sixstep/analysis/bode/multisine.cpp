@@ -23,7 +23,7 @@ std::vector<Complex> roots_of_one(std::size_t count) {
   return roots;
 }
 
-/// Amplitude and phase of a line: 2/N sum y[n] exp(-j 2 pi line n/N).
+/// Amplitude and phase of a line: 2/N sum y[n] exp(-j 2 pi line n/N), with N samples y[n].
 Complex at_line(const std::vector<Complex>& roots, const double* y, std::size_t line) {
   Complex sum{};
   for (std::size_t n = 0, turn = 0; n < roots.size(); ++n, turn = (turn + line) % roots.size())

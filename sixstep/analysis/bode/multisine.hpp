@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes a signal with all its power at chosen frequencies, and a system's response at these frequencies.
-// The response is exact because every period is whole.
+// The response has no leakage, because only whole periods are evaluated.
 //
 //   r[n] = A/peak sum_k cos(2 pi l_k n/N + phi_k),    phi_k = -pi k (k - 1)/K
 //

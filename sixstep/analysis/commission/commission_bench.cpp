@@ -46,7 +46,7 @@ Paces paces_of(const design::MotorModel& m, double flux_Vs, double R_ohm, double
           .half_emf_turns_s = R_ohm * I_A / (2 * flux_Vs) / base::turn_rad};
 }
 
-/// Settings of the test that fit these time scales, and are never shorter than the usual settings.
+/// Settings of the test for these time scales. No duration is shorter than its default.
 control::CommissioningWish wish_of(const Paces& p, double I_A) {
   control::CommissioningWish w;
   w.test_A = I_A;
@@ -60,7 +60,7 @@ control::CommissioningWish wish_of(const Paces& p, double I_A) {
   return w;
 }
 
-/// Longest time in s of all phases together, including all tries of the fast turn.
+/// Largest duration of the whole test in s, including all tries of the fast turn.
 double longest_of(const control::CommissioningWish& w, const Paces& p) {
   const double spun = w.spin_up_s * std::min(1.0, 1.5 * p.half_emf_turns_s / w.fastest_turns_s) + 1.0;
   return 2.0 + 2 * w.settle_s + 10 * w.step_s + 8.0 / w.slow_turns_s + 16 * spun + w.tries * w.settle_s;
@@ -132,8 +132,9 @@ base::Result<double> voltage_of(const CommissionSubject& subject, const design::
   return V;
 }
 
-/// Largest current at which a salient rotor stays aligned with the field. At the current I with (L_q - L_d) I
-/// = psi the reluctance torque exceeds the magnet's torque; the result is a third of I.
+/// Largest current at which a salient rotor stays aligned with the field: a third of I with (L_q - L_d) I =
+/// psi. At I, the reluctance torque exceeds the magnet's torque. L_d, L_q: inductances along and across the
+/// magnet's axis; psi: flux linkage.
 double salient_most_A(const study::GeneralPlant& plant) {
   const CommissionTruth t = truth_of(plant, 0.0);
   return t.beyond_L_H > 0.0 ? t.flux_linkage_Vs / t.beyond_L_H / 3 : HUGE_VAL;
@@ -144,10 +145,10 @@ struct TestCurrentFrom {
   TestCurrent from = TestCurrent::asked_for;
 };
 
-/// The test current: twice the nominal current, which a motor withstands for seconds, or half of the largest
-/// current that the bus can drive, if half of it is smaller. With a smaller current, the voltage of dead time
-/// and diodes would be a large part of the vector. Along a phase the vector reaches half of the bus
-/// (field_vector.hpp); a tenth of this half is reserved for dead time and diodes.
+/// The test current: twice the nominal current, which a motor withstands for seconds. It is at most half of
+/// the largest current that the bus can drive. With a smaller current, the voltage of dead time and diodes
+/// would be a large part of the vector. Along a phase the vector reaches half of the bus (field_vector.hpp);
+/// a tenth of this half is reserved for dead time and diodes.
 base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const design::MotorModel& motor,
                                          double V) {
   const double R = motor.machine.R_ohm;

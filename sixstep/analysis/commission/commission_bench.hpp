@@ -18,7 +18,7 @@ struct CommissionSubject {
   std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< sheet of the motor
   std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
-  std::optional<double> current_A{};  ///< test current; empty: chosen as TestCurrent says
+  std::optional<double> current_A{};  ///< test current; empty: chosen by a rule of TestCurrent
   rig::Wiring wires{};                ///< connections of phases and Hall lines
   double hall_offset_deg = 0.0;       ///< offset common to all edges, electrical degrees
   int seed = 0;                       ///< seed of the converters' noise
@@ -29,7 +29,7 @@ enum class TestCurrent : std::uint8_t {
   asked_for,
   twice_nominal,
   twice_tenth_of_stall,  ///< twice a tenth of the stall current: the sheet has no nominal current
-  half_of_most           ///< half of the current that bus and rotor allow, because the other values exceed it
+  half_of_most           ///< half of the current that bus and rotor allow: the other rules exceed this value
 };
 
 /// The motor's true values at the board's terminals, with the winding at `degC`.
@@ -40,8 +40,9 @@ struct CommissionTruth {
   double flux_linkage_Vs = 0.0;  ///< flux linkage of the fundamental, peak
   bool sine = true;  ///< true: the back-EMF has no harmonics; the rotor then aligns with a standing field
                      ///< exactly
-  double cogging_Nm = 0.0;  ///< sum of the orders' peaks
-  double beyond_L_H = 0.0;  ///< L_q - L_d: inductance across the magnet's axis minus that along it
+  double cogging_Nm = 0.0;  ///< cogging torque: sum of the peaks of all harmonics
+  double beyond_L_H = 0.0;  ///< L_q - L_d: inductance across the magnet's axis minus inductance along this
+                            ///< axis
 };
 
 struct CommissionBench {
@@ -51,7 +52,7 @@ struct CommissionBench {
   CommissionTruth truth;
   double voltage_V = 0.0;
   TestCurrent from = TestCurrent::asked_for;  ///< how wish.test_A was chosen
-  bool nominal_printed = true;                ///< whether the sheet has a nominal current
+  bool nominal_printed = true;                ///< true: the sheet has a nominal current
   double noise_A = 0.0;                       ///< noise of each current's sample, rms
   double longest_s = 0.0;                     ///< time in s after which the chip must have ended
 };

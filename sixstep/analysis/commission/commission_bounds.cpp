@@ -13,8 +13,8 @@ namespace {
 constexpr double deviations = 3.0;
 constexpr double per_rad = 180 / base::pi;
 
-/// Errors by the converters' noise: in the difference of the two levels' means, in counts; and in the area of
-/// the steps between the levels, in ticks.
+/// Errors that the converters' noise causes: in the difference of the two levels' means (counts), and in the
+/// area of the steps between the levels (ticks).
 struct OfNoise {
   double level_counts, area_ticks;
 
@@ -25,8 +25,8 @@ struct OfNoise {
     const double along = noise * std::sqrt(2.0 / 3.0);
     level_counts = along * std::sqrt(2.0 / (n / 4 * pairs));
     // The area contains the tails with weight three and the rest with weight one (level_steps.hpp). With N
-    // ticks in all tails, its variance equals the variance of 24 N samples; the result is divided by the 2
-    // pairs steps.
+    // ticks in all tails, its variance equals the variance of 24 N samples. The result is divided by the
+    // number of steps, which is twice `pairs`.
     area_ticks = along * std::sqrt(6.0 * n * pairs) / (2 * pairs * apart);
   }
 };
@@ -42,8 +42,8 @@ double of_motor_deg(const CommissionBench& b) {
   return (b.truth.sine ? 0.0 : trapezoid_deg) + base::atan2(aside, std::sqrt(1 - aside * aside)) * per_rad;
 }
 
-/// Angle error by dead time and diodes. Their voltage has the signs of the currents; its angle differs by up
-/// to 30 degrees from the vector.
+/// Angle error by dead time and diodes. The signs of their voltage are the signs of the currents; the angle
+/// of this voltage differs from the vector's angle by up to 30 degrees.
 double of_drop_deg(const control::CommissioningState& found) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), applied = found.magnet.applied;
   return applied > lost ? base::atan2(0.5 * lost, applied - lost) * per_rad : 0.0;
@@ -78,12 +78,13 @@ CommissionBounds bounds_of(const CommissionBench& b, const control::Commissionin
   const double bus = 0.5 * b.board.V_per_count / b.voltage_V;
   const OfNoise noise(b, config.steps, apart);
   out.R_part = (4.0 / 3.0 + noise.level_counts) / apart + bus;
-  // The ripple within a period changes the measured step by at most (T/tau)^2/4 of it.
+  // The ripple within a period changes the measured step by at most the fraction (T/tau)^2/4; T: period, tau:
+  // L/R.
   const double ticks = found.winding.tau / 65536.0;
   out.L_part = out.R_part + base::log(2 * apart) / apart + 1 / (4 * ticks * ticks) + noise.area_ticks / ticks;
   if (found.magnet.emf <= 0 || found.magnet.flux <= 0) return out;
-  // psi = |v - R i - j w L i|/w. An error of R is weighted by R i/e, at most v/e, and an error of L by L
-  // i/psi.
+  // psi = |v - R i - j w L i|/w; psi: flux linkage, v: voltage, i: current, w: electrical speed. With the
+  // back-EMF e, an error of R is weighted by R i/e, at most v/e, and an error of L by L i/psi.
   const auto si = control::commissioned<double>(control::commissioning_scale<double>(b.board), found);
   const double i_A = found.v * b.voltage_V / control::whole_bus / si.R_ohm;
   out.flux_part = static_cast<double>(found.magnet.applied) / found.magnet.emf * (out.R_part + bus) +

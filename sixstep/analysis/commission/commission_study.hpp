@@ -19,7 +19,7 @@ namespace sixstep::analysis {
 /// The chip cannot measure two errors; the bench adds them: a trapezoid's field adds 1.12 degrees, and
 /// cogging shifts the rotor.
 struct CommissionBounds {
-  double R_part = 0.0, L_part = 0.0, flux_part = 0.0;  ///< relative to the measured value
+  double R_part = 0.0, L_part = 0.0, flux_part = 0.0;  ///< errors relative to the measured value
   double edge_deg = 0.0;  ///< electrical degrees, of each Hall edge and of the offset
 };
 CommissionBounds bounds_of(const CommissionBench& bench, const control::CommissioningState& found);
@@ -59,7 +59,7 @@ struct CommissionStudy {
   bool lines_found() const { return state.probes.verdict == control::HallSurvey::good; }
   /// Largest error of the six edges, degrees.
   double worst_edge_deg() const;
-  /// True if every value was found and is within its bounds, and the Hall table turns the motor.
+  /// True if every value was found and is within its bounds, and the Hall table turns the motor forward.
   bool holds() const;
 };
 

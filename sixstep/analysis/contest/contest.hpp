@@ -29,8 +29,8 @@ ContestValues no_contest_values();
 struct ContestRow {
   std::optional<RunRecord> nominal{};
   ContestTrace trace{};
-  /// Lowest speed in rad/s that the nominal drive holds (lowest_speed.hpp). Empty if it does not hold the
-  /// course's low speed.
+  /// Lowest speed in rad/s that counts as held for the nominal drive (lowest_speed.hpp). Empty if the
+  /// course's low speed does not count as held.
   std::optional<double> lowest_rad_s{};
   ContestValues values = no_contest_values();  ///< figures of the nominal drive
   std::optional<ContestValues> worst{};        ///< worst over nominal and all drives; empty without drives
@@ -48,7 +48,7 @@ struct Contest {
   TableColumns columns;
 };
 
-/// The contest before any run, with `drives` drives of each entry.
+/// Creates the contest with `drives` drives of each entry. No run has started.
 Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::size_t drives,
                    std::uint64_t seed, const UnitOfKey& unit_of = {});
 
@@ -59,7 +59,7 @@ double most_peak_A(const ContestBench& bench);
 /// within most_peak_A(). A larger current would be an unfair advantage.
 bool may_win(const Contest& contest, std::size_t row);
 
-/// The gauges of a run, found by their labels; NaN: the run has none.
+/// The gauges of a run, found by their labels. NaN: the run does not contain the gauge.
 GaugeValues gauges_of(const RunRecord& record);
 
 /// Stores the run of an entry's nominal drive.

@@ -16,7 +16,7 @@ namespace {
 
 /// The course's high speed, as a fraction of the speed up to which the bus drives the nominal current.
 constexpr double high_part = 0.6;
-/// Means must lie within this fraction of the reference: at the high speed, at the slow speed.
+/// Largest deviation of a mean speed from its reference, as a fraction: at the high speed, at the low speed.
 constexpr double holds_high = 0.02, holds_slow = 0.05;
 constexpr double electrical_turns = 10.0;
 
@@ -73,8 +73,8 @@ Course course_of(const design::DriveDesign& d) {
   c.slow_rad_s = plain(d.lowest_speed_rad_s);
   c.calm_s = plain(std::max(settle, electrical_turns * turn / c.high_rad_s));
   c.slow_calm_s = plain(std::max(settle, electrical_turns * turn / c.slow_rad_s));
-  // Mean torque during the start: half of the torque that limit and bus allow at its end, because commutation
-  // reduces it, minus half of the load.
+  // Mean torque during the start: half of the torque that limit and bus allow at the end of the start, minus
+  // half of the load. The first factor is a half because commutation reduces the torque.
   const double drives =
       0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.high_rad_s) / R) - c.load_Nm / 2;
   const double start = J * c.high_rad_s / std::max(drives, 0.2 * c.load_Nm);
@@ -209,8 +209,7 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
-    return base::Problem{"the motor", spec.motor,
-                         "is a linear motor, and the comparison takes rotary motors only",
+    return base::Problem{"the motor", spec.motor, "is a linear motor, and only rotary motors can be compared",
                          "design each controller separately"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
@@ -229,8 +228,8 @@ std::vector<std::pair<std::string, double>> contest_values(const ContestBench& b
   const design::DriveDesign& d = bench.design;
   const design::MotorModel& m = d.motor;
   const Course& c = bench.course;
-  // The leaving phase's current falls under the voltage (U + 2 e)/3, with the back-EMF e = K_t/2 w of a phase
-  // at the high speed.
+  // The leaving phase's current falls under the voltage (U + 2 e)/3. U: bus voltage; e = K_t w/2: back-EMF of
+  // a phase at the high speed w.
   const double falls_V = (d.bus_V + m.K_t_Nm_A * c.high_rad_s) / 3;
   const double commutes_s = m.machine.L_H * d.nominal_current_A / falls_V;
   const study::SpeedLoop& speed = bench.scenario.control.speed;

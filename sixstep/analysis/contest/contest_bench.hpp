@@ -60,9 +60,8 @@ struct ContestBench {
 base::Result<ContestBench> contest_bench(const ContestSpec& spec);
 
 /// The bridge if the user gives no bridge: switches of 1 % of the winding's resistance, diodes of 0.8 V, half
-/// a
-/// microsecond of dead time, and switching edges of 50 ns: E_on = E_off = U I 50 ns/2 at bus voltage and
-/// nominal current.
+/// a microsecond of dead time. Switching edges last 50 ns: E_on = E_off = U I 50 ns/2, with the bus voltage U
+/// and the nominal current I.
 study::Bridge usual_bridge(const design::DriveDesign& design);
 
 /// Values that replace <name> in a contestant's keys, each computed by a rule.

@@ -15,7 +15,7 @@ namespace sixstep::analysis {
 enum class CoursePart : std::uint8_t { start, high, load_step, brake, slow };
 
 struct ContestGauge {
-  std::string_view label;  ///< in the scenario's [[compare]]
+  std::string_view label;  ///< name in the scenario's [[compare]]
   study::MetricKind metric;
   study::Signal signal;
   CoursePart part;
@@ -61,7 +61,7 @@ inline constexpr ContestGauge contest_gauges[] = {
     {"turn-ons of a switch", MetricKind::switching_frequency, Signal::gate_T1, CoursePart::high},
     {"largest error after the load step", MetricKind::largest_error, Signal::speed, CoursePart::load_step},
     {"settling of the load step", MetricKind::settling_time, Signal::speed, CoursePart::load_step},
-    {"peak current of the way down", MetricKind::maximum, Signal::current_magnitude, CoursePart::brake},
+    {"peak current of the deceleration", MetricKind::maximum, Signal::current_magnitude, CoursePart::brake},
     {"torque ripple at the low speed, rms", MetricKind::ripple_rms, Signal::torque, CoursePart::slow},
     {"swing of the low speed", MetricKind::peak_to_peak, Signal::speed, CoursePart::slow},
 };
@@ -106,7 +106,7 @@ inline constexpr ContestFigure contest_figures[] = {
      ContestGroup::moving,
      {Gauge::load_settles, Gauge::none, Gauge::none}},
     {"brake peak",
-     "peak current of the way down",
+     "peak current of the deceleration",
      "A",
      ContestGroup::moving,
      {Gauge::brake_peak, Gauge::none, Gauge::none}},
@@ -138,11 +138,7 @@ inline constexpr ContestFigure contest_figures[] = {
      {Gauge::distortion, Gauge::none, Gauge::none}},
     {"copper", "copper loss", "W", ContestGroup::steady, {Gauge::copper, Gauge::none, Gauge::none}},
     {"bridge", "bridge loss", "W", ContestGroup::steady, {Gauge::conduction, Gauge::switching, Gauge::none}},
-    {"losses",
-     "loss in all",
-     "W",
-     ContestGroup::steady,
-     {Gauge::copper, Gauge::conduction, Gauge::switching}},
+    {"losses", "total loss", "W", ContestGroup::steady, {Gauge::copper, Gauge::conduction, Gauge::switching}},
     {"turn-ons",
      "turn-ons of a switch",
      "Hz",

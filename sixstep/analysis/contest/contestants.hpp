@@ -25,7 +25,7 @@ inline constexpr std::string_view field_name = "field-oriented";
 
 inline constexpr Contestant all_contestants[] = {
     {six_step_name, "",
-     "chops the upper switch alone: the current freewheels through a diode, and braking is a short circuit",
+     "chops only the upper switch: the current freewheels through a diode, and braking is a short circuit",
      "speed"},
     {"six-step, hard", "pwm.chopping = hard",
      "chops both switches: the current rises and falls with twice the voltage, and with twice the ripple",
@@ -34,7 +34,7 @@ inline constexpr Contestant all_contestants[] = {
      "turns the lower switch on while the upper one is off: this avoids the diode's loss, and the current may change its sign",
      "speed"},
     {"six-step, PWM-ON-PWM", "pwm.pattern = pwm-on-pwm",
-     "chops the entering leg's switch until the middle of a sector, then the other one: an off-time causes "
+     "chops the entering leg's switch until the middle of a sector, then the staying leg's switch: an off-time causes "
      "no current in the free phase"},
     {"six-step, smooth", "control.smooth_chopping.on = true",
      "chops softly at large currents and complementarily at small ones", "speed"},
@@ -60,8 +60,8 @@ inline constexpr Contestant all_contestants[] = {
      "switches by comparators when the current leaves the band: without sampling and delay, at a variable frequency"},
     {"hysteresis, sampled",
      "control.current = {type = \"hysteresis\", band_A = <band_A>, comparator = \"sampled\"}",
-     "compares once per period and switches a period late: the current leaves the band by its change in "
-     "that time"},
+     "compares once per period and switches a period late: the current leaves the band by its change during "
+     "this delay"},
     {"speed to duty",
      "control.speed = {output = \"duty\", settle_s = <settle_s>, damping = <damping>}; control.current = {}; "
      "control.slew = <slew>",
@@ -83,7 +83,7 @@ inline constexpr Contestant all_contestants[] = {
      "drives currents that follow the back-EMF's shape: their torque is the same at every angle"},
     {"field-oriented, finite set",
      "control.drive = field-oriented; control.field.law = finite-set; control.current = {}",
-     "holds one state of the legs for a whole period: the one whose predicted current is nearest to its reference"},
+     "keeps one state of the legs for a whole period: the state whose predicted current is nearest to its reference"},
 };
 
 constexpr std::span<const Contestant> contestants() { return all_contestants; }

@@ -19,8 +19,8 @@ std::vector<double> slow_speeds(const Course& course);
 /// The scenario of a contestant with these speeds one after the other, and three requirements for each speed.
 study::Scenario slow_scenario(const study::Scenario& contestant, const ContestBench& bench);
 
-/// The slowest speed in rad/s that is held together with all faster speeds. Empty if the first speed is not
-/// held.
+/// The slowest speed in rad/s that counts as held, together with all faster speeds. Empty if the first speed
+/// does not.
 std::optional<double> lowest_speed_rad_s(const Course& course, std::span<const study::Verdict> verdicts);
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor on a test bench that holds its speed, for the torque-speed curve.
+// A motor on a test bench that imposes its speed, for the torque-speed curve.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -11,19 +11,21 @@
 
 namespace sixstep::analysis {
 
-/// Stiff bus, commutation at the Hall edges, constant duty without a loop.
+/// The bench has a stiff bus, commutates at the Hall edges and applies a constant duty, without a loop.
 struct Bench {
   design::MotorModel motor;
   plant::Devices devices{};
   double voltage_V = 0.0;
-  double duty = 1.0;  ///< in [-1, 1], not 0; a negative duty drives backwards
+  double duty = 1.0;  ///< from -1 to 1, except 0; a negative duty drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
-  /// Called repeatedly, on any thread. If it returns false, the work ends with a Problem. May be empty.
+  /// Called repeatedly, on any thread. If it returns false, the computation ends with a Problem. May be
+  /// empty.
   std::function<bool()> keep_going{};
 };
 
-/// True if keep_going ends the work; and the Problem of a computation that keep_going has ended.
+/// told_to_stop(): true if keep_going ends the computation. interrupted_work(): the Problem of the ended
+/// computation.
 inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
 inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
 
@@ -38,20 +40,21 @@ struct Asking {
   bool done(const auto&) { return keep_going && ++segments % 256 == 0 && !keep_going(); }
 };
 
-/// Problems of a bench without a curve; `where` is the member's name.
+/// Returns the Problems of a bench for which no curve can be computed; `where` is the member's name.
 base::Problems check(const Bench& bench);
 
-/// Mean voltage across the driven pair in V while current flows throughout. It is d U, or (2 |d| - 1) U with
-/// hard chopping: both switches chop, and the current flows back into the bus during the off part of a
-/// period.
+/// Mean voltage across the driven pair in V while current flows throughout: d U, or (2 |d| - 1) U with hard
+/// chopping; d: duty, U: bus voltage. With hard chopping both switches chop, and the current flows back into
+/// the bus during the off part of a period.
 inline double mean_voltage_V(const Bench& b) {
   if (b.chopping != control::Chopping::hard) return b.duty * b.voltage_V;
   return b.duty > 0 ? (2 * b.duty - 1) * b.voltage_V : (2 * b.duty + 1) * b.voltage_V;
 }
 
-/// The straight line of an ideal six-step motor, T = K_t (u - K_t w)/R_tt with u = mean_voltage_V(), in N m:
-/// smooth current, no commutation time, no friction, ideal devices. Soft and hard chopping cannot drive the
-/// current backwards; the line then ends at zero torque.
+/// The straight line of an ideal six-step motor, in N m: T = K_t (u - K_t w)/R_tt. K_t: torque constant, u:
+/// mean_voltage_V(), w: speed, R_tt: line-to-line resistance. The current is smooth, commutation takes no
+/// time, devices are ideal, and there is no friction. Soft and hard chopping cannot drive the current
+/// backwards; the line then ends at zero torque.
 inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
   const double K_t = b.motor.K_t_Nm_A, R_tt = 2 * b.motor.machine.R_ohm;
   const double line = K_t * (mean_voltage_V(b) - K_t * speed_rad_s) / R_tt;

@@ -23,7 +23,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
   const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
                                                          {"winding_degC", r.motor_degC.winding_degC},
                                                          {"housing_degC", r.motor_degC.housing_degC}};
-  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's limit
+  for (const auto& [name, degC] : temperatures)  // from near absolute zero to above every winding's limit
     if (!base::between(-200, 500).holds(degC))
       problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
                           "give the temperature in degC; data sheets refer to 25"});
@@ -37,7 +37,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
 
 base::Problems check(const CurveRequest& r) {
   base::Problems problems = check_temperatures(r);
-  // With lost magnets there is no model to check.
+  // If the magnets have lost their magnetisation, no motor model exists that could be checked.
   if (!design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC))
     for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)

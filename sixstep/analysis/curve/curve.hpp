@@ -12,14 +12,15 @@
 
 namespace sixstep::analysis {
 
-/// Largest number of points of a curve: some hundred megabytes. No screen or table can show as many rows.
+/// Largest number of points of a curve. They need some hundred megabytes. No screen or table can show as many
+/// rows.
 inline constexpr int most_points = 200'000;
 
 struct CurveRequest {
   design::Sheet sheet;
   Bench bench;  ///< bench with the motor at `motor_degC` (design::warmed)
   design::Temperatures motor_degC{};
-  int points = 41;  ///< from standstill to no load, both included
+  int points = 41;  ///< number of points from standstill to no load, both included
   double ambient_degC = design::sheet_degC;
 };
 
@@ -39,17 +40,17 @@ struct SpeedDrop {
   double ideal = 0.0;               ///< R_tt/K_t^2, the speed-torque gradient of data sheets
   std::optional<double> printed{};  ///< this gradient as printed in the sheet
   std::optional<double> sheet{};    ///< gradient between the printed no-load and nominal points
-  std::optional<double> curve{};    ///< gradient between the same torques on the curve
+  std::optional<double> curve{};    ///< gradient of the curve between the same two torques
 };
 
 /// Durations for which short-time limits are given, s.
 inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
 
-/// Thermal limits of the winding at one speed, as the shaft torque of a drive with a constant current. Block
-/// current flows through two phases: P = I^2 R_tt. The torque is K_t I minus friction, with K_t at the
-/// resulting temperature of the magnets. Friction warms the housing. The motor temperature of the curve has
-/// no influence. NaN if the winding exceeds its limit without any current, by ambient temperature or
-/// friction.
+/// Thermal limits of the winding at one speed, as the shaft torque of a drive with a constant current I.
+/// Block current flows through two phases, so that the loss is I^2 R_tt. The torque is K_t I minus friction,
+/// with K_t at the resulting temperature of the magnets. Friction warms the housing. The motor temperature of
+/// the curve has no influence. NaN if ambient temperature or friction heats the winding above its limit
+/// without any current.
 struct ThermalLimits {
   double continuous_A = 0.0, continuous_Nm = 0.0;
   std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< for short_times_s, starting at ambient
@@ -80,8 +81,8 @@ struct Curve {
 
 /// First step of a curve: the no-load point, and the speeds of points that can be computed independently. The
 /// order of the speeds is:
-/// - the speeds of the curve's points, without no load;
-/// - the speeds of the sweep for the marks, without no load;
+/// - the speeds of the curve's points, except the no-load point;
+/// - the speeds of the sweep for the marks, except the no-load point;
 /// - the sheet's nominal speed, if the sheet has a nominal speed.
 struct CurvePlan {
   NoLoad no_load;

@@ -14,8 +14,7 @@ namespace sixstep::analysis {
 /// friction from the torque afterwards, because friction cannot act on the currents at a given speed.
 inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
 
-/// Starts without current. The default angle is the middle of a sector: in neither direction the start is on
-/// an edge.
+/// Starts without current. The default angle is the middle of a sector, so that the start is not on an edge.
 inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, double speed_rad_s,
                                      double sectors = 0.5) {
   const double angle = sectors * base::sector_rad / b.motor.machine.pole_pairs;
@@ -37,7 +36,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     commutate();
   }
 
-  /// Like OpenLoop::run_for(): a template can use both classes.
+  /// Has the signature of OpenLoop::run_for(), so that a template can use both classes.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
     Asking<Observer> asking{keep_going_, observer};

@@ -90,7 +90,7 @@ std::optional<OperatingPoint> root(Search& search, const OperatingPoint& a, cons
   return found;
 }
 
-/// The crossing nearest to no load, where `value` is above zero; standstill if there is no crossing.
+/// The root nearest to no load, above which `value` is positive; standstill if no root exists.
 std::optional<OperatingPoint> crossing(Search& search, const Sweep& sweep, const Value& value) {
   const double goal = std::fabs(sweep.back().speed_rad_s) * search.near(1e-9, 1e-4);
   for (std::size_t n = sweep.size() - 1; n > 0; --n)

@@ -7,7 +7,7 @@
 namespace sixstep::analysis {
 
 struct NoLoad {
-  OperatingPoint point;           ///< at an imposed speed, with mean shaft torque 0
+  OperatingPoint point;           ///< the point at the imposed speed with mean shaft torque 0
   double half_width_rad_s = 0.0;  ///< quasi-periodic orbit: the torque's half width divided by the slope
   double slope_Nm_s = 0.0;        ///< slope of the shaft torque over speed at that point, negative
   double free_speed_rad_s = 0.0;  ///< mean of a free rotor
@@ -22,7 +22,7 @@ inline constexpr double longest_free_s = 20.0;
 
 /// Finds the no-load point. A free rotor then starts at the no-load speed, runs for 20 time constants
 /// J/|slope|, and is averaged over two more time constants, within longest_free_s. Returns a Problem if
-/// friction holds the rotor, or if nothing slows it down.
+/// friction prevents the rotation, or if no torque slows the rotor down.
 base::Result<NoLoad> no_load(const Bench& bench);
 
 }  // namespace sixstep::analysis

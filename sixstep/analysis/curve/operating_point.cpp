@@ -77,8 +77,8 @@ void take_to_shaft(const Bench& b, OperatingPoint& p) {
 }
 
 /// The currents in steady state one sector later. Sixty degrees are half a turn minus a third of a turn. For
-/// every quantity of a symmetric machine and bridge, therefore, x_a(theta + 60 deg) = -x_b(theta), and in the
-/// same way x_b -> -x_c, x_c -> -x_a.
+/// every quantity x of a symmetric machine and bridge, therefore, x_a(theta + 60 deg) = -x_b(theta); in the
+/// same way, -x_c replaces x_b, and -x_a replaces x_c.
 PerLeg<double> one_sector_on(const PerLeg<double>& i, bool forward) {
   return forward ? PerLeg<double>{-i[1], -i[2], -i[0]} : PerLeg<double>{-i[2], -i[0], -i[1]};
 }
@@ -94,7 +94,8 @@ class SectorMap {
  public:
   SectorMap(const Bench& b, double speed) : system_(b, imposed_speed(), speed), forward_(speed > 0) {}
 
-  /// Runs to the next sector start, and returns the distance of the currents from those one sector before.
+  /// Runs to the next sector start. Returns the distance between the currents and the currents one sector
+  /// before.
   double apply(sim::Stop& stop, SumsRecorder* recorder = nullptr) {
     stop = system_.run_to_edge(system_.edges() + 1, recorder);
     const PerLeg<double> now = system_.plant().state().i;
@@ -114,8 +115,8 @@ class SectorMap {
 /// remains.
 constexpr double forgotten = 20.0;
 
-/// Upper limit of simulated sectors. 37 L/R would have to last this long; no motor's L/R lasts fifty thousand
-/// sectors.
+/// Upper limit of simulated sectors. The currents converge within 37 L/R, and no motor's L/R lasts fifty
+/// thousand sectors.
 constexpr std::int64_t most_sectors = 2'000'000;
 
 base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
@@ -159,8 +160,8 @@ Interval interval(const std::vector<Sums>& parts, Of&& of) {
 
 plant::Shaft held() { return {.J_kg_m2 = 1.0, .locked = true}; }
 
-/// Duration of one batch, s: whole pairs of sectors (soft chopping repeats every 120 degrees, not every 60),
-/// or whole periods with a held rotor. It is at least 40 PWM periods and 4 time constants.
+/// Duration of one batch, s: at least 40 PWM periods and 4 time constants. Soft chopping repeats every 120
+/// degrees, so that a batch lasts whole pairs of sectors. With a held rotor, it lasts whole PWM periods.
 double batch_seconds(const Bench& b, double speed) {
   const double least = std::max(40 * b.pwm_period_s, 4 / forgetting_rate(b));
   const double unit = speed != 0 ? 2 * sector_seconds(b, speed) : b.pwm_period_s;

@@ -2,9 +2,9 @@
 // Computes one point of the torque-speed curve: the steady state of motor and bridge at a constant speed.
 //
 // The effect of the initial state decays. Two runs at the same speed and gates differ by the currents d with
-// L d|d|^2/dt <= -2 R |d|^2: the back-EMF cancels, and switches and diodes are resistors or valves, which
-// only dissipate. Therefore there is one steady state. Within the time t, any run reduces its distance to
-// this state at least by the factor q = exp(-R_s t/L_s).
+// L_s d|d|^2/dt <= -2 R_s |d|^2; L_s, R_s: inductance and resistance of a phase. The back-EMF cancels, and
+// switches and diodes are resistors or valves, which only dissipate. Therefore there is one steady state.
+// Within the time t, any run reduces its distance to this state at least by the factor q = exp(-R_s t/L_s).
 // - Duty 1: the steady state repeats every sector, with phases exchanged. It is the fixed point of the map
 //   from one sector start to the next. Each application of the map reduces the distance by q. After a step of
 //   size r, the distance is at most q/(1 - q) r (Banach), which is the point's error bound.
@@ -28,7 +28,7 @@ enum class Orbit : std::uint8_t { standstill, periodic, quasi_periodic };
 struct LockedRotor {
   double phase_rms_A = 0.0;                                ///< rms current of each of the two phases
   double least_torque_Nm = 0.0, greatest_torque_Nm = 0.0;  ///< least and greatest magnitude over all angles
-  double ripple_Nm = 0.0;  ///< within a PWM period, peak to peak, at the angle of least torque
+  double ripple_Nm = 0.0;  ///< torque ripple within a PWM period, peak to peak, at the angle of least torque
 };
 
 /// Mean values over the steady state. Powers are positive for a motor: supplied = copper + devices + air gap,
@@ -59,8 +59,8 @@ struct OperatingPoint {
   double half_width_Nm = 0.0;  ///< chopped: half width of the mean torque's interval (confidence_level)
   double half_width_A = 0.0;   ///< chopped: half width of the mean bus current's interval
   double simulated_s = 0.0;    ///< averaging time of the mean values
-  /// Chopped: the interval is narrower than half_width_goal of the stall torque. Duty 1: the currents repeat
-  /// except for rounding.
+  /// True: with chopping, the interval is narrower than half_width_goal of the stall torque; at duty 1, the
+  /// currents repeat except for rounding.
   bool precise = true;
 };
 
@@ -72,9 +72,9 @@ struct OperatingPoint {
 /// A single long run would also reach all phases, but arbitrarily slowly if PWM and sectors are nearly
 /// synchronous. Batches within this run would not show the error.
 ///
-/// While the torque's half width is above half_width_goal K_t |d| U/R_tt, all runs are continued by their
-/// present length, at most `doublings` times. If PWM and sectors are synchronous, the interval stays wide.
-/// time again, at most `doublings` times. If PWM and sectors are synchronous, the interval stays wide.
+/// While the torque's half width is above half_width_goal times the stall torque K_t |d| U/R_tt, all runs are
+/// continued by their present length, at most `doublings` times. If PWM and sectors are synchronous, the
+/// interval stays wide.
 inline constexpr double confidence_level = 0.99;
 inline constexpr int batches = 20, doublings = 8;
 inline constexpr double half_width_goal = 5e-5;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the torque of a slowly turning rotor from the current of a held rotor, by means over the angle of
-// the driven pair's shape g = f_p - f_n.
+// Computes the torque of a slowly turning rotor from the current of a held rotor. The means over the angle
+// use the driven pair's shape g = f_p - f_n, with the back-EMF shapes f_p, f_n of its positive and negative
+// phase.
 #pragma once
 #include "sixstep/analysis/curve/operating_point.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"
@@ -18,7 +19,7 @@ ShapeMeans shape_means(const plant::Machine& machine);
 /// independent theta and t.
 void spread_over_angles(const design::MotorModel& motor, const Sums& sums, OperatingPoint& p);
 
-/// The torque of the same current with a held rotor; its ripple is taken at the angle of least torque.
+/// The torque of the same current with a held rotor; its ripple is computed at the angle of least torque.
 LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums);
 
 }  // namespace sixstep::analysis

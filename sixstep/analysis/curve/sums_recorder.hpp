@@ -96,8 +96,8 @@ class SumsRecorder {
     return squares / (2 * plant.constants().inv_L);
   }
 
-  /// Widens [low, high] to the values of y over [0, s]. A bound first excludes the segments that cannot widen
-  /// it.
+  /// Widens [low, high] to the values of the polynomial `c` over [0, s]. A bound first excludes the segments
+  /// that cannot widen it.
   static void widen(const study::Series& c, int degree, double s, double& low, double& high) {
     const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
     if (low <= c[0] - reach && c[0] + reach <= high) return;
@@ -120,7 +120,7 @@ class SumsRecorder {
     widen(c, y.degree, s, sums_.motor_low, sums_.motor_high);
   }
 
-  /// Mean of |y| over [0, s], summed between its sign changes.
+  /// Mean of the polynomial's magnitude over [0, s], summed between its sign changes.
   static double size(const study::Series& c, int degree, double s, double mean) {
     const double scale = series::magnitude_of(c, degree);
     if (2 * std::fabs(c[0]) > scale) return std::fabs(mean);

@@ -8,9 +8,9 @@
 
 namespace sixstep::analysis {
 
-/// Peak line-to-line voltage divided by the shaft's speed, mV s/rad. The smallest motors, 2 to 3 mm across,
-/// run at 60 000 rpm and more with a volt or less: 0.05 to 0.5. A direct-drive wind generator of 3 MW has 690
-/// V rms at 15 rpm: 620 000. Traction and ship motors have smaller values.
+/// Peak line-to-line voltage divided by the shaft's speed, mV s/rad. The smallest motors (2 to 3 mm across,
+/// 60 000 rpm and more, a volt or less) have 0.05 to 0.5. A direct-drive wind generator of 3 MW with 690 V
+/// rms at 15 rpm has 620 000. Traction and ship motors have smaller values.
 inline constexpr base::Range built_line_mV_s = base::between(0.02, 1e6);
 
 /// Speed of the shaft, rpm. Dental turbines and turbo compressors reach 500 000. A shaft slower than a turn

@@ -11,8 +11,8 @@ namespace sixstep::analysis {
 double normal_cdf(double x);
 
 /// Half width of Student's central 95 % interval, in standard deviations: 3.18 for 3 degrees of freedom, 1.96
-/// for a large number. Fewer than 3 count as 3. By the expansion of Abramowitz and Stegun 26.7.5; the error
-/// is within 1 % at 3, and 1e-4 from 6 on.
+/// for a large number. Fewer than 3 count as 3. The function uses the expansion of Abramowitz and Stegun
+/// 26.7.5; its error is within 1 % at 3 degrees of freedom, and within 1e-4 from 6 on.
 double student_95(double degrees_of_freedom);
 
 /// One of several normal distributions of a mixture.

@@ -5,7 +5,7 @@
 namespace sixstep::analysis {
 
 /// A value, and bounds that contain the true value with a probability of 95 %. tests/analysis/identification/
-/// counts over a thousand simulated recordings how often the bounds contain it.
+/// counts over a thousand simulated recordings how often the bounds contain the true value.
 struct Interval {
   double value = 0.0, low = 0.0, high = 0.0;
 

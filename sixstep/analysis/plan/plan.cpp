@@ -38,8 +38,8 @@ std::vector<double> on_grid(const Plan& plan, std::size_t n) {
   return at;
 }
 
-/// Saltelli's points. Block n/(k + 2) contains point A, then B, then for each coordinate A with this
-/// coordinate of B. A and B are the halves of one point of Sobol's sequence.
+/// Saltelli's points. With k axes, block n/(k + 2) contains the points A and B, then one point per axis: A
+/// with this axis's coordinate of B. A and B are the halves of one point of Sobol's sequence.
 double of_saltelli(const Plan& plan, std::size_t n, std::size_t axis) {
   const std::size_t k = plan.axes.size(), row = n / (k + 2), column = n % (k + 2);
   const bool of_b = column == 1 || column == axis + 2;

@@ -23,19 +23,19 @@ struct Axis {
   double from = 0.0, to = 0.0;      ///< range in the key's unit; a grid contains both ends
   std::size_t points = 0;           ///< number of values of a range on a grid, two or more
   Spacing spacing = Spacing::linear;
-  /// The value changes only the drive: its controller is designed without the change, as with [[spread]]
-  /// (study::strayed_to).
+  /// True: only the simulated drive has this value. Its controller is designed for the nominal value, as with
+  /// [[spread]] (study::strayed_to).
   bool strays = false;
   bool operator==(const Axis&) const = default;
 };
 
 enum class Sampling : std::uint8_t {
-  grid,             ///< every value of each axis with every value of the other axes, the last axis fastest
+  grid,  ///< every value of each axis with every value of the others; the last axis changes fastest
   latin_hypercube,  ///< each axis has as many parts as there are points, and each part has one point
   sobol,            ///< a sequence that fills the space evenly at any length
   monte_carlo,      ///< random points
-  /// For Sobol indices: base points in blocks of k + 2 runs for k axes: A, B, and for each axis A with the
-  /// column of B.
+  /// For Sobol indices: base points in blocks of k + 2 runs for k axes. A block contains the points A and B,
+  /// and for each axis the point A with this axis's coordinate of B.
   saltelli
 };
 
@@ -44,7 +44,7 @@ enum class Sampling : std::uint8_t {
 struct Plan {
   std::vector<Axis> axes;
   Sampling sampling = Sampling::grid;
-  std::size_t points = 0;  ///< saltelli: base points, each of axes + 2 runs
+  std::size_t points = 0;  ///< saltelli: number of base points, each with axes + 2 runs
   std::size_t drives = 0;
   std::uint64_t seed = 1;
   bool operator==(const Plan&) const = default;

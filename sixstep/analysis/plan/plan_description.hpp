@@ -54,9 +54,10 @@ inline void describe(base::Visitor& v, AxisEntry& s) {
   v.value("points", s.points,
           {.meaning = "values from one end to the other on a grid", .range = base::between(0, 1e9)});
   v.choice("spacing", s.spacing, spacing_choices, {.meaning = "spacing of the values between the ends"});
-  v.value("strays", s.strays,
-          {.meaning = "whether only the drive has this value, as with [[spread]], while the controller stays "
-                      "designed for the nominal one; else the controller is designed for each value"});
+  v.value(
+      "strays", s.strays,
+      {.meaning =
+           "whether only the simulated drive has this value, as with [[spread]], and its controller is designed for the nominal value; otherwise the controller is designed for each value"});
 }
 
 inline void describe(base::Visitor& v, PlanEntry& s) {
@@ -77,10 +78,11 @@ inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("sheet_tolerances", s.sheet_tolerances,
           {.meaning =
                "whether drives also vary by the usual tolerances of resistance, inductance, torque constant "
-               "and of the places of Hall edges, for values that [[spread]] does not have"});
+               "and Hall edge angles, for values that [[spread]] does not contain"});
   v.value(
       "minimise", s.minimise,
-      {.meaning = "label of the figure that a design minimises, while every drive holds every requirement"});
+      {.meaning =
+           "label of the figure that the optimisation minimises, while every drive meets every requirement"});
   v.value(
       "evaluations", s.evaluations,
       {.meaning = "largest number of points that the optimisation tries", .range = base::between(1, 1e6)});

@@ -124,13 +124,11 @@ RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector
   if (planned && same_keys(planned->strayed, columns->strayed))
     for (std::size_t n = 0; n < values.strayed.size(); ++n) values.strayed[n] = planned->strayed[n].value;
   else if (planned)
-    return *without_figures(
-        "the random values of this run are of other keys than those of the table's other runs");
+    return *without_figures("this run draws random values of other keys than the table's other runs");
   if (!result) return *without_figures(base::to_string(result.problems().front()));
   std::optional<std::vector<double>> figures = figures_of(*result, *columns);
   if (!figures)
-    return *without_figures(
-        "the figures of this run, or their units, differ from those of the table's other runs");
+    return *without_figures("the figures of this run, or their units, differ from the table's other runs");
   values.end = result->fault ? RunEnd::fault : RunEnd::whole;
   if (result->fault) values.problem = base::to_string(*result->fault);
   values.remarks = result->remarks;

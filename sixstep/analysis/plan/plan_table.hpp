@@ -26,10 +26,10 @@ struct FigureColumn {
   std::optional<double> min, max;
   double zero = 0.0;  ///< study::figure_zero() of the scenario as written
 
-  /// Size of a bound, to which a margin is relative.
+  /// Distance of a bound from `zero`. A relative margin is divided by this distance.
   double size(double bound) const { return bound < zero ? zero - bound : bound - zero; }
-  /// Whether the figure holds as in the verdict of a single run: it has a value within its bounds. A compared
-  /// figure always holds.
+  /// True if the value meets the requirement, as in the verdict of a single run: it is within its bounds. A
+  /// compared figure always holds.
   bool holds(double x) const { return !required || (x == x && (!min || x >= *min) && (!max || x <= *max)); }
   bool operator==(const FigureColumn&) const = default;
 };

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t resamples = 400;
 constexpr std::size_t outside = 40;  ///< bootstrap values beyond each end of the 95 % interval: one in 40
 
-/// The figures of one row of runs, relative to the mean of f_A and f_B over all rows.
+/// The figures of one row of runs, minus the mean of f_A and f_B over all rows.
 struct Row {
   double a, b;
   std::vector<double> f;

@@ -88,7 +88,7 @@ constexpr Primitive primitives[] = {
 static_assert(std::size(primitives) + 1 == sobol_dimensions);
 
 /// Direction numbers by Bratley and Fox: m_k = m_(k-s) xor, over the polynomial's coefficients a_i, 2^i a_i
-/// m_(k-i).
+/// m_(k-i); s: degree of the polynomial.
 constexpr Directions directions_of(const Primitive& p) {
   const int degree = std::bit_width(p.polynomial) - 1;
   Directions m{};

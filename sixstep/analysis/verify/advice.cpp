@@ -21,7 +21,7 @@ using design::DriveDesign;
 using design::Warning;
 
 /// Largest number of control periods of all trials together: some seconds of computing for an unusable
-/// design, one second for a usable one.
+/// design, about one second for a usable design.
 constexpr double rescue_periods = 4e6, advice_periods = 8e5;
 bool is_grave(const std::vector<Warning>& warnings) {
   return std::any_of(warnings.begin(), warnings.end(), [](const Warning& w) { return w.grave; });
@@ -41,7 +41,7 @@ bool promises(const std::vector<Warning>& found, const DriveDesign& next) {
   });
 }
 
-/// Number of runs of a study, in runs of full length. A position's gain needs a search.
+/// Cost of a study as a number of runs of full length. A position's gain needs a search.
 double runs_of_study(const DesignOrder& order) {
   const double motors =
       order.tolerances.empty() ? 1.0 : static_cast<double>(variations(order.tolerances).size());
@@ -65,7 +65,7 @@ void add_cure(std::string& cure, const std::string& words) {
 void advise_usable(const DesignOrder& order, DesignStudy& s) {
   TrialBudget budget{advice_periods};
   std::vector<DesignSpec> changes = single_changes(order, s.design);
-  // This change is inserted first: each warning's own longest period is then tried before other changes.
+  // This change is inserted first, so that the longest period of each warning is tried before other changes.
   if (const auto longer = longer_of_periods(order.spec, s.design)) changes.insert(changes.begin(), *longer);
   for (const DesignSpec& spec : changes) {
     const std::optional<DriveDesign> d = in_closed_form(order, spec);
@@ -114,8 +114,8 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
 std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = rescues(order, d);
   if (order.subject.board) {
-    // The board's program requires its period. Slower loops at this period therefore come first, and other
-    // periods last.
+    // The board's program requires the board's period. Slower loops at this period therefore come first, and
+    // other periods last.
     const auto keeps_period = [&](const DesignSpec& s) { return s.period_s == order.spec.period_s; };
     const auto slower_alone = [&](const DesignSpec& s) {
       return keeps_period(s) && s.mode == Mode::current && s.settle_s != order.spec.settle_s;
@@ -130,7 +130,7 @@ std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const Dr
 /// Result of a search for a change. Slower loops may need more simulation time than the budget of an advice.
 struct Rescue {
   std::string words;      ///< the first change that makes the design usable; empty if there is none
-  bool too_long = false;  ///< a change, or its run over the tolerances, was too long to try
+  bool too_long = false;  ///< true: a change or its run over the tolerances was too long to try
 };
 
 /// Tries each change first with the sheet's motor only, because this is quick and most changes fail at this
@@ -195,7 +195,7 @@ std::string nothing_tried(const DriveDesign& d, bool too_long) {
   return text;
 }
 
-/// Text for a cause on the board: without this board the same loops are usable.
+/// Text if the board is the cause: without this board the same loops are usable.
 std::string board_is_the_cause(const DesignOrder& order) {
   if (!order.subject.board) return {};
   const study::Scenario &board = *order.subject.board, usual;

@@ -13,8 +13,8 @@ namespace sixstep::analysis {
 /// Least number of control periods of a study of this design, approximately.
 double periods_of(const DesignOrder& order, design::DriveDesign design);
 
-/// The study of another specification. Empty if its design is unusable in closed form, or if the budget is
-/// too small.
+/// The study of the order with another specification. Empty if its design is unusable in closed form, or if
+/// the budget is too small.
 std::optional<DesignStudy> tried(const DesignOrder& order, const design::DesignSpec& spec,
                                  TrialBudget& budget);
 

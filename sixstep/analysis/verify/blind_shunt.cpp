@@ -28,7 +28,7 @@ std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s)
   return swing ? std::optional(swing->measured) : std::nullopt;
 }
 
-/// The keys because of which a pulse is too short for a measurement.
+/// The keys whose values prevent a measurement during a short pulse.
 std::string hiding(const study::Scenario& s) {
   if (s.pwm.minimum_pulse_s >= study::least_shown_duty(s) * s.pwm.period_s) return "pwm.minimum_pulse_s";
   return std::string("sensors.shunt_settle_s") +

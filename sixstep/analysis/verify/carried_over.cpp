@@ -14,8 +14,8 @@ bool bounds_anything(const study::Limits& l) {
   return l.current_A || l.torque_Nm || l.speed_rad_s || l.gain_A_s_per_rad;
 }
 
-/// The reason why the run is slower than the designed run; empty if it is not slower. The step of a speed
-/// follows the start; limits are therefore the cause of a longer settling time.
+/// The reason why the run with the board's settings is slower than the designed run; empty if it is not
+/// slower.
 std::string slower(const study::Scenario& s, const study::Outcome& run, const study::Outcome& designed) {
   if (s.control.mode != control::Mode::speed) return {};
   const auto of = [](const study::Outcome& out, const char* figure) {
@@ -106,7 +106,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;
     s.sensors.hall_stable_samples = board.sensors.hall_stable_samples;
-    s.protection.off_at_s.reset();  // belongs to the reference of the board's own scenario
+    s.protection.off_at_s.reset();  // this time belongs to the reference of the board's scenario
     keep("control.drive and [protection]");
   }
   if (bounds_anything(board.control.limits)) {

@@ -47,7 +47,7 @@ inline double allowed_speed_rad_s(const DesignSubject& subject) {
   return subject.board ? most_speed_rad_s(*subject.board).value_or(unbounded) : unbounded;
 }
 
-/// Text for the origin of a design's largest current.
+/// Text that names the limit that determines a design's largest current.
 inline std::string at_most_current(const design::DriveDesign& d) {
   return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
 }

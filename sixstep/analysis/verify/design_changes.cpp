@@ -23,8 +23,8 @@ constexpr double shortest_period_s = 1e-6;
 
 double plain(double x, base::Towards towards) { return base::shortened(x, 2, towards); }
 
-/// Shorter periods: for a low ripple, for a usable ripple, and for a phase margin of 45 degrees at one period
-/// of delay.
+/// Periods shorter than the specified period. They give a low ripple, a usable ripple, and a phase margin of
+/// 45 degrees at one period of delay.
 std::vector<double> shorter_periods(const DesignSpec& w, const DriveDesign& d) {
   if (w.rotor.shaft.kind == design::ShaftSensorKind::resolver)
     return {};  // the resolver's excitation depends on the period
@@ -83,7 +83,8 @@ void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
   w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
 }
 
-/// Adds a settling time that torque limit and inertia allow. A faster loop would only be at the limit.
+/// Adds a settling time that torque limit and inertia allow. In a faster loop, the limit would act during
+/// every step.
 void add_what_torque_allows(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!has_speed_loop(w) || !d.spec.settle_s || !(d.settle_by_torque_s > *d.spec.settle_s)) return;
   DesignSpec next = w;
@@ -112,8 +113,8 @@ void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpe
     with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
 }
 
-/// Adds slower loops. If only the current loop were slower, it would be too close to the speed loop: both are
-/// therefore slower.
+/// Adds slower loops. A slower current loop alone would be too close to the speed loop, so that both loops
+/// are slower.
 void add_slower_together(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   const auto& inner = d.loops.front().placed;
   if (!has_speed_loop(w) || !inner) return;

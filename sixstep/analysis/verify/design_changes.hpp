@@ -10,8 +10,9 @@ namespace sixstep::analysis {
 
 /// Control period in s for a heavy rotor on a slow winding.
 inline constexpr double unhurried_period_s = 1e-4;
-/// The specification with unhurried_period_s and a current loop that settles in forty such periods; with a
-/// faster winding in fewer, but at least ten. A settling time that the user chose does not change.
+/// The specification with unhurried_period_s and a current loop that settles in forty such periods. With a
+/// faster winding, the current loop settles in fewer periods, but in at least ten. A settling time that the
+/// user chose does not change.
 design::DesignSpec unhurried(design::DesignSpec spec, const design::MotorModel& motor);
 
 /// Largest usable ripple as a fraction of the nominal current. Above it, a drive's current consists mainly of

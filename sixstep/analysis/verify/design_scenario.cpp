@@ -25,8 +25,8 @@ using design::LoopDesign;
 /// Fraction of the bus voltage that a first command may use; the rest prevents clamping.
 constexpr double part_of_bus = 0.8;
 
-/// The file contains placed poles as settling time and damping. From these the run computes the same gains,
-/// to the last bit.
+/// The file contains placed poles as settling time and damping. From these two values the run computes the
+/// same gains, to the last bit.
 template <class Gains>
 void set_gains(const LoopDesign& loop, Gains& to) {
   if (loop.placed) {
@@ -88,8 +88,8 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
 }
 
 /// Ripple in A at a mean current and a mean voltage across the pair. While the chopped switch is off, the
-/// leg's diode carries the current; with complementary chopping, the leg's other switch. The dead time is
-/// neglected.
+/// leg's diode carries the current. With complementary chopping, the leg's other switch carries it. The dead
+/// time is neglected.
 double expected_ripple_A(const DriveDesign& d, const study::Bridge& b, double current_A, double mean_V) {
   const double on = b.saturation_V + b.on_resistance_ohm * current_A,
                diode = b.diode_drop_V + b.diode_resistance_ohm * current_A;
@@ -139,7 +139,7 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
 
 /// The test of a speed loop: a start from rest, then a small step.
 struct SpeedTest {
-  double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
+  double load_A = 0.0, first = 0.0, step = 0.0;  // load in A; speed and step in rad/s
   double begin = 0.0, end = 0.0, calm = 0.0;     // in s: time of the step, end of the run, begin of the
                                                  // window in which the speed must have settled
 };
@@ -155,7 +155,7 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   t.first = std::min(t.first, allowed_speed_rad_s(subject));
   // At a step, the speed controller first requests d1 (speed) times the current at full torque. For each
   // ampere of this request, the current loop needs d1 (current) volts at once, and R volts when the current
-  // flows.
+  // flows. d1: gain of a controller for the present error.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
       lags ? d.lowest_speed_rad_s - t.first

@@ -49,12 +49,12 @@ double usual_move(const design::DriveDesign& design);
 ///   overshoot at the controller's samples, and the ripple of the last ten periods.
 /// - Speed: a start from rest, limited by torque and bus, then a step so small that no limit acts; the linear
 ///   design must predict this step. The load is half the torque of the nominal current: the current is then
-///   continuous. With Hall probes the step ends at the lowest speed, where the measured speed is oldest, and
-///   its band is a twentieth of this speed.
+///   continuous. With Hall probes the step ends at the lowest speed, where the measured speed is oldest;
+///   the settling band is a twentieth of this speed.
 /// - Position: one move without a load, because a P controller has a steady error under load.
 study::Scenario design_scenario(const design::DriveDesign& design, const DesignSubject& subject);
 
-/// True if the subject's board samples in the middle of a period: by its configuration, or because its one
+/// True if the subject's board samples in the middle of a period: by its configuration, or because its single
 /// shunt would measure nothing before the on-time has begun.
 bool samples_in_middle(const DesignSubject& subject);
 

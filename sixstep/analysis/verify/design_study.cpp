@@ -52,8 +52,8 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   return {};
 }
 
-/// Swing of the speed by the commutations only: from a second run with ideal sensors, unless the first run
-/// had ideal sensors.
+/// Swing of the speed that only the commutations cause. It is measured in a second run with ideal sensors,
+/// unless the first run had ideal sensors.
 std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
   if (!swing) return std::nullopt;
@@ -118,7 +118,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
   if (base::Problems found = study::check(s.scenario); !found.empty()) {
-    for (base::Problem& p : found)  // the member of the spec, not the scenario's key
+    for (base::Problem& p : found)  // names the member of the spec, not the scenario's key
       if (p.where == "supply.voltage_V") p.where = "voltage_V";
     return found;
   }
@@ -137,7 +137,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.outcome = std::move(*outcome);
   if (const auto compiled = study::compile(s.scenario))
     s.beliefs = study::belief_costs(s.scenario, *compiled);
-  // A quick search has already lowered the gain until it holds for all motors within the tolerances.
+  // A quick search has already lowered the gain until no motor within the tolerances overshoots.
   if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);

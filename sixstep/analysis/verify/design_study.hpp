@@ -38,7 +38,7 @@ struct DesignStudy {
 struct DesignOrder {
   DesignSubject subject{};
   design::DesignSpec spec{};
-  std::vector<Tolerance> tolerances{};  ///< tolerances of the motor to run; empty: not tested
+  std::vector<Tolerance> tolerances{};  ///< tolerances within which motors are run; empty: none
   ForEach for_each = one_after_the_other;
   std::function<bool()> keep_going{};  ///< false ends the study early; the result is then meaningless
   GainSearch gain{};                   ///< position: search for its gain

@@ -30,7 +30,8 @@ double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 /// Speed in rad/s at which the magnet's back-EMF equals the radius of the voltage circle.
 double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
 
-/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 if R i exceeds the circle's radius.
+/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for the speed w; i: current i_q, other symbols
+/// of model.md 7. Returns 0 if R i exceeds the circle's radius.
 double speed_for_current_rad_s(const FieldStudy& f, double i_q_A) {
   const double e = f.machine.magnet_V_s, x = f.machine.pole_pairs * f.machine.L_q_H * i_q_A,
                r = f.machine.R_ohm * i_q_A;
@@ -117,12 +118,12 @@ void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
 
 void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   const design::FieldMachine& m = f.machine;
-  f.axes = {{"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
-            {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
-            {"p L_d", "decoupling: voltage across the magnet over speed and i_d", c.current.d_V_s_A, "V s/A"},
-            {"p L_q", "decoupling: voltage along the magnet over speed and i_q", c.current.q_V_s_A, "V s/A"},
-            {"n T p", "angle by which the magnet turns until a command acts, over the speed", c.advance.rad_s,
-             "s"}};
+  f.axes = {
+      {"p psi", "peak of the back-EMF's fundamental per speed", m.magnet_V_s, "V s"},
+      {"K_q", "3/2 p psi, torque per i_q", torque_per_q_A(m), "N m/A"},
+      {"p L_d", "decoupling: voltage across the magnet per speed and i_d", c.current.d_V_s_A, "V s/A"},
+      {"p L_q", "decoupling: voltage along the magnet per speed and i_q", c.current.q_V_s_A, "V s/A"},
+      {"n T p", "angle by which the magnet turns until a command acts, per speed", c.advance.rad_s, "s"}};
   if (!c.current.decouples) f.axes.erase(f.axes.begin() + 2, f.axes.begin() + 4);
   if (c.per_ampere.k_per_A != 0)
     f.axes.push_back({"k", "(L_q - L_d)/(2 psi), most torque per ampere", c.per_ampere.k_per_A, "1/A"});
@@ -130,7 +131,7 @@ void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
     const design::HarmonicFigures shape = design::harmonic_figures(c.harmonic);
     f.axes.push_back({"g", "torque swing of a constant i_q, relative to its mean", shape.swing, ""});
     f.axes.push_back(
-        {"1/|g|^2", "copper loss of the shape's current, over that of a constant i_q", shape.copper, ""});
+        {"1/|g|^2", "copper loss of the shape's current, relative to a constant i_q", shape.copper, ""});
   }
   if (!(c.weakening.most_A > 0)) return;
   f.axes.push_back({"K", "weakening, per sample", c.weakening.K_A_per_V, "A/V"});
@@ -175,7 +176,7 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
   if (!loop.figures.stable || !built.stable) return warn("is unstable" + with, true);
   const double phase_deg = built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < design::least_phase_deg - 0.1)
-    warn("keeps " + base::three_digits(phase_deg) + " degrees of phase" + with + ", less than " +
+    warn("has a phase margin of " + base::three_digits(phase_deg) + " degrees" + with + ", less than " +
              base::three_digits(design::least_phase_deg),
          phase_deg < design::unusable_phase_deg);
   else if (built.sensitivity_peak > design::greatest_sensitivity)
@@ -204,11 +205,12 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
   if (asked_rad_s > base_speed_rad_s(f) && !(c.weakening.most_A > 0))
     f.warnings.push_back({"the reference is " + base::three_digits(asked_rad_s) + " rad/s, and above " +
                               base::three_digits(base_speed_rad_s(f)) +
-                              " rad/s the back-EMF alone exceeds the bus voltage",
+                              " rad/s the back-EMF exceeds the bus voltage even without a current",
                           "set control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
-/// Adds the lag of the estimated speed: w_n^2/(s + w_n)^2 for a tracking loop with damping 1.
+/// Adds the lag of the estimated speed. For a tracking loop with natural frequency w_n and damping 1 it is
+/// w_n^2/(s + w_n)^2.
 void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f) {
   if (!c.estimator.on) return;
   f.axes.insert(f.axes.end(), c.estimator_steps.begin(), c.estimator_steps.end());
@@ -242,7 +244,7 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   if (s.control.drive != study::FirmwareKind::field)
     return base::Problem{"control.drive", "", "is not field-oriented", "set it to \"field-oriented\""};
   if (s.control.mode == Mode::off)
-    return base::Problem{"control.mode", "\"off\"", "leaves no loop",
+    return base::Problem{"control.mode", "\"off\"", "has no loop",
                          "set it to \"current\", \"speed\" or \"position\""};
   if (s.control.field.law == study::FieldLaw::finite_set)
     return base::Problem{"control.field.law", "\"finite-set\"", "has no gains and no linear loop",

@@ -24,7 +24,7 @@ namespace {
 using control::Mode;
 
 /// Tolerance of the straight line that predicts the speed. The line neglects commutation time and PWM ripple,
-/// some per cent. With a different duty the requirement would not be met.
+/// which change the speed by some per cent. A run with a different duty does not meet the requirement.
 constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
@@ -49,8 +49,9 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  // The commutation acts like a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere, here at
-  // the final speed. For a motor with many pole pairs this exceeds R.
+  // The commutation acts like a three-phase rectifier: the voltage falls by 3/pi w_el L_s per ampere, with
+  // the electrical speed w_el at the end of the run-up and the phase inductance L_s. For a motor with many
+  // pole pairs this exceeds R.
   const auto line = [&](double duty, double ohm) {
     return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
   };
@@ -78,14 +79,14 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, more than the allowed 600 s",
                          "check the inertia and the torque constant of the motor's sheet"};
-  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the run-up is left when the window begins
+  s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // when the window begins, exp(-9) of the change remains
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
       measure(study::MetricKind::mean, study::Signal::speed, calm, "speed at the end");
   s.require = {{mean, (1 - line_tolerance) * least, (1 + line_tolerance) * speed}};
   s.compare = {{mean, speed, "straight line of the sheet, with its friction"},
                {measure(study::MetricKind::maximum, study::Signal::current, 0, "peak current of the start"),
-                d * U / R, "half the voltage over the winding's resistance"}};
+                d * U / R, "half the voltage divided by the winding's resistance"}};
   return s;
 }
 
@@ -105,7 +106,8 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
 /// of degrees from its setpoint.
 constexpr double coarsest_step_deg = 20.0;
 
-/// Specifications to try, in this order: the usual design, then changes for motors that it does not suit.
+/// Specifications to try, in this order: the usual design, then changes for motors for which the usual design
+/// is unsuitable.
 std::vector<design::DesignSpec> candidates(const DesignOrder& order, const design::DriveDesign& usual) {
   std::vector<design::DesignSpec> all;
   if (usual.ripple.worst_A < usable_ripple * usual.nominal_current_A) all.push_back(order.spec);
@@ -163,8 +165,8 @@ bool runs_and_passes(const study::Scenario& s) {
   return outcome && outcome->passed() && !outcome->fault;
 }
 
-/// Text of an alternative if this mode has no usable design: a bus that drives the nominal current, or else
-/// the motor without a loop.
+/// Text that offers an alternative if this mode has no usable design: a bus that drives the nominal current,
+/// or a run without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
   std::string more = "a design of the motor shows the cause";
@@ -195,13 +197,13 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
                       [](const design::Warning& w) { return w.grave; });
 }
 
-/// Sets the largest mean of the whole signal above samples at the ripple's lowest point: half of the ripple
-/// at the duty of the held rotor or, if the run needs it, at the worst duty.
+/// Sets the upper limit of the mean of the whole signal. The samples are at the ripple's lowest point, so
+/// that the limit is half of the ripple above them. The ripple is computed at the duty of the held rotor. If
+/// the run exceeds this limit, it is computed at the worst duty.
 void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   s.notes =
       "The current is sampled at the start of each period, where its ripple is lowest: with samples in the middle of "
-      "centred pulses, whose answer comes half a period later, this drive does not hold its requirements. So the "
-      "upper limit of the mean allows half of the ripple.";
+      "centred pulses, whose answer comes half a period later, this drive does not meet its requirements. Therefore the upper limit of the mean allows half of the ripple.";
   study::Requirement& mean = s.require.front();
   mean.measure.sampled = false;
   mean.measure.label = "mean of the last ten periods, upper limit with half the ripple";
@@ -216,11 +218,12 @@ void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   if (!runs_and_passes(s)) *mean.max = samples_most + d.ripple.worst_A / 2;
 }
 
-/// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so
-/// is the mean that it controls. Samples in the middle of a centred pulse equal the mean, but the output then
-/// acts half a period later; this sampling is therefore kept only if the run passes. If a pulse begins a dead
-/// time late, its middle is half a dead time late. The sample is then below the mean by the current's rise in
-/// this time; for a winding of small inductance the difference exceeds the requirement's band.
+/// Sets the requirement on the mean current. The controller's samples are at the lowest point of the ripple,
+/// and the controller controls their mean. Samples in the middle of a centred pulse equal the mean of the
+/// signal, but the output then acts half a period later; this sampling is therefore kept only if the run
+/// passes. If a pulse begins a dead time late, its middle is half a dead time late. The sample is then below
+/// the mean by the current's rise in this time; for a winding of small inductance the difference exceeds the
+/// requirement's band.
 void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   study::Scenario middle = s;
   const bool stands = foretell_in_middle(study.design.spec, middle);
@@ -278,7 +281,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
       if (study->usable() && study->outcome.passed()) {
         study::Scenario s = own_scenario(spec, *study);
         if (runs_and_passes(s)) return s;
-        why = "with the values rounded for a file, the run does not hold its requirements";
+        why = "with the values rounded for a file, the run does not meet its requirements";
       }
       for (const design::Warning& w : study->warnings)
         if (w.grave) why = w.what;

@@ -21,10 +21,11 @@ struct FirstScenarioSpec {
 
 /// Creates the scenario. Problems: errors of the sheet; no design is usable.
 /// - Current, speed, position: the design's own test (design_scenario.hpp) with a board's sensors. The
-///   settling time is the design's settling time if it is usable over the sheet's tolerances, else the
-///   shortest usable one of 2, 5, 10 .. times this time.
+///   settling time is the design's settling time if the design is usable over the sheet's tolerances. Else it
+///   is the shortest usable of 2, 5, 10 .. times this time.
 /// - Duty: a run-up from rest at half the voltage. Chopping is complementary: the current is then continuous,
-///   and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
+///   and the sheet's straight line predicts the speed w: 0 = K_t (d U - K_t w)/R_tt - B w - T_c, with the
+///   mean voltage d U, the viscous friction B and the dry friction T_c.
 base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec);
 
 }  // namespace sixstep::analysis

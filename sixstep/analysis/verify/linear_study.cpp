@@ -26,7 +26,7 @@ constexpr LinearStep linear_steps[] = {
     {"w_min", "v_min", ""},
     {"d1 dw", "d1 dv", ""},
     {"du", "du", "change of the voltage: d1 dv times F_max/K_f times the current loop's d1"},
-    {"u_left", "u_left", "voltage that the bus has left at v_high and half the nominal current"},
+    {"u_left", "u_left", "remaining voltage of the bus at v_high and half the nominal current"},
     {"T", "T", "(tau/3)/v_low, a sector at that speed"},
     {"q", "q", "tau/3, a Hall step"},
 };
@@ -62,7 +62,7 @@ void tell_loop(design::LoopDesign& loop) {
 void tell_sensing(std::vector<design::DerivationStep>& steps) {
   for (design::DerivationStep& s : steps) {
     if (s.symbol == "w_c") {  // an angular frequency, not a speed
-      s.formula = "d1 F_max/m, where the speed loop crosses over by d1 alone";
+      s.formula = "d1 F_max/m, crossover of the speed loop with d1 only";
       s.unit = "1/s";
     }
     const bool speed = s.unit == "rad/s" && s.symbol != "w_n";

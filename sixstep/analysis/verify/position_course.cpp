@@ -43,8 +43,8 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   const double height = std::fabs(step) * base::pi / 180;
   const double J = d.motor.shaft.J_kg_m2;
   // Upper bound of the move's duration: full torque over half of the distance, and braking over the other
-  // half. The bus ends the acceleration at U/K_t; a start that the bus limits soon reaches a third of U/K_t.
-  // Then follows the P loop's exponential, down to 1e-9 of the step.
+  // half. The bus ends the acceleration at U/K_t; U: bus voltage, K_t: torque constant. A start that the bus
+  // limits soon reaches a third of this speed. Then the P loop's exponential decays to 1e-9 of the step.
   const double forth_and_back = 2 * std::sqrt(height * J / d.most_torque_Nm()),
                top = bounded_speed(d, subject, s);
   const std::string of_top =

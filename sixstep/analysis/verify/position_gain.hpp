@@ -12,7 +12,7 @@ namespace sixstep::analysis {
 
 struct PositionGain {
   double gain_rad_s_per_deg = 0.0;
-  double estimate = 0.0;    ///< gain by the closed form for braking from full speed; the search begins there
+  double estimate = 0.0;    ///< gain by the closed form for braking from full speed; first tried gain
   double linear = 0.0;      ///< gain of the linear loop, the upper end of the search
   double overshoots = 0.0;  ///< the smallest tried gain that overshoots; 0 if no tried gain overshoots
   /// Largest gain for the sheet's motor. The tolerances may require a smaller gain.
@@ -30,13 +30,14 @@ struct TrialBudget {
 
 /// Limits of a search, because a move with a lower gain takes longer.
 struct GainSearch {
-  bool quick = false;            ///< uses the closed form's gain, or halves it until it does not overshoot
+  bool quick = false;            ///< true: halves the closed form's gain until the drive does not overshoot
   double longest_periods = 2e6;  ///< limit of one run, in control periods
   double periods = 1.5e7;  ///< limit of all runs together, in control periods: half a minute of one core
 };
 
-/// Near the end of the move the P controller requests w = k x, which decelerates by k^2 x = k w. At the
-/// highest speed U/K_t the deceleration is at most T_max/J if k = T_max/(J U/K_t). Returned in rad/s per
+/// Near the end of the move the P controller requests the speed w = k x, with the gain k and the remaining
+/// distance x. The speed decreases by k^2 x = k w per second. At the highest speed U/K_t (bus voltage, torque
+/// constant) this is at most T_max/J (full torque, inertia) if k = T_max/(J U/K_t). Returned in rad/s per
 /// degree.
 double braking_gain(const design::DriveDesign& design);
 

@@ -55,7 +55,7 @@ std::string tolerances_not_drawn(const study::Scenario& scenario);
 struct Variation {
   std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal
   std::vector<double> factors;  ///< a factor per tolerance
-  bool single = false;          ///< only one tolerance deviates
+  bool single = false;          ///< true: only one tolerance deviates
 };
 /// The nominal motor; each single level; then every combination of outermost levels. If a tolerance has one
 /// side only, its outermost levels are this side and the nominal value.

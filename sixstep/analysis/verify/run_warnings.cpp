@@ -17,8 +17,8 @@ void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
   s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
 }
 
-/// Allowed error of a user's step, as a fraction of it. With an integral part there is no error unless a
-/// limit acts.
+/// Allowed error of a user's step, as a fraction of the step. With an integral part there is no error unless
+/// a limit acts.
 constexpr double missed_part = 0.02;
 
 /// Warns of a setpoint that bus and load do not allow, or that is not reached by the end of the run.
@@ -54,13 +54,14 @@ std::string with_which(const RobustFigure& f) {
   return ": with " + f.at + (one ? "" : ", mainly because of " + f.culprit);
 }
 
-/// True with hard chopping: the mean voltage then drives the motor only above a duty of one half.
+/// True for a current loop with hard chopping: the mean voltage then drives the motor only above a duty of
+/// one half.
 bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
-/// Names the chopping, because a small negative duty brakes by its own voltage or by the whole bus, depending
-/// on it.
+/// Names the chopping: it decides whether a small negative duty brakes with the duty's voltage or with the
+/// whole bus.
 std::string in_simulation(const DesignStudy& s) {
   return "in the simulation, with " +
          std::string(base::word(study::chopping_choices, s.design.spec.chopping)) + " chopping,";

@@ -6,7 +6,7 @@
 namespace sixstep::analysis {
 
 /// Longest duration of a start at the limits, s, with the torque that the bus allows at the end of the start;
-/// 0 if the bus allows no torque there.
+/// 0 if the bus allows no torque at this speed.
 double start_time(const design::DriveDesign& design, double to_rad_s, double load_Nm);
 
 /// Time from one speed to another at the limits of torque and bus, s, computed in a hundred steps. If the bus

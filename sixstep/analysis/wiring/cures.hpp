@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how to correct a wrongly connected motor: the correction ("cure") that moves the fewest wires, and
-// the next step for a person who sees the motor's motion but does not know the wires' order.
+// Finds how to correct a wrongly connected motor. A "cure" is the correction that moves the fewest wires.
+// Also finds the next step for a person who observes the motor's motion but has no wiring plan.
 #pragma once
 #include <array>
 #include <cstddef>

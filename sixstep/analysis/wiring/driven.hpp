@@ -14,7 +14,8 @@ namespace sixstep::analysis {
 
 inline constexpr std::size_t ways_to_plug_in = 36;
 
-/// A row of the drive's own table, for display: legs 0, 1, 2 are a, b, c. A negative command swaps high and low.
+/// A row of the drive's commutation table, for display: legs 0, 1, 2 are a, b, c. A negative command swaps
+/// high and low.
 struct Commutation {
   std::uint8_t code = 0;  ///< H1 H2 H3 as bits 2, 1, 0
   std::size_t high = 0, low = 0, floating = 0;
@@ -34,8 +35,8 @@ constexpr bool keeps_the_turn(rig::WireOrder order) {
 struct Driven {
   std::uint8_t seen = 0;             ///< the sector of the code at the pins
   std::size_t source = 0, sink = 0;  ///< phases of the motor
-  int ahead = 0;                     ///< number of sectors, 0..5, from the rotor's sector to the own sector
-                                     ///< of this pair
+  int ahead = 0;                     ///< number of sectors, 0..5, from the rotor's sector to the sector in
+                                     ///< which straight wires drive this pair
   bool operator==(const Driven&) const = default;
 };
 

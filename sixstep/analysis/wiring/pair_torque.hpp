@@ -12,9 +12,9 @@ namespace sixstep::analysis {
 /// +1 A into `source`, -1 A into `sink`, nothing into the third:
 ///   T/i = E_source - E_sink + 1.5 p (lambda_d i_q - lambda_q i_d)/i
 /// with the back-EMF per speed E_k of phase k (for a delta, of the equivalent star at its terminals, model.md
-/// (9)). The second term describes a salient rotor or saturation (model.md 7); only this term depends on the
-/// current. Cogging and the torque of a delta's loop current are not included, because they do not depend on
-/// the pair.
+/// (9)), the pole pairs p, and flux linkages lambda and currents i in the rotor frame. The second term
+/// describes a salient rotor or saturation (model.md 7); only this term depends on the current.
+/// Cogging and the torque of a delta's loop current are not included, because they do not depend on the pair.
 class PairTorque {
  public:
   PairTorque(const plant::general::Machine& machine, double current_A);

@@ -18,7 +18,7 @@ namespace {
 constexpr double most_periods = 3e5;
 constexpr double rows = 1500;
 
-/// Duration of the run-up in time constants: six, times three, because with half the torque the run-up takes
+/// Duration of the run-up in time constants: six, multiplied by three. With half the torque the run-up lasts
 /// three times as long (wiring_theory.hpp, mean(g^2)).
 constexpr double run_up = 18;
 /// Electrical turns of an ideal motor during the measured part of a run. Every motor that runs makes more
@@ -148,8 +148,8 @@ study::Scenario turned_run(const WiringBench& b, const WiringSubject& subject, c
   study::Scenario s = on_bench(b, subject, wiring);
   s.title = "Turned slowly by a dynamometer, connected as in bridge.phases and sensors.hall_lines";
   s.duration_s = b.turned_from_s + b.turned_s;
-  // A row lies in the middle of its two degrees: no row is then on a sector's edge, where the torque has two
-  // values.
+  // Each row lies in the middle of an interval of two degrees. No row is then on a sector's edge, where the
+  // torque has two values.
   constexpr double first_deg = -60 + 180.0 / turned_rows;
   s.pwm.period_s = b.turned_pwm_s;
   s.initial.angle_rad = first_deg * base::pi / 180 / b.motor.machine.pole_pairs;

@@ -33,12 +33,12 @@ struct WiringBench {
   double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
   BenchCurrent from = BenchCurrent::nominal;
   double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, continuous current
-  double free_s = 0.0;  ///< 18 mechanical time constants and one turn of an ideal motor, then the measured
-                        ///< part
+  double free_s = 0.0;  ///< duration: 18 mechanical time constants and one turn of an ideal motor, then the
+                        ///< measured part
   double watched_from_s = 0.0;
   double row_s = 0.0;  ///< time between two recorded rows of a free run
-  /// PWM period of the slow turn. It is short because rows are at the begin of a period: in a long period the
-  /// current would decay until then and not show the torque.
+  /// PWM period of the slow turn. It is short because rows are recorded at the begin of a period. In a long
+  /// period the current would decay before this instant, and the row would not show the torque.
   double turned_pwm_s = 0.0;
   double turned_rad_s = 0.0;  ///< so low that the back-EMF reduces the bench's current by at most a twentieth
   /// First a sector in which the initial current decays, then one electrical turn, 0 to 360 degrees.

@@ -39,7 +39,7 @@ struct WiringMeasured {
   std::array<FreeRun, starts> runs{};
   double torque_Nm_A = 0.0;  ///< torque per ampere (half the sum of the currents' magnitudes), mean over a
                              ///< slow electrical turn
-  double part = 0.0;         ///< fraction of the torque of straight wires
+  double part = 0.0;         ///< torque_Nm_A divided by its value with straight wires
   std::vector<float> torque_over_turn{};  ///< torque per ampere over this turn: turned_rows values, at 1, 3,
                                           ///< 5 .. degrees
   std::uint64_t digest = 0;               ///< digest of all seven runs
@@ -72,7 +72,7 @@ struct WiringStudy {
 
   std::size_t agreeing() const;
   const WiringCase& at(const rig::Wiring& wiring) const;
-  /// The symptom of all wirings with this behaviour in the runs; of one wiring; of straight wires.
+  /// The symptom of all wirings with this behaviour in the runs, of one wiring, and of straight wires.
   Symptom symptom(WiringDoes does) const;
   Symptom symptom(const WiringCase& one) const;
   Symptom straight() const;

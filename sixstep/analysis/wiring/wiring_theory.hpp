@@ -59,7 +59,7 @@ struct WiringTheory {
 };
 
 /// The behaviour of a wiring. A torque with the same sign in all sectors turns the rotor in its direction; a
-/// torque with both signs holds the rotor.
+/// torque with both signs stops the rotor at an angle.
 WiringTheory wiring_theory(const PairTorque& torque, const rig::Wiring& wiring);
 
 /// The torque over an electrical turn, N m/A. At a sector's edge there are two points, one for each side.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the drive's configuration (control/drive.hpp) once, in the order of an exported
-// header. Each list binds all members of its struct: if a member is missing here, it does not compile.
+// header. Each list binds all members of its struct: the list does not compile if a member is missing.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/design/fields/field.hpp"
 
 namespace sixstep::design {
 
-/// True if a drive runs the loop.
+/// True if a drive runs the loop that the function's name contains.
 template <class Scalar>
 constexpr bool runs_speed(const control::DriveConfig<Scalar>& d) {
   return d.mode == control::Mode::speed || d.mode == control::Mode::position;
@@ -269,7 +269,7 @@ void fields(Walk&& w, const control::DriveConfig<double>& d, Kept& kept) {
   }
   if (speed_runs) {
     w.part("speed", d.speed, speed, PiUse{{Base::one, Base::speed}, "per rad/s", "of full torque"});
-    w.gain({"current_at_full_torque_A", "A", "torque limit over the motor's torque per ampere"},
+    w.gain({"current_at_full_torque_A", "A", "torque limit divided by the motor's torque per ampere"},
            d.current_at_full_torque_A, current_at_full_torque_A, {Base::current, Base::one});
     w.signal({"current_limit_A", "A"}, d.current_limit_A, current_limit_A, Base::current);
     w.gain({"position_gain", "rad/s per deg"}, d.position_gain, position_gain, {Base::speed, Base::position});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the magnet's estimator (control/field/magnet_estimator.hpp) once. The estimator exists
-// in floating point only, because its scaling is not proved. Each list binds all members of its struct: if a
-// member is missing here, it does not compile. Angles and times are integers.
+// in floating point only, because its scaling is not proved. Each list binds all members of its struct: the
+// list does not compile if a member is missing. Angles and times are integers.
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/design/fields/field_drive_fields.hpp"

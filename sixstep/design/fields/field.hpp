@@ -20,8 +20,8 @@
 
 namespace sixstep::design {
 
-/// Base of a fixed-point number: the quantity whose value 1.0 represents, in A, V, rad/s, degrees, the
-/// setpoint's unit, or 1.
+/// Quantity of a fixed-point number. The base of the number is the value that 1.0 represents, in A, V, rad/s,
+/// degrees, the setpoint's unit, or 1.
 enum class Base : std::uint8_t { one, current, voltage, speed, position, setpoint };
 
 /// Bases of a gain's output and input.
@@ -33,7 +33,7 @@ struct Field {
   const char* name;        ///< name of the member
   const char* unit = "";   ///< SI unit; with the base `setpoint` the unit follows from the mode
   const char* about = "";  ///< comment after the number in an exported header
-  bool always = false;     ///< shown even if it has its default value
+  bool always = false;     ///< true: the field is shown even if it has its default value
 };
 
 /// Copies every field to another floating-point number.

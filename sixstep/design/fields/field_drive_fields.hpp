@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the field-oriented drive's configuration (control/field/) around its drive once. Each
-// list binds all members of its struct: if a member is missing here, it does not compile. A Ratio cannot
+// list binds all members of its struct: the list does not compile if a member is missing. A Ratio cannot
 // express the base of a gain on a product of speed and current; this list is therefore for floating point
 // only.
 #pragma once

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of a back-EMF observer's configuration (control/sensorless/observer.hpp) once, for
 // export. The conversion to a chip's numbers is separate (scaling/observer_scaling.hpp), because the observer
-// uses the converter's counts as well as the drive's units. Each list binds all members of its struct: if a
-// member is missing here, it does not compile.
+// uses the converter's counts as well as the drive's units. Each list binds all members of its struct: the
+// list does not compile if a member is missing.
 #pragma once
 #include "sixstep/control/sensorless/observer.hpp"
 #include "sixstep/design/fields/field.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the product drive's configuration (control/protected_drive.hpp) around its drive once,
-// in the order of an exported header. Each list binds all members of its struct: if a member is missing here,
-// it does not compile.
+// in the order of an exported header. Each list binds all members of its struct: the list does not compile if
+// a member is missing.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/design/fields/drive_fields.hpp"

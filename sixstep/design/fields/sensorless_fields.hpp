@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists every field of the sensorless drive's configuration (control/sensorless/) around its drive once. Each
-// list binds all members of its struct: if a member is missing here, it does not compile. Times are counts of
+// list binds all members of its struct: the list does not compile if a member is missing. Times are counts of
 // the timer, voltages counts of the converter; only the references and limits of the inner loops are Scalars.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"

@@ -23,7 +23,8 @@ struct Collector {
   }
 };
 
-/// The bound that exceeds the phase: ", less than 20" if the loop is not usable, else ", less than 45".
+/// Text for the bound that the phase margin does not reach: ", less than 20" if the loop is not usable, else
+/// ", less than 45".
 std::string below_bound(double phase_deg) {
   return ", less than " +
          base::three_digits(phase_deg < unusable_phase_deg ? unusable_phase_deg : least_phase_deg);
@@ -39,7 +40,7 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < least_phase_deg)
     out.add(Concern::delay,
-            with + loop.name + " loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
+            with + loop.name + " loop has a phase margin of " + base::three_digits(phase_deg) + " degrees" +
                 below_bound(phase_deg),
             phase_deg < unusable_phase_deg);
   else if (loop.figures.sensitivity_peak > greatest_sensitivity)
@@ -58,10 +59,10 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
                          milliseconds(d.lag.delay_s()) + " old";
   if (!speed.built.stable) return out.add(Concern::sensing, "the speed loop is unstable" + at, true);
   const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
-  // Rounding of a settling time may cost a tenth of a degree.
+  // Rounding of a settling time may reduce the phase margin by a tenth of a degree.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
-            "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
+            "the speed loop has a phase margin of " + base::three_digits(phase_deg) + " degrees" +
                 below_bound(phase_deg) + "," + at,
             phase_deg < unusable_phase_deg);
 }
@@ -78,9 +79,9 @@ void look_at_grain(const DriveDesign& d, Collector& out) {
               base::three_digits(std::fmax(d.high_speed_left_V, 0.0)) + " V left");
 }
 
-/// Warns of a position loop on counted edges. The loop is a P loop: one step away from the setpoint it
-/// commands K_p steps per second. The next edge follows after 1/K_p, and until then the age of the measured
-/// speed grows to 1/K_p.
+/// Warns of a position loop on counted edges. The loop is a P loop with the gain K_p: one step away from the
+/// setpoint it commands K_p steps per second. The next edge follows after the time 1/K_p, and the age of the
+/// measured speed grows to this time.
 void look_at_steps(const DriveDesign& d, Collector& out) {
   if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
@@ -119,8 +120,9 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
                                      " loop, less than " + base::three_digits(least_separation));
 }
 
-/// A ripple above the nominal current is grave: the current is discontinuous, or reverses in each period, below half of
-/// the nominal one, and its peak is more than 50 % above a mean of the nominal one. The copper loss grows by a twelfth.
+/// A ripple above the nominal current is grave. Below half of the nominal current, the current is
+/// discontinuous or reverses in each period. At the nominal current, the peak exceeds the mean by more than
+/// 50 %, and the copper loss is larger by a twelfth.
 void look_at_ripple(const DriveDesign& d, Collector& out) {
   const double allowed_A = greatest_ripple * d.nominal_current_A;
   if (!(d.ripple.worst_A > allowed_A)) return;
@@ -144,13 +146,14 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
   if (d.spec.chopping == control::Chopping::soft && d.braking_limit_rad_s < top)
     out.add(
         Concern::braking,
-        "soft chopping cannot hold a braking current of " + base::three_digits(d.nominal_current_A) + " A" +
-            (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
+        "soft chopping cannot limit the braking current of " + base::three_digits(d.nominal_current_A) +
+            " A" + (d.nominal_printed ? "" : std::string(", ") + nominal_current_words(d) + ",") + " above " +
             base::three_digits(d.braking_limit_rad_s) +
-            " rad/s, (i/K_t) R: above this speed the lower switches short the motor, and the current is larger");
+            " rad/s, i R_tt/K_t (i: this current, R_tt: line-to-line resistance, K_t: torque constant): above this speed the lower switches short the motor, and the current is larger");
 }
 
-/// Checks the voltage that a step needs: the first command after a step of the nominal current i is d1 i.
+/// Checks the voltage that a step needs: the first command after a step of the nominal current i is d1 i,
+/// with the controller's gain d1.
 void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
@@ -219,8 +222,8 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   look_at_braking(d, out);
   look_at_heat(d, out);
   if (!d.motor.left_to_a_run.empty())
-    out.add(Concern::other, "this design leaves out " + d.motor.left_to_a_run + ", which a run has", false,
-            "check it by a run of your scenario");
+    out.add(Concern::other, "this design neglects " + d.motor.left_to_a_run + ", which a run simulates",
+            false, "check it by a run of your scenario");
   return out.found;
 }
 

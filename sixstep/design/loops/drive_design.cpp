@@ -118,7 +118,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
       return base::Problem{
           "bandwidth_rad_s", base::written(*w.bandwidth_rad_s),
           "must be below the limit from the current loop's lag, " + base::written(1.0 / lag) + " rad/s",
-          "lower it; at a third of this limit the rule leaves 53 degrees of phase"};
+          "lower it; at a third of this limit the rule gives a phase margin of 53 degrees"};
     return by_rule("speed", "symmetrical optimum",
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
   }
@@ -224,8 +224,8 @@ constexpr double times_of_torque = 1.5;
 
 /// Chooses the default settling time: the thesis's time, or the longer limit by sensor or torque.
 void choose_settling(DriveDesign& d) {
-  if (d.spec.mode == Mode::speed)  // a move is at its limits most of the time, for any settling time of the
-                                   // loop
+  if (d.spec.mode == Mode::speed)  // not for a move, which is at its limits most of the time for any settling
+                                   // time of the loop
     d.settle_by_torque_s =
         times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.most_torque_Nm();
   if (d.spec.settle_s) return;
@@ -257,7 +257,7 @@ void add_speed_step(DriveDesign& d, double crossover) {
                        d.speed_step_part, ""});
   d.sensing.push_back({"du", "change of the voltage: d1 dw times T_max/K_t times the current loop's d1",
                        d.speed_step_V, "V"});
-  d.sensing.push_back({"u_left", "voltage that the bus has left at w_high and half the nominal current",
+  d.sensing.push_back({"u_left", "remaining voltage of the bus at w_high and half the nominal current",
                        d.high_speed_left_V, "V"});
 }
 
@@ -271,8 +271,8 @@ void add_sensing(DriveDesign& d) {
                              {.lowest = d.lowest_speed_rad_s, .highest = d.high_speed_rad_s});
 }
 
-/// Derivation for a P loop with counted edges: one step away from the setpoint it commands K_p steps per
-/// second.
+/// Derivation for a P loop with counted edges: one step away from the setpoint it commands K_p (its gain)
+/// steps per second.
 void add_steps(DriveDesign& d) {
   if (!d.spec.rotor.hall || d.loops.size() < 3) return;
   std::erase_if(d.sensing, [](const DerivationStep& s) { return s.symbol == "q" || s.symbol == "1/K_p"; });

@@ -85,8 +85,8 @@ struct LoopDesign {
   std::optional<PolePlacement> placed;
   Transfer loop;        ///< open loop with the spec's delay and with closed inner loops
   LoopFigures figures;  ///< figures of `loop`
-  LoopFigures other;    ///< figures of the loop with the other of the board's two delays, one period longer
-                        ///< or shorter
+  LoopFigures other;    ///< figures of the loop with the board's second possible delay, one period longer or
+                        ///< shorter
   LoopFigures built;    ///< figures of `loop` with the lag of the speed sensor at the lowest speed
   StepResponse step;    ///< step of the closed loop with the sensor's lag
 };
@@ -120,13 +120,13 @@ struct Warning {
   std::string what;  ///< the warning, in one sentence
   /// Cure that trials found (analysis/verify/advice.hpp); empty if no trial helped.
   std::string cure;
-  bool grave = false;  ///< true: not safe for a motor
+  bool grave = false;  ///< true: the design is not usable
   Concern of = Concern::other;
 };
 
 struct DriveDesign {
   DesignSpec spec;
-  MotorModel motor;  ///< with the sum of the load's and the rotor's inertia
+  MotorModel motor;  ///< its inertia is the sum of the load's and the rotor's inertia
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;
@@ -141,7 +141,7 @@ struct DriveDesign {
   double settle_by_torque_s =
       0.0;  ///< speed: 1.5 times the time that the torque limit needs to change the speed by half the lowest
             ///< speed, J w_low/(2 T_max)
-  std::vector<LoopDesign> loops;  ///< from the inside out
+  std::vector<LoopDesign> loops;  ///< all loops, from the inside out
   Ripple ripple;
   double longest_period_s =
       0.0;  ///< longest period at which the current loop has 45 degrees of phase margin with the longer
@@ -159,7 +159,7 @@ struct DriveDesign {
   double braking_limit_rad_s = 0.0;  ///< highest speed at which soft chopping can limit the braking current
                                      ///< to the nominal current
   double commutation_limit_rad_s =
-      0.0;  ///< highest speed at which a duty can hold the nominal current's torque through a commutation
+      0.0;  ///< highest speed at which a duty can keep the nominal current constant through a commutation
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
@@ -179,7 +179,7 @@ struct DriveDesign {
 /// Name of nominal_current_A in messages; the name shows if the value is not from the sheet.
 inline const char* nominal_current_words(const DriveDesign& d) {
   return d.nominal_printed ? "the nominal current"
-                           : "a tenth of the stall current (the sheet names no nominal one)";
+                           : "a tenth of the stall current (the sheet names no nominal current)";
 }
 
 /// Relative band of a loop's settling time, for the linear step and for the run.
@@ -191,8 +191,8 @@ double settling_band(const DriveDesign& design, const LoopDesign& loop);
 double settling_band(const DriveDesign& design);
 
 /// Designs the gains for the spec. In position mode the gain is the largest gain without overshoot of the
-/// linear loop. study/ then finds the largest gain that the limits allow, and sets it with
-/// with_position_gain(). Problems name the option.
+/// linear loop. analysis/verify/position_gain.hpp then finds the largest gain that the limits allow, and sets
+/// it with with_position_gain(). Problems name the option.
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec);
 
 /// The same design with another position gain; figures and warnings are recomputed.

@@ -23,8 +23,9 @@ int whole_periods(const DriveLoops& d) { return static_cast<int>(std::floor(d.la
 /// The fractional part of the delay, s.
 double late_s_of(const DriveLoops& d) { return (d.late_periods - std::floor(d.late_periods)) * d.period_s; }
 
-/// The motor, sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)). It
-/// includes the fractional part of the delay, but no whole periods.
+/// The motor, sampled with the held voltage u. The transfer functions from u are i/den to the current, w/den
+/// to the speed and theta/(den (z - 1)) to the angle. They include the fractional part of the delay, but no
+/// whole periods.
 struct Plant {
   Polynomial den, i, w, theta;
 };
@@ -43,8 +44,9 @@ Plant plant_of(const DriveLoops& d) {
   return {i.den, i.num, w.num, sampled(motor, 2, d.period_s, late).num};
 }
 
-/// Polynomials of nested loops. The poles of the speed loop closed around the current loop are the roots of
-/// (z - 1)^2 den z^m + (z - 1) c_i i + c_w K c_i w; c_w K c_i are the controllers in series.
+/// Polynomials of nested loops; c_i, c_w: controllers of current and speed, K: current at full torque, m:
+/// whole periods of delay. The poles of the speed loop closed around the current loop are the roots of (z -
+/// 1)^2 den z^m + (z - 1) c_i i + c_w K c_i w.
 struct Cascade {
   Polynomial controllers, current_closed, speed_closed;
 };

@@ -58,8 +58,8 @@ Transfer open_current_loop(const DriveLoops& drive);
 Transfer open_current_loop_turning(const DriveLoops& drive);
 /// Open speed loop, from speed error to speed, with the current loop closed.
 Transfer open_speed_loop(const DriveLoops& drive);
-/// The loop L with the law's setpoint response T = L/(1 + L), as for a PI's open loop. A measurement of T
-/// gives this L.
+/// The loop L for which the law's response to the setpoint is T = L/(1 + L), as for a PI's open loop. L can
+/// be computed from a measured T.
 Transfer speed_loop_by_setpoint(const DriveLoops& drive, const LinearLaw& law);
 /// The speed loop, opened at the controller's output. Margins are defined for this loop.
 Transfer open_speed_loop(const DriveLoops& drive, const LinearLaw& law);

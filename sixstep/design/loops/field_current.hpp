@@ -10,9 +10,10 @@
 // With a delay the second pole is slower if z_1 is below 1/2; w T is therefore at most ln 2. This holds for
 // the decoupled axis at rest; with a turning rotor w_e L i also changes within a period.
 //
-// In the weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), v_q changes by w_e L_d per ampere. K is
-// designed at the speed w_0 = U/(sqrt 3 p psi), at which the magnet's back-EMF equals the radius of the
-// voltage circle. At w_0 the weakening is ten times slower than the current loops:
+// The field weakening computes i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|). The current i_d changes the voltage
+// v_q by w_e L_d per ampere. K is designed at the speed w_0 = U/(sqrt 3 p psi), at which the magnet's
+// back-EMF equals the radius of the voltage circle. At w_0 the weakening is ten times slower than the current
+// loops:
 //
 //   1 - K w_0 p L_d = exp(-w T/10)
 #pragma once

@@ -23,7 +23,7 @@ constexpr double least_saturation = 0.01;
 const double band_of_natural = std::sqrt(3 + std::sqrt(10.0));
 constexpr double behind_rad = 5 * base::pi / 180;
 
-/// x of the header, and the guaranteed y: fractions of the start current's largest torque.
+/// x of field_estimate.hpp, and the guaranteed y: fractions of the start current's largest torque.
 constexpr double start_acceleration_part = 0.125, start_load_part = 0.6;
 
 double usual_bandwidth_rad_s(const FieldMachine& m, const FieldEstimateSpec& s) {
@@ -69,7 +69,7 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   return {};
 }
 
-/// w_g of the header, rad/s.
+/// w_g of field_estimate.hpp, rad/s.
 double pull_rad_s(const FieldMachine& m, const control::EstimatorConfig<double>& c) {
   return 0.5 * m.pole_pairs * c.high_rad_s;
 }

@@ -42,8 +42,9 @@ struct FieldEstimateSpec {
   bool injects = false, observes = false;
   double period_s = 0.0;
   int delay_periods =
-      0;  ///< periods from a sample to the period of its output; with in_middle one of them is half a period
-  bool in_middle = false;   ///< the sample is in the middle of a period
+      0;  ///< periods from a sample to the period of its output; with in_middle one of these periods is half
+          ///< a period
+  bool in_middle = false;   ///< true: the sample is in the middle of a period
   double loop_rad_s = 0.0;  ///< bandwidth of the current loops
   double bus_V = 0.0;
   double current_A = 0.0;  ///< permissible amplitude of the phase current for motor and drive

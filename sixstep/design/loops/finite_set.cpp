@@ -26,10 +26,11 @@ FiniteSet finite_set(const FieldMachine& machine, double period_s, double bus_V)
   c.half_turn_s = p * period_s / 2;
   c.salient_V_s_A = p * (machine.L_d_H - machine.L_q_H);
   out.band_A = triangles * std::fmax(c.d_A_per_V, c.q_A_per_V) * bus_V;
-  out.steps = {{"T_s", "control period", period_s, "s"},
-               {"a", "exp(-R T_s/L_q), fraction of a current that remains after one period", c.q_decay, ""},
-               {"b", "(1 - a)/R, current per volt after one period", c.q_A_per_V, "A/V"},
-               {"r", "2/(3 sqrt 3) b U, farthest from the reference where the bus reaches", out.band_A, "A"}};
+  out.steps = {
+      {"T_s", "control period", period_s, "s"},
+      {"a", "exp(-R T_s/L_q), fraction of a current that remains after one period", c.q_decay, ""},
+      {"b", "(1 - a)/R, current per volt after one period", c.q_A_per_V, "A/V"},
+      {"r", "2/(3 sqrt 3) b U, largest distance from a reference that the bus can reach", out.band_A, "A"}};
   return out;
 }
 

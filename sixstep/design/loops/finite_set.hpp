@@ -13,7 +13,7 @@
 namespace sixstep::design {
 
 struct FiniteSet {
-  control::FiniteSetConfig<double> config;  ///< without weight of switching and without bound of the current
+  control::FiniteSetConfig<double> config;  ///< without weight of switching and without current limit
   double band_A = 0.0;  ///< largest distance from the reference to the predicted current, with the smaller L
   std::vector<DerivationStep> steps;
 };

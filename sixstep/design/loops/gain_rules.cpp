@@ -46,7 +46,7 @@ base::Result<RuleGains> cancel_pole(double R_ohm, double L_H, double bandwidth_r
 base::Result<RuleGains> symmetrical_optimum(double J_kg_m2, double torque_max_Nm, double T_sigma_s, double a,
                                             double period_s) {
   base::Problems found;
-  expect_above(found, "a", a, 1.0, "take a larger damping or a smaller bandwidth: a = 2 is the usual value");
+  expect_above(found, "a", a, 1.0, "use a larger damping or a smaller bandwidth: a = 2 is the usual value");
   expect_above(found, "T_sigma_s", T_sigma_s, 0.0, "give the lag of the current loop in seconds");
   expect_above(found, "torque_max_Nm", torque_max_Nm, 0.0, "give the torque limit in N m");
   if (!found.empty()) return found;

@@ -12,9 +12,9 @@
 // Hall edges are late. C: bus capacitor.
 //
 // Current: the largest of three currents that sum to zero is opposed by the two others. With all legs
-// connected at most two thirds of U + E drive it through L/2 = L_s, else half of U + E. With all gates off,
-// and E < U, its own leg is at one rail and the other legs are at the other rail or floating: the current
-// falls.
+// connected at most two thirds of U + E drive it through L/2 = L_s, else half of U + E. With all gates off
+// and E < U, the leg of the largest current is at one rail, and the other legs are at the other rail or
+// floating: the current falls.
 //
 // Speed: I accelerates for a period and then decays against at least U. A speed measured over k edges is the
 // rotor's speed up to k + 1 sectors ago, and w^2 grows by 2 a per radian.
@@ -22,8 +22,8 @@
 // Bus: I flows back to the bus for a period. Then 1/2 L I^2 and the energy of the back-EMF flow back while I
 // decays. With the charge q, C U^2/2 grows by at most L I^2/2 + E q, and q = C (U - U_1).
 //
-// The bounds do not hold if the load turns the rotor beyond U/k, because the diodes then rectify. A speed limit
-// cannot hold a driving load either.
+// The bounds do not hold if the load turns the rotor beyond U/k, because the diodes then rectify. A speed
+// limit has no effect on a driving load either.
 #pragma once
 #include "sixstep/design/sheet/parameters.hpp"
 

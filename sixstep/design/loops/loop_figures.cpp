@@ -23,7 +23,7 @@ double root(double low, double high, F f) {
   return low + (high - low) / 2.0;
 }
 
-/// Turns w T_s per sample, rad, from low to pi, evenly spaced in their logarithm.
+/// Angles w T_s per sample, rad, from low to pi, evenly spaced in their logarithm.
 std::vector<double> grid(double low, int points) {
   std::vector<double> turns(static_cast<std::size_t>(points));
   const double ratio = base::exp(base::log(base::pi / low) / (points - 1));
@@ -95,7 +95,7 @@ LoopFigures scanned(const Loop& loop, const Left& left, double lowest, double pe
         const double at = root(before, turn, [&](double x) { return loop(x).size() - 1.0; });
         look_at_crossing(f, at / period_s, left(at), L.size() < 1.0);
       }
-      const bool end = n + 1 == turns.size();  // at half the sampling rate, where L is real
+      const bool end = n + 1 == turns.size();  // true at half the sampling rate, where L is real
       if (!end && (L.im < 0.0) != (last.im < 0.0) && L.re < 0.0)
         look_at_axis(f, loop(root(before, turn, [&](double x) { return loop(x).im; })));
       if (end) look_at_axis(f, {L.re, 0.0});

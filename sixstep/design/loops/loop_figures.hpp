@@ -13,13 +13,13 @@
 namespace sixstep::design {
 
 struct LoopFigures {
-  bool stable = false;                    ///< stability of the closed loop, by its poles
+  bool stable = false;                    ///< true: the closed loop is stable, by its poles
   std::optional<double> crossover_rad_s;  ///< last frequency at which |L| falls through 1
   std::optional<double> phase_rad;        ///< smallest phase distance to -180 degrees at which |L| = 1
   std::optional<double> gain;             ///< factor on the gain at which the loop becomes unstable; empty:
                                           ///< no factor above 1
-  std::optional<double> delay_s;  ///< additional dead time at which the loop becomes unstable; 0 if it is
-                                  ///< unstable without it
+  std::optional<double> delay_s;  ///< additional dead time at which the loop becomes unstable; 0 if the loop
+                                  ///< is unstable without additional dead time
   std::optional<double> bandwidth_rad_s;  ///< frequency at which |L/(1 + L)| falls below 1/sqrt 2
   double sensitivity_peak = 1.0;          ///< largest |1/(1 + L)|; its inverse is the distance of L to -1
   double sensitivity_peak_rad_s = 0.0;
@@ -30,8 +30,8 @@ struct LoopFigures {
 /// its frequency by default); a PI loop has no such resonance.
 LoopFigures loop_figures(const Transfer& loop, double period_s, int points = 4096);
 
-/// A loop with a speed sensor H: the open loop is L H. With `around`, the struct is a position loop around
-/// this speed loop, `loop` (1 + around)/(1 + around H). The position itself is measured without lag.
+/// A loop with a speed sensor H: the open loop is L H. With `around`, it is a position loop around this speed
+/// loop: `loop` (1 + around)/(1 + around H). The position itself is measured without lag.
 struct SensedLoop {
   Transfer loop;
   SpeedLag lag;

@@ -11,7 +11,7 @@ namespace sixstep::design {
 struct Margins {
   double crossover_rad_s = 0.0;  ///< frequency at which |L| = 1
   double phase_rad = 0.0;        ///< phase distance to -180 degrees at the crossover
-  std::optional<double> gain;    ///< factor on the loop's gain at which it becomes unstable; empty: no factor
+  std::optional<double> gain;    ///< factor on the gain at which the loop becomes unstable; empty: no factor
                                  ///< above 1
   double delay_s = 0.0;          ///< additional dead time at which the phase margin is 0
 };

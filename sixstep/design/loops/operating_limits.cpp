@@ -16,7 +16,7 @@ namespace {
 /// Ripple, A peak to peak, of a pair that switches between two voltages with the difference `swing_V`.
 double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, double period_s) {
   const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
-  // R b0 = 1 - exp(-R T/L) without cancellation; b0 is taken from pole_placement's plant with R = L = 1.
+  // R b0 = 1 - exp(-R T/L) without cancellation; b0 is computed by pole_placement's plant with R = L = 1.
   const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
   return swing_V / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
 }
@@ -25,7 +25,7 @@ double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, doub
 
 double volts_per_duty(control::Chopping chopping) { return chopping == control::Chopping::hard ? 2.0 : 1.0; }
 
-// Inverts u/U = s d - (s - 1), with s = volts_per_duty().
+// Inverts u/U = s d - (s - 1), with s = volts_per_duty(); u: mean voltage, U: bus voltage, d: duty.
 double duty_for_voltage(control::Chopping chopping, double part_of_bus) {
   const double s = volts_per_duty(chopping);
   return (part_of_bus + s - 1.0) / s;
@@ -48,8 +48,8 @@ Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, cont
   return r;
 }
 
-// At d = 1/2 the ripple is (dU/R) tanh(x/4), where dU is the swing of the voltage. Therefore x = 2 ln((1 +
-// y)/(1 - y)) with y = ripple R/dU.
+// At the duty 1/2 the ripple is (dU/R) tanh(x/4), with x = R T/L and the swing dU of the voltage. Therefore x
+// = 2 ln((1 + y)/(1 - y)) with y = ripple R/dU.
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A) {
   const double y = ripple_A * 2.0 * motor.machine.R_ohm / (volts_per_duty(chopping) * bus_V);

@@ -7,8 +7,8 @@
 
 namespace sixstep::design {
 
-/// Change of the pair's mean voltage per duty, relative to the bus, with continuous current. If one switch of
-/// the pair stays on, the pair has 0 V in the off state and u = d U: the result is 1 (soft and
+/// Change of the pair's mean voltage u per duty d, relative to the bus voltage U, with continuous current. If
+/// one switch of the pair stays on, the pair has 0 V in the off state and u = d U: the result is 1 (soft and
 /// complementary). If both switches are off, the current flows against the bus and u = d U - (1 - d) U: the
 /// result is 2 (hard).
 double volts_per_duty(control::Chopping chopping);
@@ -70,9 +70,9 @@ double commutation_loss(const MotorModel& motor, double current_A);
 /// nine tenths of the highest speed with this load and its commutations.
 struct TestSpeeds {
   double load_A = 0.0, top_rad_s = 0.0;
-  /// Upper bound of the lowest speed, for two reasons. A step down to the lowest speed must begin a fifth
-  /// above it, and the bus must drive the nominal current there. 0 if the bus drives the nominal current at
-  /// no speed.
+  /// Upper bound of the lowest speed, for two reasons. A step down to the lowest speed must begin at 1.2
+  /// times this speed, and at the beginning the bus must drive the nominal current. 0 if the bus drives the
+  /// nominal current at no speed.
   double most_lowest_rad_s = 0.0;
 };
 TestSpeeds test_speeds(const MotorModel& motor, double bus_V, double torque_limit_Nm);
@@ -85,9 +85,9 @@ double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);
 /// Back-EMF that a commutation must overcome, relative to the peak E of a phase: 2 e_staying - e_entering -
 /// e_leaving at the edge. It is 4 for a flat top of at least 120 degrees, and 3 for a sine.
 double commutation_emfs(const plant::Machine& machine);
-/// Highest speed w at which a duty can hold the staying phase's current i through a commutation:
+/// Highest speed w at which a duty can keep the staying phase's current i constant through a commutation:
 /// commutation_emfs() K_e w + 3 R_s i = U_s, with R_s of a phase (sixstep/control/commutation_step.hpp). 0 if
-/// there is no such speed.
+/// no such speed exists.
 double commutation_limit_rad_s(const MotorModel& motor, double bus_V, double current_A);
 
 }  // namespace sixstep::design

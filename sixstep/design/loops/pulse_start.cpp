@@ -88,8 +88,8 @@ double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
 
 double off_deg(const Basis& b, const PulseStart& s) {
   const double m = depth(b, s.current_A), saliency = std::fabs(b.L_D) / b.L_S;
-  // In addition to the noise there is a second error. If the axis is seen, it is the part of saturation in
-  // the second harmonic; if not, it is the effect of 1/I on cos^3 x, a tenth of the depth of saturation.
+  // In addition to the noise there is a second error. If the axis is measured, it is the part of saturation
+  // in the second harmonic. Otherwise it is the effect of 1/I on cos^3 x, a tenth of the depth of saturation.
   const bool axis_seen = s.axis >= s.pulses.certain && 1000 * saliency > s.pulses.amplifiers;
   const double off_rad = axis_seen     ? (noises / s.axis + 3.0 / 32.0 * m * m / saliency) / 2
                          : s.north > 0 ? noises / s.north + m / 10

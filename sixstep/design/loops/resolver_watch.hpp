@@ -5,7 +5,7 @@
 //   intact     c = k_1 cos phi,  s = k_2 sin(phi + q):  c^2 + s^2 lies within the eigenvalues l_1 <= l_2 of
 //              [k_1^2 + k_2^2 sin^2 q,  k_2^2 sin q cos q;  k_2^2 sin q cos q,  k_2^2 cos^2 q]
 //   too low    below l_1/2. If only one of two equal windings works, c^2 + s^2 falls below this limit where
-//              the angle is wrong by more than 45 degrees; beyond them a detector cannot determine the
+//              the angle is wrong by more than 45 degrees; beyond this error a detector cannot determine the
 //              direction. If both signals are weak, the limit is reached at 0.71 of full excitation.
 //   too high   above 5/4 l_2: a converter whose range is a quarter larger still measures this value in one
 //              winding

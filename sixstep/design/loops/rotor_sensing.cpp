@@ -71,12 +71,11 @@ double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double s
 
 namespace {
 
-/// Crossover of the loop with its proportional gain only; the chip's window is computed from it too. With its
-/// integral and lags the loop crosses over at another frequency.
+/// Adds the crossover of the loop with its proportional gain only, from which the chip's window is computed.
+/// With its integral and lags the loop crosses over at another frequency.
 void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
   if (!(crossover_rad_s > 0.0)) return;
-  steps.push_back(
-      {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
+  steps.push_back({"w_c", "d1 T_max/J, crossover of the speed loop with d1 only", crossover_rad_s, "rad/s"});
 }
 
 /// True if at this speed the speed is measured over one edge: the errors of the probes' positions then do not
@@ -116,7 +115,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
     steps.push_back(
         {"T_6",
          "(pi/8)(12/7)/w_c: six edges within this time cost at most pi/8 of phase, and the speed is "
-         "averaged over them; else over one",
+         "averaged over six edges; else over one edge",
          hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back(

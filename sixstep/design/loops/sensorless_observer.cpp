@@ -12,7 +12,7 @@ namespace sixstep::design {
 namespace {
 
 constexpr double lag_part = 0.2;      // lag as a fraction of a sector at no-load speed
-constexpr double level_scale = 0.25;  // level as a fraction of psi's format: its range is four levels
+constexpr double level_scale = 0.25;  // level divided by the range of psi's number format
 constexpr double observed_periods_a_sector = 4.0;
 
 /// The back-EMF of a phase relative to its peak, `deg` degrees after its zero crossing from below.

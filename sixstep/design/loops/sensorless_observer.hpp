@@ -34,7 +34,7 @@ struct SensorlessObserver {
 };
 
 /// Designs an observer for the motor and board of sensorless_start(). Problems name the key: samples in the
-/// freewheel may measure a terminal that a diode holds, and an inductance is required. If `follow` is no
+/// freewheel may measure a terminal that a diode clamps, and an inductance is required. If `follow` is no
 /// observer, the result is the default.
 base::Result<SensorlessObserver> sensorless_observer(const MotorModel& motor, const SensorlessSpec& spec,
                                                      control::Follow follow);

@@ -30,8 +30,8 @@ control::ZeroCrossingConfig crossing_of(const SensorlessBasis& b) {
   c.seen = b.spec.seen;
   c.rail_counts = static_cast<std::uint16_t>(whole(rail_part * b.spec.bus_V / b.lsb_V));
   c.threshold = counts(b.threshold_V);
-  // In the freewheel a diode holds the terminal one diode drop beyond the rail; the driven pair's mean is
-  // beyond it by half a drop. y shows the difference.
+  // In the freewheel a diode clamps the terminal one diode drop beyond the rail; the driven pair's mean is
+  // beyond the rail by half a drop. y shows the difference.
   c.below = b.spec.seen == control::NeutralSeen::on_time ? c.threshold
                                                          : std::min(c.threshold, counts(b.spec.diode_V / 2));
   const auto through = [](double ticks) { return whole(std::ceil(ticks)); };
@@ -92,8 +92,8 @@ control::LockConfig lock_of(const SensorlessBasis& b) {
   l.shortest_ticks = whole(b.counts(b.sector_s(fastest * b.no_load_rad_s)));
   l.threshold = static_cast<std::int32_t>(b.lock_V / b.lsb_V) + 1;
   l.most_flux = whole(fluxes * 3.0 * b.motor.machine.K_e_V_s / b.lsb_V * b.counts(b.sector_s(1.0)));
-  // If a leg's diode stops conducting within the on-time, the sample is taken while the leg is still moving
-  // away from the rail: the flux cannot be computed from its voltage.
+  // If a leg's diode stops conducting within the on-time, the leg is still moving away from the rail at the
+  // sample: the flux cannot be computed from its voltage.
   if (b.lag_s > 0.0 && b.spec.chopping != control::Chopping::hard) l.most_flux = 0xffffffffu;
   l.longest_ticks = whole(b.counts(b.sector_s(slowest * b.lowest_rad_s)));
   return l;
@@ -135,7 +135,7 @@ std::vector<DerivationStep> steps_of(const SensorlessBasis& b, const SensorlessS
     steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
   }
   if (b.spec.comparators.followed) {
-    steps.push_back({"y_c", "offset and half the hysteresis, beside y_0", b.comparators_V(), "V"});
+    steps.push_back({"y_c", "offset and half the hysteresis, added to y_0", b.comparators_V(), "V"});
     steps.push_back(
         {"tau_c", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.comparator_lag_s, "s"});
   }

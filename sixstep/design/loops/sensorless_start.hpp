@@ -98,10 +98,10 @@ struct SensorlessStart {
   std::vector<DerivationStep> steps;
 };
 
-/// `motor` includes the load's inertia on its shaft. `current_at_full_output_A` is the speed loop's; 0
-/// without a speed loop. Problems name the key to change: the bus is not given, the start current does not
-/// move the load, or converter or comparators are too inexact to measure the back-EMF below half the no-load
-/// speed.
+/// `motor` includes the load's inertia on its shaft. `current_at_full_output_A`: current at the speed loop's
+/// full output; 0 without a speed loop. Problems name the key to change: the bus is not given, the start
+/// current does not move the load, or converter or comparators are too inexact to measure the back-EMF below
+/// half the no-load speed.
 base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const SensorlessSpec& spec,
                                                double current_at_full_output_A);
 

@@ -27,7 +27,7 @@ enum class ShaftSensorKind : std::uint8_t { none, encoder, absolute, resolver };
 struct ShaftSensing {
   ShaftSensorKind kind = ShaftSensorKind::none;
   double gear = 1.0;      ///< n, turns of the motor per turn of the sensor
-  bool linear = false;    ///< a linear scale: n is the magnets' period divided by 2 pi, in m, and N the
+  bool linear = false;    ///< true: a linear scale; n is the magnets' period divided by 2 pi, in m, and N the
                           ///< number of lines in a period
   double period_s = 0.0;  ///< T_s, the control period
   // incremental encoder

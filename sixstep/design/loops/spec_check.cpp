@@ -32,13 +32,13 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
     add("mode", "", "must be current, speed or position", "choose the controlled quantity");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
     add("method", "symmetrical-optimum", "applies to speed loops only",
-        "add mode = speed, or take pole-placement or cancellation");
+        "add mode = speed, or use pole-placement or cancellation");
   if (w.delay_periods < 0 || w.delay_periods > 1)
     add("delay_periods", std::to_string(w.delay_periods), "must be 0 or 1",
         "give 0 if a command acts at once, 1 if it acts from the next period on");
   if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
     add("bandwidth_rad_s", base::written(*w.bandwidth_rad_s), "is not used by pole placement",
-        "give settle_s, or take method = cancellation");
+        "give settle_s, or use method = cancellation");
   if (!w.voltage_V && !(motor.nominal_voltage_V > 0.0))
     add("voltage_V", "", "is missing, and the sheet prints no nominal voltage",
         "give the bus voltage in volts");

@@ -71,11 +71,11 @@ base::Result<SpeedLawDesign> state_feedback(const SpeedLawSpec& s) {
         "settle_s", written(s.settle_s),
         "is longer than the settling time by friction alone, " +
             base::rounded(time_constants_to_settle / s.fades_1_s, 4) + " s",
-        "give a shorter settling time, or take disturbance-rejection, whose model has no friction"};
+        "give a shorter settling time, or use disturbance-rejection, whose model has no friction"};
   if (!(c.c < c.a))
     return base::Problem{"lag_periods", written(s.lag_periods),
                          "samples of torque delay are more than the time constant of the speed itself",
-                         "shorten the settling time of the current loop, or take disturbance-rejection"};
+                         "shorten the settling time of the current loop, or use disturbance-rejection"};
   c.g = c.b * c.c / (c.a - c.c);
   const double B = (c.b + c.g) * (1.0 - c.c), r = B * B / (c.a * (bend(d.pole) - bend(c.a)));
   const double half = B * B - r * (1.0 - c.a * c.a);

@@ -18,8 +18,8 @@
 namespace sixstep::design {
 
 struct TrackingSpec {
-  double bandwidth_rad_s = 0.0;  ///< w_b; electrical or mechanical, as the tracked angle
-  double damping = 1.0;          ///< w_b; electrical or mechanical, like the tracked angle
+  double bandwidth_rad_s = 0.0;  ///< w_b; electrical or mechanical, like the tracked angle
+  double damping = 1.0;          ///< D, damping of the loop
   double period_s = 0.0;         ///< T, period of the loop
 };
 

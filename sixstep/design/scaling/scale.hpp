@@ -118,9 +118,10 @@ class Scale {
   const control::DriveExtras<double>* extras_ = nullptr;
 };
 
-/// Conditions of pi_positional.hpp and derivative.hpp. The derivative's |y| is at most g times the largest
-/// step of the speed, and g/b times its largest change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e
-/// may saturate. K_i and its increments are proved with DriveConfig::speed.
+/// Conditions of pi_positional.hpp and derivative.hpp; y: output of the derivative, I: integral, e: error.
+/// |y| is at most g times the largest step of the speed, and g/b times its largest change per sample. |I| is
+/// at most limit + |y| + |K_c| |e|/K_b. K e may saturate. K_i and its increments are proved with
+/// DriveConfig::speed.
 template <class Scalar>
 bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   const control::DerivativeConfig<double>& d = extras_->speed_derivative;
@@ -135,12 +136,12 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   if (!(pi.K_b > 0) && pi.K_i != 0)
     proof_.problems.push_back({"speed.K_b", "0",
                                "lets the integral grow without a limit, which fixed point does not allow",
-                               "take K_i/K, or floating point"});
+                               "use K_i/K, or floating point"});
   if (braked + weighted + integral > 14.0 * full_scale<Scalar>)
     proof_.problems.push_back(
         {"speed derivative and integral", at_least(braked + weighted + integral),
          "of full output are above " + at_most(14.0 * full_scale<Scalar>),
-         "take K_b nearer K_i/K, a longer filter of the derivative, or a format with more "
+         "use a K_b nearer to K_i/K, a longer filter of the derivative, or a format with more "
          "bits before the point"});
   proof_.rows.push_back(
       {"speed derivative and integral", braked + weighted + integral, 14.0 * full_scale<Scalar>});
@@ -176,7 +177,7 @@ bool Scale<Scalar>::prove(const control::HallSpeedConfig<double>& speed) {
         {"speed.sector_rad_s_ticks", at_least(speed.sector_rad_s_ticks),
          "over this number of edges is " + at_least(raw / most) + " times the range of its sum: at most " +
              at_most(speed.sector_rad_s_ticks * most / raw) + " fits",
-         "take a timer slower by this factor, a " +
+         "use a timer slower by this factor, a " +
              full_scale_words("speed_rad_s", at_least(scale_per_base<Scalar> * b_.speed_rad_s * raw / most)) +
              " or more, fewer edges, or 32 bits"});
   return true;

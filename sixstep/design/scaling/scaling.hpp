@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes which A, V, rad/s and degrees the fixed-point number 1.0 represents, and converts the drive's
-// configuration to these units. Interval arithmetic proves that, over a given range of inputs, only values
-// saturate that may saturate.
+// configuration to these units. For a given range of inputs, interval arithmetic proves that a value
+// saturates only where saturation does not change the result.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ struct OperatingRange {
   double speed_rad_s = 0.0;   ///< mechanical
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
-  double setpoint = 0.0;  ///< in the unit of the mode
+  double setpoint = 0.0;  ///< largest setpoint, in the unit of the mode
   double speed_change_rad_s =
       0.0;  ///< change of the measured speed from one sample to the next; 0: any change within speed_rad_s
 };
@@ -59,7 +59,7 @@ constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   return 1.0;
 }
 
-/// Member of Bases from which a field's base comes; empty if it has none.
+/// Member of Bases that contains a field's base; empty if the field has no base.
 constexpr std::string_view member_of(Base base, control::Mode mode) {
   switch (base) {
     case Base::one:
@@ -86,11 +86,11 @@ inline std::string full_scale_words(std::string_view member, const std::string& 
   return "full scale " + std::string(member) + " of " + value;
 }
 
-/// One line of the proof: a quantity, its largest value, and the largest value that the format holds.
+/// One line of the proof: a quantity, its largest value, and the largest value that the format represents.
 struct Headroom {
   std::string name;
   double largest = 0.0;     ///< SI
-  double full_scale = 0.0;  ///< largest value that the format holds, in the unit of `largest`
+  double full_scale = 0.0;  ///< largest value that the format represents, in the unit of `largest`
 };
 
 template <class Scalar>
@@ -106,7 +106,7 @@ Bases bases_for(const control::DriveConfig<double>& drive, const OperatingRange&
 /// Converts the drive to fixed point. Problems name the quantity that does not fit, or the gain that the
 /// format cannot represent to its last bits, with the value and the limit of the range:
 ///   - a signal, a limit or a difference of signals beyond full scale;
-///   - a gain above the mantissa, or so small that its mantissa loses bits;
+///   - a gain above the mantissa's range, or so small that its mantissa loses bits;
 ///   - an integral gain for which an error of one digit has no effect (pi.hpp);
 ///   - an integral increment that could saturate its sum (above 14 of the sum's 16 ranges);
 ///   - a derivative and the integral after it, together beyond 14 ranges; an integral without a gain of

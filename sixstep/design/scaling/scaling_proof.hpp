@@ -18,7 +18,8 @@ namespace sixstep::design::detail {
 template <class Scalar>
 inline constexpr double full_scale = static_cast<double>(Scalar::max());
 
-/// Four digits for messages, rounded away from the other number of a comparison.
+/// Four digits for messages. The number is rounded away from zero; at_most() rounds the compared number
+/// towards zero.
 inline std::string at_least(double x) {
   return base::written(base::shortened(x, 4, x < 0 ? base::Towards::down : base::Towards::up));
 }
@@ -32,7 +33,7 @@ struct BaseOf {
   double value = 1.0;
 };
 
-/// Full scale over base: a power of two, of which the largest number of the format is one digit less.
+/// Full scale divided by base: a power of two. The largest number of the format is one digit less.
 template <class Scalar>
 inline constexpr double scale_per_base =
     std::int64_t{1} << (control::detail::Widths<typename Scalar::Storage>::bits - 1 - Scalar::fraction_bits);
@@ -43,7 +44,7 @@ struct Proof {
   std::vector<Headroom> rows;
   base::Problems problems;
 
-  /// `room`: multiple of full scale that the place of this quantity holds.
+  /// `room`: the number of full scales up to which this quantity may grow.
   void fits(const char* name, double largest, const BaseOf& of, double room = 1.0) {
     const double base = room * of.value, end = base * full_scale<Scalar>;
     rows.push_back({name, largest, end});
@@ -53,8 +54,8 @@ struct Proof {
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
       problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
                           of.member.empty()
-                              ? "take a format with more bits before the point"
-                              : "take a " + full_scale_words(of.member, at_least(needed / room)) +
+                              ? "use a format with more bits before the point"
+                              : "use a " + full_scale_words(of.member, at_least(needed / room)) +
                                     " or more, or a format with more bits before the point"});
   }
 
@@ -72,11 +73,11 @@ struct Proof {
     const double least = std::ldexp(1.0, (bits - 2) - control::Gain<Scalar>::most_right);
     if (std::fabs(per_unit) > most)
       problems.push_back({name, at_least(per_unit), "per unit is above " + at_most(most),
-                          "take a base of its output that is larger by a factor of " +
-                              at_least(std::fabs(per_unit) / most) + ", or a smaller one of its input"});
+                          "use a base of its output that is larger by a factor of " +
+                              at_least(std::fabs(per_unit) / most) + ", or a smaller base of its input"});
     else if (per_unit != 0 && std::fabs(per_unit) < least)
       problems.push_back({name, at_most(per_unit), "per unit is below " + at_least(least),
-                          "take a base of its output that is smaller by a factor of " +
+                          "use a base of its output that is smaller by a factor of " +
                               at_least(least / std::fabs(per_unit)) + ", or 32 bits"});
     return control::Gain<Scalar>(per_unit);
   }
@@ -91,7 +92,7 @@ struct Proof {
       problems.push_back(
           {name + ".K_i", at_most(K_i_pu),
            "per unit is too small: an error of one digit has no effect below " + at_least(vanishes),
-           "take 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
+           "use 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
                at_least(vanishes / std::fabs(K_i_pu))});
     fits((name + ".limit").c_str(), c.limit, out);
     fits((name + " integral increment").c_str(), std::fabs(K_i) * largest_error, out, 14.0);

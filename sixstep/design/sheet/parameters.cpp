@@ -48,7 +48,8 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
 /// caused by a wrong unit, and its simulation would need steps of nanoseconds.
 constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
 
-/// Lower bound: in no winding a current decays for minutes, and a simulation until its decay would not end.
+/// Lower bound of R/L, rad/s: no winding's current decays for minutes, and a simulation of this decay would
+/// not end.
 constexpr double slowest_winding_rad_s = 0.01;
 
 /// Checks two rates, rad/s, both with terminal values: R/L of the winding, and K_t/sqrt(L J), the oscillation
@@ -75,7 +76,7 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
         q ? reader.value_of(sheet.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2", *q) : "",
         "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
             " rad/s, and no motor is above 1e5",
-        "check the unit of the inertia, then those of inductance and torque constant");
+        "check the unit of the inertia, then the units of inductance and torque constant");
   }
 }
 

@@ -40,10 +40,10 @@ struct MotorModel {
 };
 
 /// The constants of sheet_constants.hpp as a model: R_s = R_tt/2, L_s = L_tt/2, and K_e from K_t by the
-/// shape's mean over a sector (model.md 1), K_t/2 for the trapezoid of 120 degrees and K_t/1.65399 for a
-/// sine. Without a viscous coefficient the no-load point determines all friction: B = (K_t I_0 - T_c)/w_0. A
-/// sheet without coefficient and no-load point has no friction. All Problems are returned together; each
-/// names the key, its value and the broken rule.
+/// shape's mean over a sector (model.md 1): K_t/2 for the trapezoid of 120 degrees and K_t/1.65399 for a
+/// sine. Without a viscous coefficient the no-load point (current I_0, speed w_0) and the dry friction T_c
+/// determine it: B = (K_t I_0 - T_c)/w_0. A sheet without coefficient and no-load point has no friction. All
+/// Problems are returned together; each names the key, its value and the broken rule.
 base::Result<MotorModel> motor_model(const Sheet& sheet);
 
 /// MotorModel::left_to_a_run for a sheet.

@@ -69,7 +69,7 @@ ShapeFactors shape_factors(BackEmfShape shape, double flat_deg) {
   }
   line_to_line(flat_deg, out);
   // A ramp from 0 to 1 over h degrees has the mean square 1/3. Over a quarter turn the mean square is (w/2 +
-  // h/3)/90 with h = 90 - w/2.
+  // h/3)/90 with the flat width w, degrees, and h = 90 - w/2.
   const double half_flat = flat_deg / 2.0, h_deg = 90.0 - half_flat, h = h_deg / 180.0 * base::pi;
   out.phase_rms = std::sqrt((half_flat + h_deg / 3.0) / 90.0);
   out.phase_peak = 1.0;

@@ -48,7 +48,7 @@ struct Sheet {
   WindingConnection connection = WindingConnection::star;
   double mutual_inductance_mH = 0.0;  // delta: between two branches
   std::vector<double> phase_resistance_deviation,
-      phase_back_emf_deviation;                                        // relative deviations of a, b, c
+      phase_back_emf_deviation;  // relative deviations of phases a, b, c
   std::vector<double> cogging_orders, cogging_mNm, cogging_phase_deg;  // periods per turn of the shaft
 
   std::optional<base::Quantity> nominal_voltage_V;
@@ -58,7 +58,7 @@ struct Sheet {
                                                                              // inductance_mH
 
   std::optional<base::Quantity>
-      saturation_current_A;  // of a phase along the magnet: L_d i_d (1 - i_d/(2 I_sat))
+      saturation_current_A;  // I_sat of a phase's flux linkage along the magnet, L_d i_d (1 - i_d/(2 I_sat))
 
   // The torque constant in its printed forms. The first given form, in this order, is used.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
@@ -97,7 +97,7 @@ struct Sheet {
   std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
   std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
   std::optional<base::Quantity> max_winding_temperature_degC;
-  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; default: NdFeB
+  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; default: value of NdFeB
 };
 
 }  // namespace sixstep::design

@@ -22,10 +22,11 @@ struct Reason {
   std::string_view why;
 };
 constexpr Reason reasons[] = {
-    {"nominal_voltage_V", "the scenario's supply decides; the sheet's other values belong to it"},
+    {"nominal_voltage_V",
+     "the scenario's supply sets the bus voltage; the sheet's other values hold at this voltage"},
     {"no_load_voltage_V", "the voltage of the no-load point"},
     {"second_no_load_voltage_V", "the voltage of the second no-load point"},
-    {"nominal_speed_rpm", "a rating, of a winding as warm as the maker chose"},
+    {"nominal_speed_rpm", "a rating, for the winding temperature that the maker chose"},
     {"nominal_torque_mNm",
      "a rating; makers disagree whether friction is subtracted, so K_t is not read from it"},
     {"nominal_current_A", "a rating"},
@@ -36,12 +37,12 @@ constexpr Reason reasons[] = {
     {"mechanical_time_constant_ms", "follows from R, J and K_t"},
     {"electrical_time_constant_ms", "follows from L and R"},
     {"max_speed_rpm", "a limit of the mechanics"},
-    {"rotor_radius_mm", "the inertia is printed, and counts"},
-    {"rotor_inner_radius_mm", "the inertia is printed, and counts"},
-    {"rotor_length_mm", "the inertia is printed, and counts"},
-    {"rotor_density_kg_m3", "the inertia is printed, and counts"},
-    {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 counts"},
-    {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 counts"},
+    {"rotor_radius_mm", "not used, because the inertia is printed"},
+    {"rotor_inner_radius_mm", "not used, because the inertia is printed"},
+    {"rotor_length_mm", "not used, because the inertia is printed"},
+    {"rotor_density_kg_m3", "not used, because the inertia is printed"},
+    {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 is used"},
+    {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 is used"},
     {"thermal_resistance_winding_housing_K_W",
      "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
     {"thermal_resistance_housing_ambient_K_W",
@@ -89,10 +90,10 @@ class Lines final : public base::Visitor {
     for (const Reason& reason : reasons)
       if (reason.key == key) return std::string(reason.why);
     if (constants_.K_e_V_s)
-      return "a second value of the torque constant, which the model takes from " + constants_.K_e_V_s->from;
+      return "a second value of the torque constant, which the model reads from " + constants_.K_e_V_s->from;
     return "the other values that this line needs are missing";
   }
-  /// A no-load point determines the friction only if the point is complete and no other line gives the
+  /// A no-load point determines the friction only if the point is complete and no other line contains the
   /// friction.
   std::string why_no_point(std::string_view key) const {
     const Friction& f = constants_.friction;
@@ -124,7 +125,7 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
-/// The limit as text: "makes R J/K_t^2 440 s, and next to no motor is above 100 s".
+/// The limit as text: "makes R J/K_t^2 440 s, and almost no motor is above 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
   return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and almost no motor is above " +
          rounded(usual_s, 3) + " s";
@@ -157,11 +158,11 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     if (q)
       doubt(braked ? "inertia_with_brake_gcm2" : "inertia_gcm2", q,
             slow_words(linear ? "R m/K_f^2" : "R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            linear ? "check the unit of the mass, then those of force constant and resistance"
-                   : "check the unit of the inertia, then those of torque constant and resistance");
+            linear ? "check the unit of the mass, then the units of force constant and resistance"
+                   : "check the unit of the inertia, then the units of torque constant and resistance");
     else
       doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            "check the units of the rotor's dimensions, then those of torque constant and resistance");
+            "check the units of the rotor's dimensions, then the units of torque constant and resistance");
   }
 }
 

@@ -72,8 +72,8 @@ inline constexpr double slowest_usual_winding_s = 0.2, slowest_usual_rotor_s = 1
 /// (commutation_part()).
 inline constexpr double no_load_margin = 0.02;
 
-/// Current at a Hall edge relative to its mean. In simulated motors it is 1.2 to 1.4 without load, for
-/// trapezoid and sine and for 0.3 to 6 ms of L/R, and 1 to 1.2 with load.
+/// Current at a Hall edge, relative to the current's mean. In simulated motors it is 1.2 to 1.4 without load,
+/// for trapezoid and sine and for 0.3 to 6 ms of L/R, and 1 to 1.2 with load.
 inline constexpr double edge_current = 1.4;
 
 /// Loss of speed by commutations at this mean current, relative to the remaining speed. In each sector, of

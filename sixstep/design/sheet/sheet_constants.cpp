@@ -26,7 +26,8 @@ bool fits(double computed, const Quantity& with, const Quantity& printed) {
   return std::abs(computed / printed.value - 1.0) <= relative_doubt(with) + relative_doubt(printed) + besides;
 }
 
-/// The frame of `with` that agrees with another printed value: "fits \"terminal\"", or neither.
+/// Text for the frame of `with` that agrees with another printed value: "fits \"terminal\"", or "fits
+/// neither".
 std::string fitting_frame(const std::array<double, 2>& terminal_phase, const Quantity& with,
                           const Quantity& printed) {
   if (fits(terminal_phase[0], with, printed)) return "fits \"terminal\"";
@@ -58,13 +59,13 @@ void read_resistance(SheetReader& reader) {
     const double per_terminal = *reader.out.nominal_voltage_V / *R;
     hint = "; the printed stall current, " + rounded(stall.value) + " A, " +
            fitting_frame({per_terminal, per_terminal / 2.0}, *q, stall);
-    if (fits(2.0 * per_terminal, *q, stall)) hint += ": it is U over half of the resistance";
+    if (fits(2.0 * per_terminal, *q, stall)) hint += ": it is U divided by half of the resistance";
   }
   const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*R / 2.0)}, {"phase", means(*R)}}};
   unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
 }
 
-/// This model has no saliency: L_d and L_q must be equal.
+/// This model has no saliency: if L_d and L_q differ, it uses their mean.
 void read_axes(SheetReader& reader) {
   const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
   if (!d || !q)

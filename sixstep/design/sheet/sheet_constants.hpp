@@ -60,8 +60,8 @@ struct SheetConstants {
     return pole_pairs ? std::optional<double>(*pole_pairs) : std::nullopt;
   }
   std::optional<double> nominal_voltage_V;
-  std::optional<Constant> R_ohm;     ///< per phase
-  std::optional<Constant> L_H;       ///< per phase, L - M
+  std::optional<Constant> R_ohm;     ///< resistance per phase
+  std::optional<Constant> L_H;       ///< inductance per phase, L - M
   std::optional<Constant> K_e_V_s;   ///< peak back-EMF of a phase per mechanical rad/s
   std::optional<Constant> K_t_Nm_A;  ///< between terminals, mean over a sector
   std::optional<Constant> J_kg_m2;

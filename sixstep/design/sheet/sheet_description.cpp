@@ -96,7 +96,7 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
               .unit = "mm",
               .range = base::above(0)});
   v.quantity("rotor_inner_radius_mm", s.rotor_inner_radius_mm,
-             {.meaning = "inner radius r_i of the rotating part: of an outer rotor or a hollow inner one",
+             {.meaning = "inner radius r_i of the rotating part: of an outer rotor or a hollow inner rotor",
               .unit = "mm",
               .range = base::above(0)});
   v.quantity(
@@ -107,7 +107,7 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
               .unit = "kg/m3",
               .range = base::above(0)});
   v.quantity("viscous_friction_Nm_s", s.viscous_friction_Nm_s,
-             {.meaning = "friction torque per rad/s; without it all of the no-load loss is taken as viscous",
+             {.meaning = "friction torque per rad/s. Default: the whole no-load loss is viscous",
               .unit = "N m s",
               .range = base::from(0),
               .also = spellings::viscous});
@@ -118,14 +118,16 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
               .also = spellings::coulomb});
   v.quantity(
       "iron_viscous_Nm_s", s.iron_viscous_Nm_s,
-      {.meaning = "drag of the iron per rad/s, its eddy currents, beside the bearings' viscous_friction_Nm_s",
+      {.meaning =
+           "drag of the iron by eddy currents per rad/s, in addition to the bearings' viscous_friction_Nm_s",
        .unit = "N m s",
        .range = base::from(0),
        .also = spellings::iron_viscous});
   v.quantity(
       "iron_coulomb_mNm", s.iron_coulomb_mNm,
-      {.meaning = "drag of the iron that does not depend on speed, its hysteresis, beside the bearings' "
-                  "coulomb_friction_mNm",
+      {.meaning =
+           "drag of the iron by hysteresis, which does not depend on speed, in addition to the bearings' "
+           "coulomb_friction_mNm",
        .unit = "mNm",
        .range = base::from(0),
        .also = spellings::iron_coulomb});
@@ -133,7 +135,7 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
 
 void describe_no_load(base::Visitor& v, Sheet& s) {
   v.quantity("no_load_voltage_V", s.no_load_voltage_V,
-             {.meaning = "voltage of the no-load point, where it is not the nominal one",
+             {.meaning = "voltage of the no-load point. Default: the nominal voltage",
               .unit = "V",
               .frame = "terminal",
               .range = base::above(0),
@@ -217,7 +219,7 @@ void describe_ratings(base::Visitor& v, Sheet& s) {
   v.quantity("electrical_time_constant_ms", s.electrical_time_constant_ms,
              {.meaning = "time constant of the winding, L/R", .unit = "ms", .range = base::above(0)});
   v.quantity("max_speed_rpm", s.max_speed_rpm,
-             {.meaning = "speed the mechanics allow",
+             {.meaning = "highest speed that the mechanics allow",
               .unit = "rpm",
               .range = base::above(0),
               .also = spellings::max_speed});

@@ -112,7 +112,7 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
     if (s.kind == MotorKind::linear && (!is_whole(order) || std::fmod(order, 2.0) != 0.0)) {
       reader.problem(
           "cogging_orders", base::written(order), "must be an even number of periods per two pole pitches",
-          "give an even number: the cogging force repeats at every pole, so two pole pitches hold an even number of periods");
+          "give an even number: the cogging force repeats at every pole, so that two pole pitches contain an even number of periods");
       return;
     } else if (!is_whole(order) || (pole_pairs && std::fmod(order, 2.0 * *pole_pairs) != 0.0)) {
       reader.problem("cogging_orders", base::written(order),

@@ -69,7 +69,7 @@ class NoLoad {
            ranged(s_.iron_coulomb_mNm, 1e-3).value_or(Term{});
   }
 
-  /// B from its own lines, or by default from the first point minus the dry friction, N m s.
+  /// Viscous coefficient B, N m s, from its own lines. Default: from the first point minus the dry friction.
   Term viscous_Nm_s() const {
     const Term iron = ranged(s_.iron_viscous_Nm_s).value_or(Term{});
     if (s_.viscous_friction_Nm_s) return ranged(s_.viscous_friction_Nm_s).value_or(Term{}) + iron;
@@ -79,7 +79,7 @@ class NoLoad {
     return loss.value > dry.value ? (loss - dry) / *w : Term{};
   }
 
-  /// Speed of a line, rad/s: the printed speed, or by default the speed of the ideal line.
+  /// Speed of a line, rad/s: the printed speed. Default: the speed of the ideal line.
   std::optional<Term> rad_s(const SheetLine& at) const {
     if (at.speed_rpm) return *at.speed_rpm * (1.0 / base::rpm_per_rad_s);
     if (!at.U_V || !R_ || !at.current_A) return {};
@@ -99,7 +99,8 @@ class NoLoad {
     return 0.0;
   }
 
-  /// I_0 by the friction lines, A, if it is not printed: w follows from U = R I + K w and K I = T_c + B w.
+  /// No-load current I_0 by the friction lines, A, if it is not printed. The speed w follows from U = R I + K
+  /// w and K I = T_c + B w, with the voltage U and the torque constant K.
   Term current_of_friction(const Term& U) const {
     const double K = K_t_->value, R = R_->value;
     const Term dry = dry_Nm(), viscous = viscous_Nm_s();
@@ -165,7 +166,7 @@ class NoLoad {
          true});
   }
 
-  /// Margin of the speed below the ideal line for the loss by commutation; at least the margin of any line.
+  /// Margin of the speed below the ideal line for the loss by commutation; at least no_load_margin.
   double commutation_margin(const Term& I) const {
     return std::max(no_load_margin, commutation_part(c_, I.value));
   }

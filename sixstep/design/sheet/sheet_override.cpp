@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 2> shape_lists = {"back_emf_angle_deg", "
 constexpr std::array<std::string_view, 1> shape_file = {"back_emf_file"};
 constexpr std::array<std::string_view, 3> pole_keys = {"pole_pairs", "poles", "winding"};
 
-/// Visitor that clears the given keys of a sheet, except those that are overridden.
+/// Visitor that clears the given keys of a sheet, except the overridden keys.
 class Forget final : public base::Visitor {
  public:
   Forget(Keys keys, const std::function<bool(std::string_view)>& overridden)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads numbers of a sheet and collects their problems. The sources of sheet_constants() share it.
+// Reads numbers of a sheet and collects their problems. All sources of sheet_constants() use this reader.
 #pragma once
 #include <span>
 #include <string>

@@ -102,7 +102,7 @@ class Relations {
       Relation& r = add("stall current", "U / R", "stall current", *U_ / *R_, *stall_, "A");
       if (!suspect.empty()) r.remark += (r.remark.empty() ? "" : " ") + suspect;
     }
-    if (computed && by_U) stall_ = *U_ / *R_;  // also for the efficiency
+    if (computed && by_U) stall_ = *U_ / *R_;  // the efficiency uses this value too
     if (torque && K_t_ && stall_)
       add("stall torque", by_U ? "k_M U / R" : "k_M I_stall", "stall torque", *K_t_ * *stall_ * 1e3, *torque,
           "mNm");

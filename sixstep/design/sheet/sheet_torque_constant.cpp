@@ -44,7 +44,7 @@ Constants by_torque(double value, std::string_view frame, const ShapeFactors& f,
 }
 
 /// Back-EMF constants in V/krpm; 1000 rpm are 104.72 rad/s. Six-step: the mean voltage of the driven pair
-/// over a sector; its V s equal K_t in N m/A.
+/// over a sector. In V s it equals K_t in N m/A.
 Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, double) {
   const double V_s = value / (1000.0 * base::pi / 30.0);
   if (frame == "six-step") return by_K_t(V_s, f);

@@ -68,7 +68,7 @@ std::optional<int> of_poles(SheetReader& reader) {
   return {};
 }
 
-/// Compares the given pole pairs with the number `other` of another line.
+/// Compares the given pole pairs with `other`, the number from another line.
 void compare(SheetReader& reader, int pole_pairs, int other, const std::string& other_line) {
   if (pole_pairs == other) return;
   const std::string pairs = std::to_string(other);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file may give a range for a thermal value if sources differ. A limit of a winding is then computed
-// with the ends of the ranges at which the winding is warmest; the limit by the values is only a note.
+// A motor file may contain a range for a thermal value if sources differ. A limit of a winding is then
+// computed with the ends of the ranges at which the winding is warmest; the limit by the values is only a
+// note.
 #pragma once
 #include <optional>
 #include <string>

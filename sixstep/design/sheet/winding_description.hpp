@@ -69,9 +69,9 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
   v.value(
       "harmonic_orders", s.harmonic_orders,
       {.meaning =
-           "odd harmonics of the back-EMF beside the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
+           "odd harmonics of the back-EMF in addition to the sine, 3 to 23, with harmonic_sizes; back_emf = \"sine\""});
   v.value("harmonic_sizes", s.harmonic_sizes,
-          {.meaning = "their amplitudes as parts of the sine's, cos n (theta - 60 deg)",
+          {.meaning = "amplitudes of the harmonics, relative to the sine's amplitude; cos n (theta - 60 deg)",
            .range = base::between(-1, 1)});
   v.value("back_emf_angle_deg", s.back_emf_angle_deg,
           {.meaning =
@@ -111,9 +111,9 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
   v.value("cogging_mNm", s.cogging_mNm,
           {.meaning = "amplitudes of the cogging torque", .unit = "mNm", .also = spellings::cogging});
   v.value("cogging_phase_deg", s.cogging_phase_deg,
-          {.meaning = "their phases, sin(order theta + phase); without it 0", .unit = "deg"});
+          {.meaning = "phases of the cogging torque, sin(order theta + phase). Default: 0", .unit = "deg"});
   v.quantity("nominal_voltage_V", s.nominal_voltage_V,
-             {.meaning = "voltage the sheet's other values belong to",
+             {.meaning = "voltage at which the sheet's other values hold",
               .unit = "V",
               .frame = "terminal",
               .range = base::above(0),

@@ -11,7 +11,7 @@ double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
   const double turns = theta_e.rad / base::turn_rad;
   const double deg = (turns - std::floor(turns)) * 360.0;
   // The trapezoid is symmetric about the middle of its positive top, and odd about the angle 90 degrees from
-  // there.
+  // this middle.
   double from_top = std::abs(deg - 60.0);
   if (from_top > 180.0) from_top = 360.0 - from_top;
   const double ramp = 90.0 - flat_deg / 2.0;

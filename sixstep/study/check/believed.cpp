@@ -45,7 +45,7 @@ void check_believed(const Scenario& s, base::Problems& out) {
   const std::size_t before = out.size();
   if (b.pole_pairs && s.sheet.kind == design::MotorKind::linear)
     out.push_back({"believed.pole_pairs", std::to_string(*b.pole_pairs),
-                   "are those of a turning motor, and this one is linear", "remove it"});
+                   "are values of a rotary motor, and this motor is linear", "remove it"});
   check_one_torque_constant(b, out);
   check_inductances(b, out);
   if (out.size() > before) return;

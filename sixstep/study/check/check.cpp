@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds contradictions that no single value's range shows: keys that contradict each other, or that need
-// something absent.
+// Finds contradictions that no single value's range shows: keys that contradict each other, or that need an
+// absent part.
 #include "sixstep/study/check/check.hpp"
 
 #include <algorithm>
@@ -188,7 +188,8 @@ void check_linear(const Scenario& s, base::Problems& out) {
 }
 
 base::Problems check(const Scenario& s, std::size_t known_events) {
-  // The checks below compute with the numbers. A number out of range would make their results meaningless.
+  // The checks below compute with the numbers. With a number out of range, their results would have no
+  // meaning.
   if (base::Problems absurd = check_numbers(s, known_events); !absurd.empty()) return absurd;
   base::Problems out;
   std::optional<design::MotorModel> model;

@@ -13,7 +13,8 @@ namespace sixstep::study {
 /// steps out of order, a bus capacitor without a source resistance. `where` is the key's path:
 /// "control.current.d1".
 ///
-/// `known_events`: the first events of `at` whose numbers were checked before; a session adds one to thousands.
+/// `known_events`: number of first events of `at` whose numbers were checked before. A session adds single
+/// events to a list that may have thousands.
 base::Problems check(const Scenario& scenario, std::size_t known_events = 0);
 
 /// Returns a problem for each named column that the mode does not have, because a file would contain no

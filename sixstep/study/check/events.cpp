@@ -35,7 +35,7 @@ bool changes_nothing(const At& at) {
          at.motor.broken_wire == Wire::none && at.sensors.broken_divider == Wire::none;
 }
 
-/// Whether a reference starts at the value of the present reference. This is impossible if the unit changes.
+/// True if a reference starts at the value of the present reference. This is impossible if the unit changes.
 bool goes_on(const Reference& r) {
   const bool moves = r.shape == Shape::ramp || r.shape == Shape::trapezoid;
   return (moves && !r.start) || (r.shape == Shape::steps && !r.times_s.empty() && r.times_s.front() > 0);

@@ -52,7 +52,7 @@ void check_window(const Asked& a) {
              "shorten the window, or lengthen duration_s");
 }
 
-/// Requires event comparators, because only they hold the current in a band.
+/// Requires event comparators, because only event comparators keep the current in a band.
 void check_band(const Asked& a) {
   const CurrentLoop& loop = a.s.control.current;
   const bool closed = a.s.control.mode != Mode::off && a.s.control.mode != Mode::duty;

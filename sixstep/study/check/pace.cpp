@@ -103,7 +103,7 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
   const auto look = [&](const char* key, double value, double rate) {
     if (rate > fastest_answer_1_s)
       out.push_back({key, written(value), "makes the shaft's time constant " + too_short(rate),
-                     "check its unit, and those of load.gear and the inertias"});
+                     "check its unit, and the units of load.gear and the inertias"});
   };
   const bool elastic = l.stiffness_Nm_rad > 0 && J_2 > 0;
   if (elastic) {

@@ -21,7 +21,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Requires measurements that a register shows, because the product drive reads registers only.
+/// Requires sensors whose values are in a register, because the product drive reads registers only.
 void check_registers(const Scenario& s, base::Problems& out) {
   const std::string asks =
       "has no converter, and control.drive = \"product\" reads the registers of converters and pins";
@@ -136,7 +136,7 @@ void check_braking(const Scenario& s, base::Problems& out) {
                    "lower it"});
 }
 
-/// Refuses keys that only the product drive has: the lean drive gets sector and edges directly.
+/// Refuses keys that only the product drive has: the lean drive reads sector and edges directly.
 void check_lean(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
   const auto refuse = [&out](const char* key, const std::string& value, const char* limit,
@@ -221,7 +221,7 @@ void check_commutation_step(const Scenario& s, base::Problems& out) {
   refuse(s.control.current.type == CurrentLoopType::deadbeat,
          "sets a duty during a commutation, which the deadbeat loop's prediction does not include", leave);
   refuse(s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on,
-         "holds the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
+         "keeps the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
          "set chopping = \"soft\" or \"complementary\"");
 }
 

@@ -13,10 +13,10 @@ namespace sixstep::study {
 void check_product(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
                    base::Problems& out);
 
-/// The largest current that a speed loop requests from the current loop, A: its full torque divided by K_t
-/// (field-oriented drive: by the torque per ampere of q-axis current), or control.current.limit_A if this is
-/// less. K_t is the one that the drive believes. Empty without such a cascade, and for a salient rotor in a field-oriented drive, because its torque
-/// is not proportional to the current.
+/// The largest current that a speed loop requests from the current loop, A: its full torque divided by the
+/// K_t that the drive believes (field-oriented drive: by the torque per ampere of q-axis current).
+/// control.current.limit_A replaces it if it is less. Empty without such a cascade. Empty also for a salient
+/// rotor in a field-oriented drive, because its torque is not proportional to the current.
 std::optional<double> current_limit_A(const Scenario& scenario);
 
 /// Refuses options of the current loop, of its limits and of the chopping that contradict each other.

@@ -98,7 +98,7 @@ void check_rows(const Place& p) {
   const Reference& r = p.r;
   if (r.times_s.empty() && r.values.empty())
     return p.missing("file", "give file = \"NAME.csv\", or times_s and values");
-  // Rows after the end of the run are allowed, because a measurement has its own length.
+  // Rows after the end of the run are allowed, because a measurement may be longer than the run.
   const double endless = std::numeric_limits<double>::infinity();
   check_steps(r.times_s, r.values, p.table, "values", endless, p.out);
 }

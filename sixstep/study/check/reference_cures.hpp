@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suggests what to write instead of a reference that its mode cannot have.
+// Suggests a correction for a reference that does not suit its mode.
 #pragma once
 #include <cmath>
 #include <string>

@@ -14,7 +14,7 @@ namespace sixstep::study {
 struct ShapeKey {
   const char* key;
   unsigned read_by;                 ///< one bit per Shape
-  bool (*given)(const Reference&);  ///< whether the key's value differs from the default
+  bool (*given)(const Reference&);  ///< true: the key's value differs from the default
 };
 
 constexpr unsigned shapes(std::initializer_list<Shape> list) {

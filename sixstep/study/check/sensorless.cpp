@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// The sample must lie in the middle of the on-time, where the pair holds the star point at half of the bus.
+/// The sample must lie in the middle of the on-time, where the pair keeps the star point at half of the bus.
 void check_sample(const Scenario& s, base::Problems& out) {
   const std::string why =
       "puts the sample outside the on-time, and the free phase's terminal shows the back-EMF only in the on-time";

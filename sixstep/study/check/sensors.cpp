@@ -72,7 +72,7 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
   if (!own.empty() && own.size() != 6 && own.size() != all)
     return out.push_back({"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
                           "must be 6, the edges of an electrical turn, or " + std::to_string(all) +
-                              ", those of a mechanical turn",
+                              ", the edges of a mechanical turn",
                           "give 6 or " + std::to_string(all) + " values"});
   for (std::size_t n = 0; n < own.size(); ++n) {
     const std::size_t next = (n + 1) % own.size();

@@ -29,7 +29,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
     out.push_back({"believed.pole_pairs", std::to_string(*believed),
                    "is no multiple of the resolver's " + std::to_string(r.pole_pairs) +
                        ": the drive could not convert its angle to the motor's electrical angle",
-                   "take a multiple, or another sensors.resolver.pole_pairs"});
+                   "use a multiple, or another sensors.resolver.pole_pairs"});
   if (motor && !believed && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
@@ -53,7 +53,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
           "applies to the drive's own decoder, and a converter chip reads this resolver",
           "set reading = \"sampled\", or remove it");
   if (r.bits < least_converter_bits)
-    wrong("bits", std::to_string(r.bits), "is fewer than any converter chip has", "take 10, 12, 14 or 16");
+    wrong("bits", std::to_string(r.bits), "is fewer than any converter chip has", "use 10, 12, 14 or 16");
   if (r.latency_s >= s.pwm.period_s)
     wrong("latency_s", base::written(r.latency_s),
           "must be below pwm.period_s = " + base::written(s.pwm.period_s),

@@ -21,7 +21,8 @@ bool computes_with_motor(const Scenario& s) {
          c.smooth_chopping.on || !s.at.empty();
 }
 
-/// True if no loop is designed on R and L: there is none, it compares, or its gains are given.
+/// True if no loop is designed from R and L: there is no current loop, it is a hysteresis, or its gains are
+/// given.
 bool leaves_winding(const Scenario& s) {
   const CurrentLoop& loop = s.control.current;
   const Mode mode = s.control.mode;

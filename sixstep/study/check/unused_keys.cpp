@@ -126,8 +126,8 @@ void of_pulses(const Scenario& s, Unused& out) {
   if (comparators) out.add("pwm.alignment", s.pwm.alignment, Pwm{}.alignment, reason);
 }
 
-/// Finds laws of a load that never moves. Behind an elastic shaft the load moves while the rotor is held. The design of a
-/// speed loop uses inertia, friction and gear of a held rotor too.
+/// Finds laws of a load that never moves. Behind an elastic shaft the load moves while the rotor is held. The
+/// design of a speed loop uses inertia, friction and gear even if the rotor is held.
 void of_load(const Scenario& s, Unused& out) {
   const Load usual, &x = s.load;
   const bool elastic = x.stiffness_Nm_rad > 0;

@@ -17,7 +17,7 @@ void of_ideal_rotor(const Scenario& s, Unused& out) {
   out.add("sensors.watched", x.watched, usual.watched, reason);
 }
 
-/// Only the lean drive can leave the bus unread; the other drives monitor it or compute with it.
+/// Only the lean drive can ignore the bus; the other drives monitor it or compute with it.
 bool is_bus_unread(const Scenario& s) {
   const auto reads = [](const Control& c) { return c.current.measured_bus_from_V || c.regeneration.limit_V; };
   return s.control.drive == FirmwareKind::lean && !reads(s.control) &&

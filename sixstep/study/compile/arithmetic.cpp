@@ -63,7 +63,7 @@ base::Problems under_the_key(const Scenario& s, const base::Problems& problems) 
   base::Problems out;
   for (const base::Problem& p : problems)
     out.push_back({"control.arithmetic", "\"" + word + "\"",
-                   "cannot hold this drive: " + p.where + " = " + p.value + " " + p.limit,
+                   "cannot represent this drive: " + p.where + " = " + p.value + " " + p.limit,
                    with_keys(p.cure)});
   return out;
 }
@@ -97,8 +97,8 @@ rig::Bases units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 
-/// Largest change of the speed per sample, rad/s, if all torques act in one direction. Returns 0 unless the
-/// sensor is ideal, because Hall edges show a change of speed late and suddenly.
+/// Largest change of the measured speed from one sample to the next, rad/s, if all torques act in the same
+/// direction. 0: no bound is known, because without an ideal sensor the measured speed can jump at an edge.
 double fastest_change_of_speed(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   if (s.sensors.rotor != RotorSensing::ideal || c.sensorless) return 0.0;
   double load = std::fabs(s.load.torque_Nm);

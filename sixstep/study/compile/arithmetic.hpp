@@ -18,7 +18,7 @@ namespace sixstep::study {
 /// - position: the largest reference and the position at the start.
 /// - bus: the source's voltage, and the bus voltage at the start.
 ///
-/// For the product drive the ranges are those of its converters, and the speed is above its over-speed
+/// For the product drive the ranges are the ranges of its converters, and the speed is above its over-speed
 /// threshold.
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
@@ -42,7 +42,7 @@ struct DriveIn {
 template <class Scalar>
 base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The product drive in the chip's arithmetic, as drive_in().
+/// The product drive in the chip's arithmetic, like drive_in().
 template <class Scalar>
 struct ProductIn {
   control::ProtectedConfig<Scalar> config;
@@ -51,7 +51,8 @@ struct ProductIn {
 template <class Scalar>
 base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The sensorless drive in the chip's arithmetic, as drive_in(). Its pulses are integers in every arithmetic.
+/// The sensorless drive in the chip's arithmetic, like drive_in(). Its pulses are integers in every
+/// arithmetic.
 template <class Scalar>
 struct SensorlessIn {
   control::PulsedDriveConfig<Scalar> config;
@@ -60,7 +61,7 @@ struct SensorlessIn {
 template <class Scalar>
 base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The field-oriented drive as drive_in(), but in floating point only: its scaling to fixed point is not
+/// The field-oriented drive like drive_in(), but in floating point only: its scaling to fixed point is not
 /// proved yet.
 template <class Scalar>
 struct FieldIn {

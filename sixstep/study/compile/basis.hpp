@@ -9,7 +9,7 @@
 namespace sixstep::study {
 
 /// The controller's design basis: the motor as the drive believes it (believed_motor.hpp), of the scenario or
-/// of a series. No number of the plant follows from it.
+/// of a series. No number of the plant follows from this basis.
 struct Basis {
   const design::MotorModel& motor;
   const design::Sheet& sheet;
@@ -51,7 +51,7 @@ struct SensorlessAround {
   control::PulsedDriveConfig<double> config;  ///< in SI units
   std::vector<design::DerivationStep> steps;  ///< derivation of config's numbers
 };
-/// The sensorless drive around `drive`, made by design/loops/sensorless_start.hpp. If the drive starts by
+/// The sensorless drive around `drive`, computed by design/loops/sensorless_start.hpp. If the drive starts by
 /// pulses, pulse_start.hpp designs them. Problems: a load that the drive cannot start, a back-EMF outside the
 /// converter's range, pulses that are too strong.
 base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const Basis& basis,

@@ -17,7 +17,7 @@
 
 namespace sixstep::study {
 
-/// The values of [control.full_scale] from which `bases` follow, exact to the last bit. Empty for floating
+/// The values of [control.full_scale] that result in these `bases`, exact to the last bit. Empty for floating
 /// point.
 template <class Scalar>
 FullScale full_scale_of(const rig::Bases& bases) {

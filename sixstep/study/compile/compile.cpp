@@ -100,7 +100,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
   to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
   to.measures_bus = from.bus == BusSensing::adc;
-  // Terminals have converters like those of the bus, even if the bus is not measured.
+  // Terminals have converters like the converter of the bus, even if the bus is not measured.
   const double usual_V = s.control.drive == FirmwareKind::sensorless ? 1.25 * s.supply.voltage_V : 0.0;
   to.bus = {
       from.adc_bits,   from.bus_range_V.value_or(usual_V), false, from.bus_offset_V, from.bus_gain_error,
@@ -144,7 +144,7 @@ rig::ProbeGiven probes_of(const Sensors& s) {
 }
 
 /// Sets the number of edges per measured speed for the loop that uses it (design/loops/rotor_sensing.hpp). A
-/// drive that calibrates its edges averages over six until the calibration ends.
+/// drive that calibrates its edges averages over six edges until the calibration ends.
 void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
   rig::SensorsConfig& sensors = out.board.sensors;
   const bool learns = sensors.hall_angle == rig::HallAngleFrom::learned_edges;
@@ -179,7 +179,8 @@ base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Co
   return {};
 }
 
-/// The user's controller gets the gains of the library's loops as an input. The loops themselves do not run.
+/// The user's controller receives the gains of the library's loops as an input. The loops themselves do not
+/// run.
 base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   if (s.control.drive != FirmwareKind::own) return {};
   auto designed = own_designed(s, basis, tuned.drive);

@@ -21,10 +21,10 @@ struct Tuned {
   std::vector<LoopGains> gains;
   std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
                                                                  ///< chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the sensorless drive, likewise
-  std::optional<control::FieldDriveConfig<double>> field;        ///< the field-oriented drive, likewise
-  rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
-  control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< sensorless drive around `drive`
+  std::optional<control::FieldDriveConfig<double>> field;        ///< field-oriented drive around `drive`
+  rig::OwnConfig own;                          ///< configuration of a user's controller, instead of `drive`
+  control::EstimatorConfig<double> estimator;  ///< estimator of a field-oriented drive without a rotor sensor
 };
 
 /// Parameters of the general kernel; present if the scenario needs a feature that the lean kernel lacks
@@ -58,10 +58,10 @@ struct Compiled {
   control::DriveConfig<double> drive;
   std::optional<control::ProtectedConfig<double>> product;       ///< the product drive around `drive`, if the
                                                                  ///< chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the sensorless drive, likewise
-  std::optional<control::FieldDriveConfig<double>> field;        ///< the field-oriented drive, likewise
-  rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
-  control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< sensorless drive around `drive`
+  std::optional<control::FieldDriveConfig<double>> field;        ///< field-oriented drive around `drive`
+  rig::OwnConfig own;                          ///< configuration of a user's controller, instead of `drive`
+  control::EstimatorConfig<double> estimator;  ///< estimator of a field-oriented drive without a rotor sensor
   std::vector<LoopGains> gains;
   std::vector<design::DerivationStep> sensorless_steps;  ///< derivation of the sensorless drive's numbers
   std::vector<design::DerivationStep> field_steps;       ///< derivation of the field-oriented drive's numbers

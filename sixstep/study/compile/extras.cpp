@@ -12,7 +12,7 @@ namespace {
 
 using control::Mode;
 
-/// The largest current reference, A, if [control.limits] gives no lower bound.
+/// The largest current reference, A, if [control.limits] contains no lower bound.
 double unlimited_current(const Scenario& s, const control::DriveConfig<double>& drive) {
   return s.control.mode == Mode::current ? std::max(drive.current_limit_A, largest_reference(s))
                                          : drive.current_limit_A;
@@ -83,7 +83,7 @@ void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveC
 }
 
 /// Converts the gains of drive.speed to the positional form. Its derivative part K T_d s/(T_f s + 1) acts on
-/// the measured speed.
+/// the measured speed; K: gain, T_d: derivative time, T_f: time constant of the filter.
 void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   const SpeedLoop& loop = s.control.speed;
   const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;

@@ -28,7 +28,8 @@ struct AxisLoop {
   std::vector<design::DerivationStep> steps;
 };
 
-/// Gains as given, by pole placement from settle_s and damping, or by cancellation of the winding's pole.
+/// Returns the gains as given. Otherwise computes them by pole placement from settle_s and damping, or by
+/// cancellation of the winding's pole.
 base::Result<AxisLoop> axis_loop(const Scenario& s, const char* name, double R_ohm, double L_H) {
   const CurrentLoop& loop = s.control.current;
   AxisLoop out;

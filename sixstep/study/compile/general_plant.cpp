@@ -29,8 +29,9 @@ general::Shape shape_of(const design::Sheet& s, const plant::Machine& from) {
   return to;
 }
 
-/// Converts the winding to the branches of a delta. The sheet's R and L between two terminals are those of
-/// the equivalent star; K_x follows from K_t by the sector mean without loop current (model.md 7).
+/// Converts the winding to the branches of a delta. The sheet's R and L between two terminals are values of
+/// the equivalent star. The branches' back-EMF constant K_x follows from K_t by the sector mean without loop
+/// current (model.md 7).
 void connect_delta(const design::Sheet& s, double K_t_Nm_A, general::Machine& m) {
   m.winding = general::Winding::delta;
   const double R = 3 * m.R_ohm[0], M = 1e-3 * s.mutual_inductance_mH;

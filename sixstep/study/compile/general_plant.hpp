@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// Whether a scenario needs a feature that the lean kernel lacks.
+/// True if a scenario needs a feature that the lean kernel lacks.
 bool needs_general_plant(const Scenario& scenario);
 
 /// The motor's windings as parameters of the general kernel.

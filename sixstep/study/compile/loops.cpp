@@ -10,8 +10,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Returns the loop's gains as given, else by pole placement. For given gains the exact design is computed as
-/// well, for comparison.
+/// Returns the loop's gains as given, else by pole placement. For given gains the exact design is also
+/// computed, for comparison.
 template <class Loop>
 base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
                                    double usual_settle_s, double period_s) {
@@ -145,7 +145,7 @@ base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
        0.0,
        (linear ? "given as gain_m_s_per_mm, for at most " : "given as gain_rad_s_per_deg, for at most ") +
            base::rounded(out.drive.speed_limit_rad_s, 4) + (linear ? " m/s, " : " rad/s, ") +
-           (limit ? "as given" : "the bus over K_t"),
+           (limit ? "as given" : "the bus voltage divided by K_t"),
        std::nullopt,
        {}});
   return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives a user's own controller the data from which it designs itself.
+// Passes to a user's own controller the data for its design.
 #include "sixstep/control/own/own_controller.h"
 
 #include "sixstep/design/loops/field_current.hpp"
@@ -53,7 +53,7 @@ sixstep_given given_of(const Scenario& s, const Basis& basis, const control::Dri
 std::vector<double> values_of(const Own& own) {
   std::vector<double> values;
   for (const UsedNumber& number : used_numbers(own)) values.push_back(number.value);
-  values.push_back(0.0);  // one entry more, so that the list is not empty even without numbers
+  values.push_back(0.0);  // an additional entry, so that the list is never empty
   return values;
 }
 

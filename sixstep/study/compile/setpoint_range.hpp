@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Range of a potentiometer that gives a chip its setpoint.
+// Range of the potentiometer that sets a chip's setpoint.
 #pragma once
 #include "sixstep/rig/timeline.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

@@ -10,16 +10,16 @@ namespace sixstep::study {
 /// Requires that check() found nothing.
 rig::Timeline timeline_of(const Scenario& scenario);
 
-/// Whether a Hall line breaks anywhere in the run.
+/// True if a Hall line breaks anywhere in the run.
 bool breaks_a_hall_line(const Scenario& scenario);
-/// Whether a wire of the motor breaks or a switch fails during the run.
+/// True if a wire of the motor breaks or a switch fails during the run.
 bool breaks_wire_or_switch(const Scenario& scenario);
-/// Whether any wire between board and motor or probes is crossed, or a Hall line is inverted, at the start or
+/// True if any wire between board and motor or probes is crossed, or a Hall line is inverted, at the start or
 /// later.
 bool crosses_wires(const Scenario& scenario);
-/// Whether a Hall line reads its probe inverted at any time.
+/// True if a Hall line reads its probe inverted at any time.
 bool inverts_a_hall_line(const Scenario& scenario);
-/// Whether the Hall code can differ from the code of the back-EMF's sector, because a key of [sensors]
+/// True if the Hall code can differ from the code of the back-EMF's sector, because a key of [sensors]
 /// displaces or delays the Hall edges or adds glitches.
 bool displaces_probes(const Scenario& scenario);
 

@@ -37,7 +37,7 @@ class AnyRun {
   AnyRun(const AnyRun&) = default;
 };
 
-/// Makes the scenario's run at t = 0. Problems: the drive's numbers do not fit into the arithmetic.
+/// Creates the scenario's run at t = 0. Problems: the drive's numbers do not fit into the arithmetic.
 base::Result<std::unique_ptr<AnyRun>> made_by(const Scenario& scenario, const Compiled& compiled,
                                               rig::Timeline timeline);
 

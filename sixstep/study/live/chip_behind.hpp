@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a firmware's chip that the rig calls through the interface of any_drive.hpp. Included only by the
-// files named chip_*.
+// Creates a firmware's chip that the rig calls through the interface of any_drive.hpp. Only the files named
+// chip_* include it.
 #pragma once
 #include "sixstep/rig/drive_of.hpp"
 #include "sixstep/study/compile/chip.hpp"

@@ -66,7 +66,7 @@ void note_losses(const rig::Diagnosis& found, Outcome& out) {
   out.trip = Trip{.at_s = found.at.seconds(), .reasons = {words.text}, .hall_line = found.hall_line};
   out.fault = base::Problem{
       at(found.at.seconds()), "",
-      "the drive lost the rotor " + times + " and stopped: " + words.text + "; from there the motor coasts",
+      "the drive lost the rotor " + times + " and stopped: " + words.text + "; then the motor coasts",
       words.cure};
 }
 
@@ -240,8 +240,8 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
     text += ": " + line_to_blame(found.hall_line);
     cure = "check the probe and the wire of this line";
   }
-  out.fault = base::Problem{at(trip.at_s), "",
-                            "the drive tripped by " + text + "; from there the motor coasts", cure};
+  out.fault =
+      base::Problem{at(trip.at_s), "", "the drive tripped by " + text + "; then the motor coasts", cure};
   out.trip = std::move(trip);
 }
 

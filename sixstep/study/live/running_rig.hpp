@@ -24,7 +24,8 @@ void count_events(const Rig& rig, Outcome& out) {
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
-/// Writes the results of a run up to the present instant. The run may have ended there, or may continue.
+/// Writes the results of a run up to the present instant. The run may have ended at this instant, or may
+/// continue.
 template <class Rig>
 base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
   const double t_s = rig.now().seconds();
@@ -56,7 +57,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
 template <class Firmware, class PlantType>
 class RunningRig final : public AnyRun {
  public:
-  /// Makes the chip of a scenario: once at the start, and once in each call of take().
+  /// Creates the chip of a scenario: once at the start, and once in each call of take().
   using MakeChip = base::Result<Chip<Firmware>> (*)(const Scenario&, const Compiled&);
 
   static base::Result<std::unique_ptr<AnyRun>> made(MakeChip make_chip, const Scenario& scenario,

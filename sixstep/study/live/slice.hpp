@@ -22,7 +22,7 @@ struct LastSegment {
   /// Sets the columns of an encoder or a resolver. Empty: the firmware has none.
   std::function<void(FullRow& row, const LastSegment& at, double s, double t_s)> shaft{};
 
-  /// `rig` stands before the segment.
+  /// `rig`: its state before the segment.
   template <class Rig>
   static LastSegment of(const Rig& rig, double s) {
     LastSegment segment{rig.plant(), rig.now(), s, rig.probe_sector()};
@@ -65,7 +65,7 @@ struct LastSegment {
 
 /// The observer of one slice. It forwards to all observers of the run, takes the row at the requested
 /// instant, and records how far the segments extend. The slice ends after an event, so that no segment is
-/// cut. In a whole run it takes no row and changes nothing.
+/// cut. In a whole run the observer takes no row and does not affect the run.
 struct Slice {
   Observers& watchers;
   Present& present;
@@ -73,11 +73,11 @@ struct Slice {
   sim::Instant until;   ///< instant of the row, within this segment
   sim::Instant& reach;  ///< end of segments that skipped ticks: no change may occur before this instant
   std::int64_t period_ticks;
-  bool whole_run = false;  ///< continues to the end of the run, whatever `until` is
-  bool unread = false;     ///< no row is taken
+  bool whole_run = false;  ///< true: continues to the end of the run, whatever `until` is
+  bool unread = false;     ///< true: no row is taken
   bool taken = false;
-  bool stopped = false;                ///< by an observer, not at its end
-  std::optional<std::uint8_t> pins{};  ///< ends at the instant at which the Hall pins get another code
+  bool stopped = false;                ///< true: an observer stopped the slice before its end
+  std::optional<std::uint8_t> pins{};  ///< the slice ends when the Hall pins show another code
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -88,12 +88,11 @@ struct Slice {
     // A chip with its own clock has no ticks to skip.
     constexpr bool ticks = !requires { rig.firmware().next_stop(); };
     if (ticks && rig.next_tick().ticks - from.ticks > period_ticks) {
-      // The requested length, not the achieved one: a series that does not converge over the requested length
-      // is shortened.
+      // Uses the requested length, because a series that does not converge over this length is shortened.
       const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
     }
-    // An event up to half a picosecond before `until` is followed by another segment, which is the one that counts.
+    // An event up to half a picosecond before `until` is followed by another segment, which contains the row.
     if (unread || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
     last.emplace(LastSegment::of(rig, s));
     take(rig, last->fraction(h, until), until.seconds());

@@ -70,7 +70,7 @@ std::vector<Column> turning_columns() {
       {"encoder_Z", "1", "", "the index line"},
       {"absolute_code", "1", "", "Gray code that the absolute encoder shows"},
       {"resolver_cos_V", "V", "", "voltage of the resolver's cosine winding, without noise"},
-      {"resolver_sin_V", "V", "", "voltage of its sine winding"},
+      {"resolver_sin_V", "V", "", "voltage of the resolver's sine winding, without noise"},
       of(Signal::direct_current, "rotor, d",
          "field-oriented: current along the magnet, as measured at the last sample"),
       of(Signal::quadrature_current, "rotor, q",
@@ -118,7 +118,7 @@ std::vector<Column> linear_columns() {
   return columns;
 }
 
-/// Whether the sensor of this column is fitted.
+/// True if the sensor of this column is fitted.
 bool fitted(ColumnId id, RotorSensing rotor) {
   if (id <= ColumnId::encoder_Z) return rotor == RotorSensing::encoder;
   if (id == ColumnId::absolute_code) return rotor == RotorSensing::absolute;

@@ -44,7 +44,7 @@ enum class ColumnId : std::uint8_t {
   gate_T6,
   hall,
   sector,
-  load_speed,  // from here on: only with the general kernel
+  load_speed,  // this column and the next ones: only with the general kernel
   load_angle,
   source_A,
   loop_A,
@@ -54,13 +54,13 @@ enum class ColumnId : std::uint8_t {
   winding_degC,
   housing_degC,
   junction_degC,
-  encoder_A,  // from here on: signals of an encoder or a resolver
+  encoder_A,  // this column and the next ones: signals of an encoder or a resolver
   encoder_B,
   encoder_Z,
   absolute_code,
   resolver_cos_V,
   resolver_sin_V,
-  i_d,  // from here on: only with a field-oriented drive
+  i_d,  // this column and the next ones: only with a field-oriented drive
   i_q,
   i_d_ref,
   i_q_ref,
@@ -72,13 +72,14 @@ enum class ColumnId : std::uint8_t {
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
 using FullRow = std::array<double, column_count>;
 
-/// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold
+/// True if a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows contain
 /// NaN.
 bool applies(ColumnId id, control::Mode mode);
-/// Whether a column has a meaning in any mode of the run, with the scenario's motor and supply.
+/// True if a column has a meaning in any mode of the run, with the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);
 
-/// Whether the numbers of a column are labels or levels, such as a Hall code: equal or not, but without a distance.
+/// True if the numbers of a column are labels or levels, such as a Hall code: two of them can only be equal
+/// or different.
 bool holds_labels(std::string_view column);
 
 /// All columns: t_s i_a_A i_b_A i_c_A u_a_V .. hall.

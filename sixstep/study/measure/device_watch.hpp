@@ -11,8 +11,8 @@
 
 namespace sixstep::study {
 
-/// Mean powers over the run, W. junction_degC is the junction's temperature at these mean powers by
-/// bridge.junction_K_W, so its peak in the run is higher; 0 if junction_K_W is not given.
+/// Mean powers over the run, W. junction_degC: the junction's temperature at these mean powers, computed with
+/// bridge.junction_K_W. The peak temperature in the run is higher. 0 if junction_K_W is not given.
 struct DeviceLoss {
   std::string_view device;  // "T1" to "T6"
   double conduction_W = 0.0, turn_on_W = 0.0, turn_off_W = 0.0, diode_W = 0.0, recovery_W = 0.0;
@@ -32,7 +32,7 @@ class DeviceWatch {
   double sink_degC_, junction_K_W_, seconds_ = 0.0;
 };
 
-/// Whether a bridge has values for a table of its losses: switching energies, or a junction's thermal
+/// True if a bridge has values for a table of its losses: switching energies, or a junction's thermal
 /// resistance.
 bool tells_losses(const Bridge& bridge);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the winding's loss over the last fifth of a run in two halves, from which a remark concludes what the drive would keep
-// up after the run.
+// Measures the winding's loss in the last fifth of a run, in two halves. A remark uses it to predict the loss
+// after the run.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -12,15 +12,16 @@ struct EndWatch {
   struct Mark {
     double t_s = 0.0, copper_J = 0.0, speed_rad_s = 0.0;
   };
-  /// Shorter runs look at a step of a current, and not at what a drive keeps up.
+  /// Shortest run with such a prediction. Shorter runs usually test a step of the current, not a steady
+  /// state.
   static constexpr double least_s = 0.05;
 
   double duration_s = 0.0;  ///< planned length of the run
   std::optional<Mark> first{}, middle{}, last{};
 
-  /// Whether look() has a use for this time.
+  /// True if look() uses this time.
   bool wants(double t_s) const { return duration_s >= least_s && t_s >= 0.8 * duration_s; }
-  /// Called from time to time and at the end.
+  /// Called repeatedly during the run, and at its end.
   void look(double t_s, double copper_J, double speed_rad_s) {
     if (!wants(t_s)) return;
     const Mark now{t_s, copper_J, speed_rad_s};
@@ -29,12 +30,12 @@ struct EndWatch {
     last = now;
   }
 
-  /// The winding's loss that the run keeps up at its end, the mean since `since_s`, and the speed there.
+  /// The winding's steady loss at the run's end, as the mean since `since_s`, and the speed at the end.
   struct Kept {
     double copper_W = 0.0, speed_rad_s = 0.0, since_s = 0.0;
   };
-  /// Empty if the run is too short to tell, or if loss or speed still change: the halves' copper losses differ by more
-  /// than a tenth, or speeds by more than a fiftieth and `noise_rad_s`.
+  /// Empty if the run is too short, or if loss or speed still change: the halves' copper losses differ by
+  /// more than a tenth, or speeds by more than a fiftieth and `noise_rad_s`.
   std::optional<Kept> kept(double noise_rad_s) const {
     if (!middle || !last || !(first->t_s < middle->t_s) || !(middle->t_s < last->t_s)) return {};
     const auto loss_W = [](const Mark& a, const Mark& b) {

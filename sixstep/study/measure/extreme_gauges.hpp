@@ -57,7 +57,7 @@ class ExtremeGauge {
  public:
   explicit ExtremeGauge(const Reading& reading) : reading_(reading) {}
 
-  /// Whether a signal within these bounds cannot change the result.
+  /// True if a signal within these bounds cannot change the result.
   bool holds(const Extremes& bounds) const {
     return (!reading_.high() || bounds.high <= seen_.high) && (!reading_.low() || bounds.low >= seen_.low);
   }

@@ -63,7 +63,7 @@ double value_of(const Gauges& gauges, const Measure& m) {
 }
 double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
-/// Whether a figure of samples is also computed from the whole signal, because all samples lie at the same
+/// True if a figure of samples is also computed from the whole signal, because all samples lie at the same
 /// phase of the PWM ripple. False for figures that are times, because the ripple can leave the band.
 bool looks_beside_samples(const Measure& m) {
   return m.sampled && fact_of(m.metric).of == TakenOf::signal && !is_time(m.metric);
@@ -73,7 +73,7 @@ bool meets(const Requirement& r, double v) {
   return v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
 }
 
-/// Whether the figure of the whole signal differs from the figure of its samples by more than half the
+/// True if the figure of the whole signal differs from the figure of its samples by more than half the
 /// required range, or only one of the two meets the requirement.
 bool tells_apart(const Requirement& r, double samples, double whole) {
   if (whole != whole) return false;
@@ -81,13 +81,13 @@ bool tells_apart(const Requirement& r, double samples, double whole) {
   return meets(r, samples) != meets(r, whole);
 }
 
-/// Whether the figure averages the ripple out. Samples at the ripple's mean then give the whole signal's
-/// value.
+/// True if the figure averages the ripple out. Its value from samples at the ripple's mean then equals its
+/// value from the whole signal.
 bool levels_the_ripple(MetricKind metric) {
   return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
 }
 
-/// Whether pwm.sample = "middle" is possible. It is not possible for
+/// True if pwm.sample = "middle" is possible. It is not possible for
 /// - comparators, which need no sample,
 /// - the deadbeat law, which needs a sample at the period's start,
 /// - sensorless, field-oriented and user's drives, which have their own sample instant.

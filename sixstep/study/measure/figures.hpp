@@ -61,7 +61,7 @@ class Figures {
  public:
   Figures(const Scenario& scenario, const std::vector<Level>& levels);
 
-  /// Costs nothing in a run without figures.
+  /// Does nothing in a run without figures.
   template <class Rig>
   void segment(const Rig& rig, double s) {
     if (!figures_.empty()) watch(segment_view(rig), s);
@@ -86,11 +86,12 @@ std::string figure_name(const Measure& measure);
 /// The name of a measure in the words of the scenario's motor: "final force".
 std::string figure_name(const Scenario& scenario, const Measure& measure);
 
-/// The value from which a figure's size counts: the ambient temperature for a temperature on the Celsius scale, whose
-/// zero is arbitrary; else 0.
+/// The value from which a figure's size counts: the ambient temperature for a temperature on the Celsius
+/// scale, whose zero is arbitrary; else 0.
 double figure_zero(const Scenario& scenario, const Measure& measure);
 
-/// Unit of a figure in results, with its factor: a linear motor's unit replaces that of measure_choices.hpp.
+/// Unit of a figure in results, with its factor. For a linear motor its unit replaces the unit of
+/// measure_choices.hpp.
 inline base::LinearUnit unit_in(const Scenario& scenario, std::string_view unit) {
   return scenario.sheet.kind == design::MotorKind::linear ? base::in_linear(unit)
                                                           : base::LinearUnit{unit, unit, 1.0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of the figures that are called at each segment. Of all functions of the figures, only these
-// are compiled for speed (CMakeLists.txt).
+// The functions of the figures that are called at each segment. Only these functions are compiled for speed
+// (CMakeLists.txt).
 #include "sixstep/study/measure/figures.hpp"
 
 namespace sixstep::study {

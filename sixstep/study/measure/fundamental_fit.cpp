@@ -18,8 +18,8 @@ void FundamentalFit::take(const Integrals& part) {
 }
 
 /// The fit's coefficients minus the reference's coefficients, from the normal equations by L D L'
-/// decomposition. A function that is almost a linear combination of the other functions gets the coefficient
-/// 0.
+/// decomposition. The coefficient of a function that is almost a linear combination of the other functions is
+/// set to 0.
 FundamentalFit::Three FundamentalFit::step_to_fit() const {
   constexpr double made_up = 0x1p-40;
   const Integrals& f = sums_;

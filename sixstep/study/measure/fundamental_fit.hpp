@@ -20,7 +20,7 @@
 
 namespace sixstep::study {
 
-/// sin p and 1 - cos p; the latter keeps all its digits if p is small.
+/// sin p and 1 - cos p; 1 - cos p keeps all its digits if p is small.
 struct Phase {
   double sin = 0.0, versine = 0.0;
 };

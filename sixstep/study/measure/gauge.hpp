@@ -17,7 +17,7 @@ class Gauge {
   Gauge(const Measure& measure, Window window, double level, std::optional<double> start);
 
   const Window& window() const { return window_; }
-  /// Whether a signal within its bounds cannot change the result, so that this part of the signal may be left
+  /// True if a signal within its bounds cannot change the result, so that this part of the signal may be left
   /// out. `bounds` is called only for figures where a part can be left out.
   template <class Bounds>
   bool holds(Bounds&& bounds) const {
@@ -45,7 +45,7 @@ class Gauge {
   Window window_;
   bool sampled_;
   bool seen_ = false;
-  bool numbers_ = true;  ///< no value so far was infinite or NaN
+  bool numbers_ = true;  ///< true: no value so far was infinite or NaN
 };
 
 }  // namespace sixstep::study

@@ -92,10 +92,10 @@ Phase HarmonicGauge::phase_at(const SegmentView& g, double s) const {
   return phase_of(sectors * base::sector_rad + (series::evaluate(y.x, y.degree, s) - first_x_));
 }
 
-/// The number of points follows from a degree n: the degree of the segment's series or that of cos and sin
-/// over this turn, whichever is higher, and at least 8. Products have three factors here, because the speed
-/// is the weight. With x, M and u as in series/quadrature.hpp, the error bound is then (pi/2) (3/4)^n e^(3 x)
-/// u M^3, which is below u M^3/5 for n of 8 or more.
+/// The number of points follows from a degree n: the degree of the segment's series or of the series of cos
+/// and sin over this turn, whichever is higher, and at least 8. Products have three factors here, because the
+/// speed is the weight. With x, M and u as in series/quadrature.hpp, the error bound is then (pi/2) (3/4)^n
+/// e^(3 x) u M^3, which is below u M^3/5 for n of 8 or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.pole_pairs() * e.h * (to - from);

@@ -13,7 +13,7 @@ namespace sixstep::study {
 
 enum class LogicKind : std::uint8_t {
   level,  ///< a number of `bits` bits, or logic_unknown
-  event   ///< occurs where its number, a count, increases
+  event   ///< occurs where its count increases
 };
 
 struct LogicSignal {
@@ -47,7 +47,7 @@ enum class LogicId : std::uint8_t {
   shoot_through,
   impossible_hall,
   shaft_sensor,
-  over_current,  ///< from here on in the order of control::Fault's bits
+  over_current,  ///< this signal and the next ones: in the order of control::Fault's bits
   over_voltage,
   under_voltage,
   over_speed,
@@ -67,7 +67,7 @@ inline constexpr std::uint32_t logic_unknown = 0xffff'ffffu;
 const std::vector<LogicSignal>& logic_signals();
 
 /// Takes an instant in ps and all signals from that instant on. Instants rise, and each row differs from the
-/// one before, except the last row, which marks the end of the run.
+/// row before. The last row marks the end of the run and may be equal to the row before.
 using LogicSink = std::function<void(std::int64_t ps, std::span<const std::uint32_t>)>;
 
 }  // namespace sixstep::study

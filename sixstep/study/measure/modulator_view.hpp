@@ -28,7 +28,7 @@ struct ModulatorView {
   }
   /// Number of switches that are chopped at the same time; turn_ons() counts all of them.
   int chopped() const { return legs ? 3 : 1; }
-  /// Whether the bus voltage is applied between two legs: the source's switch is commanded on, or the three
+  /// True if the bus voltage is applied between two legs: the source's switch is commanded on, or the three
   /// legs' commands differ.
   bool drives() const {
     if (pair) return pair->source_on();

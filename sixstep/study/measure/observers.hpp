@@ -41,7 +41,7 @@ struct Observers {
   std::function<bool(double)> keep_going{};
   std::int64_t segments = 0;
   sim::Instant looked{};  ///< when done() last checked
-  bool crowded = false;   ///< events so dense that time hardly advances
+  bool crowded = false;   ///< true: events are so dense that time hardly advances
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -57,7 +57,7 @@ struct Observers {
     if (logic) logic->segment(rig, s);
     ++segments;
   }
-  /// Called from time to time and at the end.
+  /// Called repeatedly during the run, and at its end.
   template <class Rig>
   void look(const Rig& rig) {
     extremes.look(rig);

@@ -74,7 +74,7 @@ struct ChipReport {
   double latest_edge_s = 0.0;  // largest delay of a shown Hall edge
   std::string sent;            // text from the chip's serial line, in whole lines
 
-  /// Whether periods passed without a control interrupt; the last one may still be unanswered.
+  /// True if periods passed without a control interrupt; the last one may still be unanswered.
   bool overran() const { return times.periods > times.conversions + 1; }
 };
 
@@ -102,7 +102,7 @@ struct Outcome {
   std::optional<ChipReport> chip;      // empty: no chip
   double simulated_s = 0.0;
   std::int64_t segments = 0;
-  std::int64_t turn_ons = 0;  // of the chopped leg, which commutation changes, or of all three upper switches
+  std::int64_t turn_ons = 0;  // of the leg that is chopped at the time, or of all three upper switches
   int chopped_switches = 1;   // number of switches that turn_ons counts
   std::uint64_t digest = 0;   // digest of every event of the trajectory (study/measure/digest.hpp)
 

@@ -23,7 +23,7 @@ class Selection {
     mode_ = mode;
     choose();
   }
-  /// Returns whether a number differs from the row before.
+  /// Returns true if a number differs from the row before.
   bool take(const FullRow& full) {
     bool differs = false;
     double all = 0.0;
@@ -36,7 +36,7 @@ class Selection {
     sound_ = all == 0.0;
     return differs;
   }
-  /// Whether all numbers of the row are finite. A run-away can produce infinite numbers or NaN before the run
+  /// True if all numbers of the row are finite. A run-away can produce infinite numbers or NaN before the run
   /// stops.
   bool sound() const { return sound_; }
   std::span<const double> row() const { return row_; }
@@ -96,7 +96,7 @@ class GridRecorder {
 };
 
 /// Writes both ends of every segment. If a segment is long compared with `gap_s`, it also writes points
-/// between, so that lines from row to row show the curve. A row equal to the one before is left out.
+/// between, so that lines from row to row show the curve. A row equal to the row before is omitted.
 class EventRecorder {
  public:
   EventRecorder(double gap_s, const std::vector<std::size_t>& columns, RowSink sink)

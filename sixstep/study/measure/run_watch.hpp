@@ -14,19 +14,19 @@ struct RunWatch {
   double fastest_rad_s = 0.0;
   double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus at the largest ratio of back-EMF to bus
   double highest_bus_V = 0.0;
-  double highest_phase_A = 0.0;                      ///< magnitude, of any phase
+  double highest_phase_A = 0.0;                      ///< largest magnitude of a phase current
   double lowest_charge = 1.0, highest_charge = 0.0;  ///< charge of a battery
   std::optional<double> empty_s{}, full_s{};  ///< when the battery was first empty, and when first overfull
   double winding_degC = 0.0, junction_degC = 0.0;  ///< highest temperatures so far; only with the general
                                                    ///< kernel
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
-  std::int64_t samples = 0, hidden_samples = 0;  ///< all samples of the shunt, and those in which it shows no
-                                                 ///< current
-  bool held_a_commutation = false;               ///< the drive made at least one duty step
-  bool held_other_duty = false;  ///< in a duty step, or immediately before it, the duty was below 1
-  double duty_before = 0.0;      ///< the drive's last duty outside of a duty step, magnitude
+  std::int64_t samples = 0, hidden_samples = 0;  ///< all samples of the shunt, and the samples in which it
+                                                 ///< shows no current
+  bool held_a_commutation = false;               ///< true: the drive made at least one duty step
+  bool held_other_duty = false;  ///< true: in or just before a duty step, the duty was below 1
+  double duty_before = 0.0;      ///< magnitude of the drive's last duty outside of a duty step
   double held_rad_s = 0.0,
-         held_A = 0.0;  ///< speed and current reference of the duty step with their largest product
+         held_A = 0.0;  ///< speed and current reference of the duty step at which their product was largest
 
   template <class Rig>
   void segment(const Rig& rig) {

@@ -91,8 +91,8 @@ void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// Does the same as add_floating_star(), for the general kernel. If no leg is connected, its pole voltages
-/// are the back-EMFs e_k. The highest and the lowest leg are determined in the middle of the part.
+/// Like add_floating_star(), for the general kernel. If no leg is connected, its pole voltages are the
+/// back-EMFs e_k. The highest and the lowest leg are determined in the middle of the part.
 void add_general_floating_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;
@@ -174,7 +174,8 @@ Series copper_loss(const Span& part) {
   return loss;
 }
 
-/// B w^2 + T_c |w|, and the loss in an elastic shaft: all torques against the motion except the load's.
+/// Friction loss B w^2 + T_c |w| (viscous friction B, dry friction T_c, speed w) and the loss in an elastic
+/// shaft: all torques against the motion except the load's.
 Series friction_loss(const Span& part) {
   const plant::View& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);

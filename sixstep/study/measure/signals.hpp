@@ -25,7 +25,7 @@ struct SegmentView {
   plant::Gates gates{};         ///< gates of the board's legs
   int board_sector = 0;         ///< the rotor's sector according to the board
   int probe_sector = 0;         ///< sector of the motor's Hall code
-  bool ticked = false;          ///< a control sample was taken at the segment's beginning
+  bool ticked = false;          ///< true: a control sample is at the segment's beginning
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {
@@ -54,7 +54,7 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
 }
 
 /// The duty in effect, negative if its source leg differs from the source leg of the positive pair of the
-/// board's sector. With armed comparators: whether the upper switch is on. With three legs: the largest
+/// board's sector. With armed comparators it is the state of the upper switch, with three legs the largest
 /// difference of two duties.
 double signed_duty(const ModulatorView& modulator, int sector);
 

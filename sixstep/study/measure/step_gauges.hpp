@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the step of a signal from `start` to `level`: when the signal reaches the level, and from when on
-// it stays there. A time is infinite if its event never occurs.
+// Measures the step of a signal from `start` to `level`: the time at which the signal reaches the level, and
+// the time from which it stays at the level. A time is infinite if its event never occurs.
 #pragma once
 #include <optional>
 
@@ -25,7 +25,7 @@ struct Step {
   /// it.
   std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
                                  double length) const;
-  /// Whether a value has reached `fraction` of the step.
+  /// True if a value has reached `fraction` of the step.
   bool made(double fraction, double value) const {
     return sign() * (value - *start - fraction * (level - *start)) >= 0.0;
   }

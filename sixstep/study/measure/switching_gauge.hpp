@@ -27,7 +27,7 @@ class SwitchingGauge {
 
   Window window_;
   Signal signal_;
-  bool on_ = false;  ///< the gate's state; off before the run
+  bool on_ = false;  ///< true: the gate is on; it is off before the run
   int switches_ = 1;
   std::int64_t gate_turn_ons_ = 0;
   std::int64_t before_ = 0, after_ = 0;

@@ -25,7 +25,7 @@ struct TimeSpan {
 struct Trace {
   std::vector<Column> columns;
   std::vector<std::vector<double>> values;
-  bool every_event = false;  // rows at every event; otherwise on a grid
+  bool every_event = false;  // true: rows at every event; false: rows on a grid
   /// Intervals in which all rows are kept, in time order; empty: the whole run. Outside of them an envelope
   /// replaces the rows: each short interval keeps only the rows where a column is lowest or highest.
   std::vector<TimeSpan> whole{};

@@ -22,18 +22,18 @@ std::string percent(double part) { return few_digits(100 * part) + " %"; }
 std::string on_angle(const Scenario& s) {
   const double d = believed_angle_error_deg(s), rad = d * base::pi / 180;
   if (d == 0.0) return {};
-  const std::string head = "the drive takes the rotor's angle for " + few_digits(std::fabs(d)) + " deg " +
-                           (d > 0 ? "more" : "less") +
-                           " than it is (the sensor's offset_deg less believed.sensor_offset_deg): ";
+  const std::string head = "the drive's angle of the rotor is " + few_digits(std::fabs(d)) + " deg too " +
+                           (d > 0 ? "large" : "small") +
+                           " (the sensor's offset_deg minus believed.sensor_offset_deg): ";
   if (s.control.drive != FirmwareKind::field)
-    return head + "each pair changes that much too " + (d > 0 ? "early" : "late") + " in forward, and too " +
-           (d > 0 ? "late" : "early") + " in reverse rotation";
+    return head + "by this angle each pair changes too " + (d > 0 ? "early" : "late") +
+           " in forward rotation, and too " + (d > 0 ? "late" : "early") + " in reverse rotation";
   const double part = base::cos(rad);
-  std::string text =
-      head + "a current I across its assumed magnet gives K I cos d = " + percent(part) + " of its torque";
-  if (part <= 0.0) text += ", of the wrong sign: a speed loop runs away";
-  return text + ", and " + percent(std::fabs(base::sin(rad))) + " of it flows along the magnet, " +
-         (d > 0 ? "against it in forward" : "with it at forward") + " torque";
+  std::string text = head + "a current I across the assumed magnet axis gives K I cos d = " + percent(part) +
+                     " of its torque";
+  if (part <= 0.0) text += ", with the wrong sign: a speed loop runs away";
+  return text + ", and " + percent(std::fabs(base::sin(rad))) + " of the current flows along the magnet, " +
+         (d > 0 ? "against" : "with") + " the magnet at forward torque";
 }
 
 /// True if the drive computes speed and position from the electrical angle by its pole pairs.
@@ -50,11 +50,11 @@ std::string on_pole_pairs(const Scenario& s, const Compiled& c) {
   const bool speed = s.control.mode == control::Mode::speed;
   if (counts_sectors(s))
     return head + "it reads p_m/p_f = " + percent(p_m / p_f) + " of the speed" +
-           (speed ? ", and its speed loop holds " + percent(p_f / p_m) + " of the reference" : "");
+           (speed ? ", and its speed loop controls the speed to " + percent(p_f / p_m) + " of the reference"
+                  : "");
   if (s.sensors.rotor == RotorSensing::ideal || s.sensors.shaft == SensorShaft::load)
-    return head +
-           "decoupling and delay compensation take the electrical speed for p_f/p_m = " + percent(p_f / p_m) +
-           " of it";
+    return head + "decoupling and delay compensation use p_f/p_m = " + percent(p_f / p_m) +
+           " of the electrical speed";
   return head + "its electrical angle turns p_f/p_m = " + few_digits(p_f / p_m) +
          " times as fast as the magnet, so that the torque changes its sign " +
          few_digits(2 * std::fabs(p_f - p_m)) + " times per turn of the shaft, and its mean is 0";
@@ -113,8 +113,8 @@ std::string on_flux(const Scenario& s, const Compiled& c) {
     text += ", and its decoupling feeds " + percent(1 / ratio) + " of the back-EMF forward";
   if (s.control.field.weakening_A && field) {
     const double base_V = c.drive.nominal_bus_V / std::numbers::sqrt3;
-    text += "; the bus ends at " + few_digits(base_V / m.magnet_V_s) + " rad/s, it believes at " +
-            few_digits(base_V / f.magnet_V_s) + " rad/s";
+    text += "; the back-EMF reaches the bus at " + few_digits(base_V / m.magnet_V_s) +
+            " rad/s, not at the believed " + few_digits(base_V / f.magnet_V_s) + " rad/s";
   }
   return text;
 }
@@ -137,8 +137,8 @@ std::string on_hall_table(const Scenario& s) {
     wrong += control::sector_of_hall(rig::code_at(s.believed.hall_lines,
                                                   wires.at_pins(control::hall_of_sector(sector)))) != sector;
   if (wrong == 0) return {};
-  return "the drive's Hall table does not fit the wires (believed.hall_lines, sensors.hall_lines): it takes " +
-         std::to_string(wrong) + " of 6 codes for another sector";
+  return "the drive's Hall table does not fit the wires (believed.hall_lines, sensors.hall_lines): it assigns " +
+         std::to_string(wrong) + " of 6 codes to a wrong sector";
 }
 
 }  // namespace

@@ -9,8 +9,9 @@ namespace sixstep::study {
 
 namespace {
 
-/// The duty step does not act if 4 E + 3 R I is above U: its duty is 1 there. The overlap acts there too.
-/// Symbols of commutation.md: back-EMF E and resistance R of a phase, current I, bus voltage U.
+/// The duty step has no effect if 4 E + 3 R I is above U, because its duty is then 1. The overlap acts in
+/// this case too. Symbols of commutation.md: back-EMF E and resistance R of a phase, current I, bus voltage
+/// U.
 bool acted(const Scenario& s, const RunWatch& w) {
   return w.held_a_commutation &&
          (w.held_other_duty || s.control.current.commutation == CurrentCommutation::overlap);
@@ -22,8 +23,8 @@ std::string named(const Scenario& s) {
 }
 
 /// The factor of E in the voltage U - 2 E - 3 R I/2 that reduces the leaving phase's current
-/// (commutation.md). It is 2 on the flat top of a trapezoid, and 1.5 for a sine: twice the mean of the peak,
-/// 1, and half the peak.
+/// (commutation.md). It is 2 on the flat top of a trapezoid. For a sine it is 1.5: twice the mean of the peak
+/// 1 and of half the peak.
 double emf_share(const design::MotorModel& motor) {
   return motor.machine.back_emf == plant::BackEmf::sine ? 1.5 : 2.0;
 }
@@ -48,7 +49,7 @@ std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
       pattern == PwmPattern::pwm_on || pattern == PwmPattern::pwm_on_pwm)
     return {};
   return named(s) + " with pwm.pattern = \"" + std::string(base::word(pattern_choices, pattern)) +
-         "\" leaves a larger current peak and a deeper torque dip than with \"pwm-on\". At some commutations this pattern chops the staying leg: a duty above 1/2 then stays in effect for up to one period after the commutation";
+         "\" causes a larger current peak and a deeper torque dip than with \"pwm-on\". At some commutations this pattern chops the staying leg: a duty above 1/2 then stays in effect for up to one period after the commutation";
 }
 
 /// Margin of longest_overlap_rad_s(): because of the current's ripple, an overlap lowers the torque from 0.98

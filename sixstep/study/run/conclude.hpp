@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the parts of an outcome that are common to both kinds of runs: run.hpp (whole) and session.hpp (in
+// Creates the parts of an outcome that are common to both kinds of runs: run.hpp (whole) and session.hpp (in
 // slices).
 #pragma once
 #include "sixstep/study/compile/compile.hpp"

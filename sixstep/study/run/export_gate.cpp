@@ -25,7 +25,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Whether comparators on the board limit the current, so that the drive needs no converter for the currents.
+/// True if comparators on the board limit the current, so that the drive needs no converter for the currents.
 bool by_comparators(const Scenario& s) {
   const CurrentLoop& loop = s.control.current;
   return loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
@@ -107,7 +107,7 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor",
           in_the_field(s)
-              ? "the exact angle and speed at every instant, and a board has only those of a decoder"
+              ? "the exact angle and speed at every instant, and a board has only the values of a decoder"
               : "the exact speed and position at every instant, and a board has only Hall edges",
           in_the_field(s)
               ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"
@@ -261,7 +261,7 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
   if (scenario.sheet.kind == design::MotorKind::linear)
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
                          "is linear, and a header supports rotary motors only",
-                         "take the gains from the run's report"};
+                         "copy the gains from the run's report"};
   base::Result<Outcome> outcome = run(watching_peaks(scenario), listeners);
   if (!outcome) return outcome.problems();
   Clearance c{

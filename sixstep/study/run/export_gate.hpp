@@ -30,8 +30,8 @@ struct Clearance {
   Outcome outcome;
   base::Problems unmeasured, unheld;
   std::vector<std::string> notes;  ///< conditions of the clearance, a sentence each (export_notes.hpp)
-  bool needs_sink = false;         ///< the run has not shown that the drive works with a supply that cannot
-                                   ///< take current back
+  bool needs_sink = false;  ///< true: the run has not shown that the drive works with a supply that cannot
+                            ///< take current back
 
   bool clear() const { return unmeasured.empty() && unheld.empty(); }
 };

@@ -28,7 +28,7 @@ bool is_rectifier(const Supply& s) {
 
 constexpr const char* condition = "cleared for a supply that takes current back (supply.sinks = true)";
 
-/// The first reason why the drive does not hold on such a supply.
+/// The first reason why the drive does not work with such a supply.
 std::string first_of(const base::Problems& found) {
   const base::Problem& p = found.front();
   return p.where + (p.value.empty() ? " " : " = " + p.value + " ") + p.limit;

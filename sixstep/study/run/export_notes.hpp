@@ -14,8 +14,9 @@
 
 namespace sixstep::study {
 
-/// A sentence if a cascade's limit allows more than the nominal current. It says how long the winding
-/// withstands the limit, by the sheet's thermal values and by the worse ends of the thermal ranges. Empty
+/// A sentence if a cascade's limit allows more than the nominal current. It contains the time for which the
+/// winding withstands the limit, by the sheet's thermal values and by the worse ends of the thermal ranges.
+/// Empty
 /// - if the winding withstands the limit without end,
 /// - if the sheet has neither a nominal current nor thermal values,
 /// - for a field-oriented drive, whose nominal current refers to a sine.
@@ -31,9 +32,9 @@ std::string sheet_contradiction(const Scenario& scenario);
 
 /// The result of a second run with a supply that cannot take current back.
 struct WithoutSink {
-  bool matters = false;  ///< the scenario's supply takes current back
-  bool holds = false;    ///< with a supply that cannot take current back, the requirements of run and stop
-                         ///< hold too
+  bool matters = false;  ///< true: the scenario's supply takes current back
+  bool holds = false;    ///< true: the requirements of run and stop also hold with a supply that cannot take
+                         ///< current back
   std::string note;      ///< what fails with such a supply; empty if nothing fails
 };
 WithoutSink without_sink(const Scenario& scenario, const design::MotorModel& motor,

@@ -40,11 +40,12 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
   const double by_current_A = bounds.current_A.value_or(*limit);
   const double by_torque_A = bounds.torque_Nm ? *bounds.torque_Nm / motor.K_t_Nm_A : *limit;
   if (by_torque_A < std::min(*limit, by_current_A))
-    return MostCurrent{by_torque_A, "control.limits.torque_Nm over K_t"};
+    return MostCurrent{by_torque_A, "control.limits.torque_Nm divided by K_t"};
   if (by_current_A < *limit) return MostCurrent{by_current_A, "control.limits.current_A"};
   return MostCurrent{*limit, s.control.current.limit_A == limit ? "control.current.limit_A"
-                             : s.control.speed.torque_limit_Nm  ? "control.speed.torque_limit_Nm over K_t"
-                                                                : "the usual torque limit over K_t"};
+                             : s.control.speed.torque_limit_Nm
+                                 ? "control.speed.torque_limit_Nm divided by K_t"
+                                 : "the usual torque limit divided by K_t"};
 }
 
 base::Result<design::WithstandTimes> withstand_times_of(const Scenario& s, const design::MotorModel& motor,

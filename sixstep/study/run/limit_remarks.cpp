@@ -26,8 +26,8 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
   return {};
 }
 
-/// Chopping frequency above which a remark follows. Of each half period, 2.5 us, comparator, gate driver and
-/// dead time take 0.5 us or more.
+/// Chopping frequency above which a remark follows. Comparator, gate driver and dead time need 0.5 us or more
+/// of each half period of 2.5 us.
 constexpr double fast_chopping_Hz = 200e3;
 
 /// A speed or a current may exceed its limit by a thousandth without a remark.

@@ -14,8 +14,8 @@ namespace sixstep::study {
 /// A number with three digits; larger numbers as integers.
 std::string few_digits(double x);
 
-/// The exceeded limits, one sentence each, with numbers and a cure. `outcome` holds the motor, and the energy
-/// books if they were kept.
+/// The exceeded limits, one sentence each, with numbers and a cure. `outcome` contains the motor, and the
+/// energy books if they were kept.
 std::vector<std::string> passed_limits(const Scenario& scenario, const RunWatch& watch,
                                        const Outcome& outcome);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current loop with the gains of a run, on any motor: whether it is stable.
+// Computes the current loop with the gains of a run on any motor, and decides whether the loop is stable.
 #pragma once
 #include <optional>
 
@@ -11,10 +11,10 @@
 
 namespace sixstep::study {
 
-/// True if these gains are those of a PI current loop.
+/// True if these gains belong to a PI current loop.
 bool is_current_pi(const Scenario& scenario, const LoopGains& gains);
 
-/// This loop on R and L of the motor's driven pair, or of an axis of the field-oriented drive.
+/// The current loop on R and L of the motor's driven pair, or of an axis of the field-oriented drive.
 design::DriveLoops current_loop_on(const Scenario& scenario, const design::MotorModel& motor,
                                    const design::Sheet& sheet, const LoopGains& gains);
 

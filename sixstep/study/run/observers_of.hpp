@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the observers of a run, from its scenario and its listeners.
+// Creates the observers of a run from its scenario and its listeners.
 #pragma once
 #include "sixstep/study/measure/observers.hpp"
 #include "sixstep/study/run/run.hpp"

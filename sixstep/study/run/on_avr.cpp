@@ -57,7 +57,7 @@ void need_timer(const Scenario& s, base::Problems& out) {
        "set a multiple of 125 ns, at most 8 ms");
 }
 
-/// Whether an event changes a transducer: other boards simulate this, the AVR's board does not.
+/// True if an event changes a transducer: other boards simulate this, the AVR's board does not.
 bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.current_gain_error; }
 
 void need_converter(const Scenario& s, base::Problems& out) {

@@ -86,9 +86,9 @@ std::string on_shunt_amplifier(const Scenario& s) {
          " us the sensor shows 90 %";
 }
 
-/// Finds samples that the drive takes before the shunt shows the current. The drive computes the least duty
-/// from shunt_settle_s and the dead time only. For duties between this computed least duty and the real least
-/// duty the drive reads 0 A.
+/// Finds samples that the drive uses although the shunt does not show the current yet. The drive computes the
+/// least duty from shunt_settle_s and the dead time only. For duties between this computed least duty and the
+/// real least duty the drive reads 0 A.
 std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const double taken_duty = least_visible_duty(s);
   if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};
@@ -232,7 +232,7 @@ std::string on_load_after_trip(const Scenario& s, const Outcome& out) {
          " turns the shaft, as a hanging weight does; for a load that only brakes use load.coulomb_Nm";
 }
 
-/// Remarks on loops and samples that the program knows; those of a user's controller are unknown.
+/// Adds remarks on loops and samples. A user's controller gets none of them, because its loops are unknown.
 void add_loop_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcome& out) {
   const auto add = [&out](std::string text) {
     if (!text.empty()) out.remarks.push_back(std::move(text));
@@ -256,7 +256,8 @@ void add_loop_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, O
 /// Remarks on the winding's heat. They depend on heat.ambient_degC, also in a run without temperatures.
 struct ThermalRemarks {
   std::string limit, cold, kept, hot;
-  /// A product drive's thresholds are judged at the ambient temperature, whatever the judgement is.
+  /// True if a remark or a check used the ambient temperature. A product drive's thresholds are always judged
+  /// with this temperature.
   bool use_ambient(const Scenario& s) const {
     return !limit.empty() || !cold.empty() || !kept.empty() ||
            (s.control.drive == FirmwareKind::product && design::thermal_model(s.sheet));
@@ -266,8 +267,8 @@ struct ThermalRemarks {
 ThermalRemarks thermal_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const EndWatch& end,
                                const Outcome& out) {
   ThermalRemarks t;
-  // A product drive is made for a real bridge. Scenarios with other drives are studies: their limits are judged by
-  // export, and by the current that the run keeps up.
+  // A product drive is made for a real bridge. Scenarios with other drives are studies: export judges their
+  // limits, and a remark judges the steady current at the run's end.
   if (s.control.drive == FirmwareKind::product) t.limit = limit_above_nominal(s, c.motor);
   t.cold = on_cold_winding(s, out);
   t.hot = on_heat(s, w, out);

@@ -18,11 +18,12 @@ namespace sixstep::study {
 ///   - a negative gain from pole placement,
 ///   - an integral gain that looks like a gain per second, not per sample,
 ///   - a back-EMF above the bus,
-///   - a winding or a junction above its limit, or a loss kept up at the end that the winding does not withstand,
+///   - a winding or a junction above its limit, or a steady loss that the winding does not withstand,
 ///   - the sentences of passed_limits() (limit_remarks.hpp),
 ///   - fewer than five control periods in a commutation step of a six-step drive,
 ///   - a duty step or an overlap that does not act as expected (commutation_remarks.hpp).
-/// `compiled`: the scenario's; its timeline is not read. `watch`: of the whole run, `end` of its end.
+/// `compiled` was compiled from the scenario; its timeline is not read. `watch` observed the whole run, `end`
+/// its last part.
 void add_remarks(const Scenario& scenario, const Compiled& compiled, const RunWatch& watch,
                  const EndWatch& end, Outcome& outcome);
 

@@ -43,7 +43,7 @@ struct OnCore {
 /// the outcome; Problems: the run could not start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {}, const OnCore& core = {});
 
-/// Whether Listeners::keep_going ended the run early. A run that a fault stopped is not cut short.
+/// True if Listeners::keep_going ended the run early. A run that a fault stopped is not cut short.
 bool cut_short(const Scenario& scenario, const Outcome& outcome);
 
 }  // namespace sixstep::study

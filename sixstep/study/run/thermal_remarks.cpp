@@ -42,7 +42,7 @@ std::string on_kept_current(const Scenario& s, const EndWatch& watch, double win
   const double copper_W =
       kept->copper_W / (s.heat.motor ? design::on_R({winding_degC, design::sheet_degC}) : 1.0);
   const double equal_A = std::sqrt(copper_W / (2 * motor.machine.R_ohm)), nominal_A = motor.nominal_current_A;
-  // The motor's own friction warms the housing; the load's warms the load.
+  // The motor's own friction warms the housing; the load's friction warms the load.
   const double w = std::fabs(kept->speed_rad_s),
                friction_W = motor.shaft.B_Nm_s * w * w + motor.shaft.coulomb_Nm * w;
   const auto times = design::withstand_times(

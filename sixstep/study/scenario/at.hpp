@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes at an instant of the run, as a scenario states them; values that are not given stay as they were.
-// at_description.hpp says what each key means.
+// at_description.hpp describes each key.
 #pragma once
 #include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/reference.hpp"
@@ -26,7 +26,7 @@ struct AtHallBreak {
   PinLevel level = PinLevel::low;
 };
 
-/// rig::WireOrder; `same` leaves the order as it is.
+/// rig::WireOrder; with `same` the order does not change.
 enum class AtOrder : std::uint8_t { same, abc, bca, cab, acb, cba, bac };
 /// The values of study::HallLines, each one higher, because 0 is `same`: the inverted lines stay as they
 /// were.

@@ -11,15 +11,15 @@ namespace sixstep::study {
 
 inline void describe(base::Visitor& v, AtSupply& s) {
   v.value("voltage_V", s.voltage_V,
-          {.meaning = "voltage of the source from then on; a stiff bus follows at once",
+          {.meaning = "voltage of the source from time_s on; a stiff bus follows at once",
            .unit = "V",
            .range = base::above(0)});
-  v.value("sinks", s.sinks, {.meaning = "whether the source takes current back from then on"});
+  v.value("sinks", s.sinks, {.meaning = "whether the source takes current back from time_s on"});
 }
 
 inline void describe(base::Visitor& v, AtLoad& s) {
   v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "load torque from then on, until the next of load.times_s",
+          {.meaning = "load torque from time_s on, until the next of load.times_s",
            .unit = "N m",
            .also = words::force});
   v.value("locked", s.locked,
@@ -44,29 +44,31 @@ inline constexpr base::Choice<AtChopping> at_chopping_choices[] = {
 inline void describe(base::Visitor& v, AtCurrentLoop& s) {
   describe_gains(v, s, current_gain_meanings);
   v.value("band_A", s.band_A,
-          {.meaning = "hysteresis: half width of the band from then on", .unit = "A", .range = above(0)});
-  v.value(
-      "limit_A", s.limit_A,
-      {.meaning = "bound on an outer loop's current reference from then on", .unit = "A", .range = above(0)});
+          {.meaning = "hysteresis: half width of the band from time_s on", .unit = "A", .range = above(0)});
+  v.value("limit_A", s.limit_A,
+          {.meaning = "bound on an outer loop's current reference from time_s on",
+           .unit = "A",
+           .range = above(0)});
 }
 
 inline void describe(base::Visitor& v, AtSpeedLoop& s) {
   describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
-          {.meaning = "torque at the speed controller's full output from then on",
+          {.meaning = "torque at the speed controller's full output from time_s on",
            .unit = "N m",
            .range = above(0),
            .also = words::force_limit});
 }
 
 inline void describe(base::Visitor& v, AtPositionLoop& s) {
-  v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
-          {.meaning = "gain of the position loop from then on: speed reference per degree of position error",
-           .unit = "rad/s/deg",
-           .range = above(0),
-           .also = words::position_gain});
+  v.value(
+      "gain_rad_s_per_deg", s.gain_rad_s_per_deg,
+      {.meaning = "gain of the position loop from time_s on: speed reference per degree of position error",
+       .unit = "rad/s/deg",
+       .range = above(0),
+       .also = words::position_gain});
   v.value("speed_limit_rad_s", s.speed_limit_rad_s,
-          {.meaning = "bound on the position loop's speed reference from then on",
+          {.meaning = "bound on the position loop's speed reference from time_s on",
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed_limit});
@@ -74,12 +76,14 @@ inline void describe(base::Visitor& v, AtPositionLoop& s) {
 
 inline void describe(base::Visitor& v, AtLimits& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "bound on the current reference from then on", .unit = "A", .range = above(0)});
-  v.value(
-      "torque_Nm", s.torque_Nm,
-      {.meaning = "the same as a torque, over K_t", .unit = "N m", .range = above(0), .also = words::force});
+          {.meaning = "bound on the current reference from time_s on", .unit = "A", .range = above(0)});
+  v.value("torque_Nm", s.torque_Nm,
+          {.meaning = "the same bound as a torque, divided by K_t",
+           .unit = "N m",
+           .range = above(0),
+           .also = words::force});
   v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "speed that the drive's own torque does not exceed from then on",
+          {.meaning = "speed that the drive's own torque does not exceed from time_s on",
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed});
@@ -104,7 +108,7 @@ inline void describe(base::Visitor& v, AtControl& s) {
   v.table("speed", s.speed, {.meaning = "the speed controller", .cure = what_may_change});
   v.table("position", s.position, {.meaning = "the position controller", .cure = what_may_change});
   v.value("slew", s.slew,
-          {.meaning = "fastest change of the setpoint from then on, in the mode's unit per second",
+          {.meaning = "fastest change of the setpoint from time_s on, in the mode's unit per second",
            .range = above(0),
            .mode_unit = "*/s"});
   v.table("limits", s.limits, {.meaning = "limits of the current reference", .cure = what_may_change});
@@ -134,17 +138,17 @@ inline constexpr base::Choice<AtOrder> at_phase_order_choices[] = {
 
 inline void describe(base::Visitor& v, AtBridge& s) {
   v.choice("open_switch", s.open_switch, switch_choices,
-           {.meaning = "a switch that stays off from then on; its diode still conducts"});
+           {.meaning = "a switch that stays off from time_s on; its diode still conducts"});
   v.choice(
       "shorted_switch", s.shorted_switch, switch_choices,
       {.meaning =
-           "a switch that stays on from then on: turning on the other switch of its leg causes shoot-through"});
+           "a switch that stays on from time_s on: turning on the other switch of its leg causes shoot-through"});
   v.choice("phases", s.phases, at_phase_order_choices,
-           {.meaning = "phases of the motor at legs a, b, c of the bridge from then on"});
+           {.meaning = "phases of the motor at legs a, b, c of the bridge from time_s on"});
   v.value(
       "dead_time_s", s.dead_time_s,
       {.meaning =
-           "pause between turning one switch of a leg off and the other on, for all switching from then on",
+           "pause between turning one switch of a leg off and the other on, for all switching from time_s on",
        .unit = "s",
        .range = from(0)});
 }
@@ -158,24 +162,24 @@ inline constexpr base::Choice<Wire> wire_choices[] = {
 
 inline void describe(base::Visitor& v, AtMotor& s) {
   v.choice("broken_wire", s.broken_wire, wire_choices,
-           {.meaning = "a wire that breaks then: it opens at its current's next zero, and stays open"});
+           {.meaning = "a wire that breaks at time_s: it opens at its current's next zero, and stays open"});
 }
 
 inline void describe(base::Visitor& v, At& s) {
   v.value("time_s", s.time_s,
           {.meaning = "when", .unit = "s", .range = base::between(0, longest_s), .required = true});
   v.table("reference", s.reference,
-          {.meaning = "the reference from then on; its times count from time_s", .cure = what_may_change});
-  v.table("supply", s.supply, {.meaning = "the source from then on", .cure = what_may_change});
-  v.table("load", s.load, {.meaning = "the load from then on", .cure = what_may_change});
+          {.meaning = "the reference from time_s on; its times count from time_s", .cure = what_may_change});
+  v.table("supply", s.supply, {.meaning = "the source from time_s on", .cure = what_may_change});
+  v.table("load", s.load, {.meaning = "the load from time_s on", .cure = what_may_change});
   v.table("sensors", s.sensors, {.meaning = "changes and faults of the sensors", .cure = what_may_change});
   v.choice("request", s.request, request_choices, {.meaning = "request to the product drive"});
   v.table("control", s.control,
           {.meaning = "changes of the controller from its next sample on; loops that stay active keep "
                       "their state",
            .cure = what_may_change});
-  v.table("pwm", s.pwm, {.meaning = "the modulation from then on", .cure = what_may_change});
-  v.table("bridge", s.bridge, {.meaning = "the bridge from then on", .cure = what_may_change});
+  v.table("pwm", s.pwm, {.meaning = "the modulation from time_s on", .cure = what_may_change});
+  v.table("bridge", s.bridge, {.meaning = "the bridge from time_s on", .cure = what_may_change});
   v.table("motor", s.motor, {.meaning = "faults of the motor", .cure = what_may_change});
 }
 

@@ -25,7 +25,7 @@ inline constexpr base::Choice<PinLevel> pin_level_choices[] = {
 
 inline void describe(base::Visitor& v, AtHallBreak& s) {
   v.value("line", s.line, {.meaning = "number of the Hall line: 1, 2 or 3", .range = base::between(1, 3)});
-  v.choice("level", s.level, pin_level_choices, {.meaning = "level that the pin reads from then on"});
+  v.choice("level", s.level, pin_level_choices, {.meaning = "level that the pin reads from time_s on"});
 }
 
 inline constexpr base::Choice<AtOrder> at_hall_order_choices[] = {
@@ -59,14 +59,14 @@ inline void describe(base::Visitor& v, AtTrack& s) {
   v.value("track", s.track,
           {.meaning = "number of the track, from 1, the finest, to sensors.absolute.bits",
            .range = base::between(1, 20)});
-  v.choice("level", s.level, encoder_level_choices, {.meaning = "level of the track from then on"});
+  v.choice("level", s.level, encoder_level_choices, {.meaning = "level of the track from time_s on"});
 }
 
 inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
     {"A", EncoderLine::A, "high over the first half of each line of the disc"},
-    {"B", EncoderLine::B, "the same a quarter of a line later"},
+    {"B", EncoderLine::B, "like line A, a quarter of a line later"},
     {"Z", EncoderLine::Z,
-     "the index: if it sticks, it is lost; if its level rises then, the drive sees the index at a wrong place"},
+     "the index: if it sticks, it is lost; if its level rises at time_s, the drive sees the index at a wrong place"},
 };
 
 inline void describe(base::Visitor& v, AtEncoderLine& s) {
@@ -74,7 +74,7 @@ inline void describe(base::Visitor& v, AtEncoderLine& s) {
   v.choice(
       "level", s.level, encoder_level_choices,
       {.meaning =
-           "level that the pin reads from then on; with A or B stuck, the other line's edges count up and "
+           "level that the pin reads from time_s on; with A or B stuck, the other line's edges count up and "
            "down in turn"});
 }
 
@@ -87,44 +87,45 @@ inline constexpr base::Choice<Winding> winding_choices[] = {
 
 inline constexpr base::Choice<Wire> divider_choices[] = {
     {"none", Wire::none, "all three are intact"},
-    {"a", Wire::a, "that of terminal a"},
-    {"b", Wire::b, "that of terminal b"},
-    {"c", Wire::c, "that of terminal c"},
+    {"a", Wire::a, "the divider of terminal a"},
+    {"b", Wire::b, "the divider of terminal b"},
+    {"c", Wire::c, "the divider of terminal c"},
 };
 
 inline void describe(base::Visitor& v, AtSensors& s) {
-  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is intact again"});
+  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks at time_s, or is intact again"});
   v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
-           {.meaning = "Hall probes at pins H1, H2, H3 of the board from then on"});
+           {.meaning = "Hall probes at pins H1, H2, H3 of the board from time_s on"});
   v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
-           {.meaning = "pins H1, H2, H3 that read their probe inverted from then on"});
+           {.meaning = "pins H1, H2, H3 that read their probe inverted from time_s on"});
   v.value(
       "current_offset_A", s.current_offset_A,
       {.meaning =
-           "reading of the amplifiers at zero current from then on; the drive measured its offsets before",
+           "reading of the amplifiers at zero current from time_s on; the drive measured its offsets before",
        .unit = "A"});
-  v.value("current_gain_error", s.current_gain_error,
-          {.meaning = "relative gain error of the current measurement from then on; 0.05 reads 5 % too large",
-           .range = base::Range{-1, 1, false, true}});
+  v.value(
+      "current_gain_error", s.current_gain_error,
+      {.meaning = "relative gain error of the current measurement from time_s on; 0.05 reads 5 % too large",
+       .range = base::Range{-1, 1, false, true}});
   v.value("missed_edges", s.missed_edges,
           {.meaning = "number of the encoder's next edges that are not counted; the next index corrects "
                       "the count",
            .range = base::between(1, 1000000)});
   v.table("bad_track", s.bad_track,
-          {.meaning = "a track of the absolute encoder that sticks from then on, or is intact again",
+          {.meaning = "a track of the absolute encoder that sticks from time_s on, or is intact again",
            .cure = what_may_change});
   v.table("encoder_line", s.encoder_line,
-          {.meaning = "a line of the incremental encoder that sticks from then on, or is intact again",
+          {.meaning = "a line of the incremental encoder that sticks from time_s on, or is intact again",
            .cure = what_may_change});
   v.value("false_index", s.false_index,
           {.meaning = "true: a disturbance on line Z, which the timer counts as the index"});
   v.choice("broken_winding", s.broken_winding, winding_choices,
-           {.meaning = "a winding of the resolver without a voltage from then on"});
+           {.meaning = "a winding of the resolver without a voltage from time_s on"});
   v.value("excitation", s.excitation,
-          {.meaning = "the resolver's excitation from then on, as a fraction of the full excitation",
+          {.meaning = "the resolver's excitation from time_s on, as a fraction of the full excitation",
            .range = base::between(0, 2)});
   v.choice("broken_divider", s.broken_divider, divider_choices,
-           {.meaning = "a terminal's divider whose upper resistor opens then: it shows 0"});
+           {.meaning = "a terminal's divider whose upper resistor opens at time_s: it shows 0"});
 }
 
 }  // namespace sixstep::study

@@ -79,7 +79,7 @@ inline void describe_believed_torque(base::Visitor& v, Believed& s) {
               .range = above(0),
               .also = spellings::speed_constant});
   v.quantity("inertia_gcm2", s.inertia_gcm2,
-             {.meaning = "moment of inertia of the rotor; the load keeps its own",
+             {.meaning = "moment of inertia of the rotor; the load's inertia does not change",
               .unit = "g cm2",
               .range = above(0),
               .also = spellings::inertia});
@@ -91,11 +91,12 @@ inline void describe(base::Visitor& v, Believed& s) {
   v.choice("hall_lines", s.hall_lines, hall_order_choices,
            {.meaning = "Hall probes that the drive's table assumes at pins H1, H2, H3; right if it equals "
                        "sensors.hall_lines"});
-  v.value("sensor_offset_deg", s.sensor_offset_deg,
-          {.meaning = "electrical angle that the drive subtracts from that of encoder, absolute encoder or "
-                      "resolver; right if it equals the sensor's offset_deg",
-           .unit = "deg",
-           .range = base::between(-360, 360)});
+  v.value(
+      "sensor_offset_deg", s.sensor_offset_deg,
+      {.meaning = "electrical angle that the drive subtracts from the angle of encoder, absolute encoder or "
+                  "resolver; right if it equals the sensor's offset_deg",
+       .unit = "deg",
+       .range = base::between(-360, 360)});
 }
 
 }  // namespace sixstep::study

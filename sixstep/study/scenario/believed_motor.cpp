@@ -47,7 +47,7 @@ std::string_view first_believed(const Believed& b) {
   return "pole_pairs";
 }
 
-/// The motor itself is sound, so that a problem at another line of the sheet follows from a belief, too.
+/// Attributes a problem at another line of the sheet to a belief, because the motor itself has no problems.
 base::Problem under_a_belief(const Believed& b, base::Problem p) {
   if (believes(b, p.where)) {
     p.where = "believed." + p.where;
@@ -78,7 +78,7 @@ design::Sheet believed_sheet(design::Sheet sheet, const Believed& b) {
     if (value.frame.empty() && sheet.*c.to) value.frame = (sheet.*c.to)->frame;
     sheet.*c.to = std::move(value);
   }
-  // A rotor with its brake has one inertia; which of the two lines gives it is not the drive's concern.
+  // The drive believes one inertia. For a rotor with its brake, it replaces both lines of the sheet.
   if (b.inertia_gcm2 && sheet.with_brake) sheet.inertia_with_brake_gcm2 = sheet.inertia_gcm2;
   drop_stale(sheet, [&b, &sheet](std::string_view key) {
     if (key == "inertia_with_brake_gcm2") return b.inertia_gcm2 && sheet.with_brake;

@@ -67,7 +67,7 @@ inline void describe(base::Visitor& v, Bridge& s) {
            {.meaning = "phases of the motor at legs a, b, c of the bridge"});
   v.choice("device", s.device, device_choices, {.meaning = "kind of the six switches"});
   v.value("on_resistance_ohm", s.on_resistance_ohm,
-          {.meaning = "resistance of a switch that is on; of an IGBT beside saturation_V",
+          {.meaning = "resistance of a switch that is on; for an IGBT in addition to saturation_V",
            .unit = "ohm",
            .range = from(0)});
   v.value("saturation_V", s.saturation_V,
@@ -100,11 +100,11 @@ inline void describe(base::Visitor& v, Heat& s) {
       "ambient_degC", s.ambient_degC,
       {.meaning = "temperature of the air around the motor", .unit = "degC", .range = between(-100, 1000)});
   v.value("winding_degC", s.winding_degC,
-          {.meaning = "temperature of the winding at the start; without it ambient_degC",
+          {.meaning = "temperature of the winding at the start. Default: ambient_degC",
            .unit = "degC",
            .range = between(-100, 1000)});
   v.value("housing_degC", s.housing_degC,
-          {.meaning = "temperature of housing and magnets at the start; without it ambient_degC",
+          {.meaning = "temperature of housing and magnets at the start. Default: ambient_degC",
            .unit = "degC",
            .range = between(-100, 1000)});
   v.value("step_s", s.step_s,

@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// Whether the event gives the chip another configuration.
+/// True if the chip's configuration changes at the event.
 inline bool retunes(const At& at) { return at.control != AtControl{} || at.pwm != AtPwm{}; }
 
 /// The events in time order. Two events at one instant keep their order in the file.
@@ -22,7 +22,7 @@ std::int64_t sample_from_ticks(const Pwm& pwm, std::int64_t ticks);
 
 /// The mode after each event of scenario.at.
 std::vector<control::Mode> modes_from(const Scenario& scenario);
-/// Whether a mode is in effect at any time of the run.
+/// True if a mode is in effect at any time of the run.
 bool comes_into(const Scenario& scenario, control::Mode mode);
 bool changes_mode(const Scenario& scenario);
 

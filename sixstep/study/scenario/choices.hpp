@@ -22,7 +22,7 @@ inline constexpr Choice<SourceKind> source_choices[] = {
     {"three-phase", SourceKind::three_phase, "mains of three phases behind a bridge of six diodes"},
 };
 inline constexpr Choice<Between> between_choices[] = {
-    {"steps", Between::steps, "each holds until the next"},
+    {"steps", Between::steps, "each value applies until the next value"},
     {"lines", Between::lines, "along a line"},
 };
 inline constexpr Choice<rig::WireOrder> phase_order_choices[] = {
@@ -108,8 +108,7 @@ inline constexpr Choice<CurrentCommutation> current_commutation_choices[] = {
     {"plain", CurrentCommutation::plain, "the loop goes on"},
     {"duty-step", CurrentCommutation::duty_step,
      "the loop pauses; the duty keeps the staying phase's current constant while the current moves between "
-     "the other two. Best with pwm.pattern = \"pwm-on\" or \"pwm-on-pwm\"; other patterns leave the "
-     "current's peak"},
+     "the other two. Best with pwm.pattern = \"pwm-on\" or \"pwm-on-pwm\"; other patterns do not remove the current's peak"},
     {"overlap", CurrentCommutation::overlap,
      "as duty-step; where duty 1 is too small, the leaving phase's leg supplies the missing voltage"},
 };
@@ -133,7 +132,7 @@ inline constexpr Choice<SpeedForm> speed_form_choices[] = {
     {"incremental", SpeedForm::incremental,
      "each sample adds to the last output, which is kept within its limit: nothing can wind up"},
     {"positional", SpeedForm::positional,
-     "kp error + integral, less a derivative; anti_windup sets how the integral follows the limit"},
+     "kp times the error, plus the integral, minus a derivative; anti_windup sets how the integral follows the limit"},
 };
 inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
     {"motor", HysteresisOn::motor, "one comparator on the motor current (i_p - i_n)/2"},
@@ -145,7 +144,7 @@ inline constexpr Choice<Comparator> comparator_choices[] = {
 };
 inline constexpr Choice<Shape> shape_choices[] = {
     {"constant", Shape::constant, "value throughout"},
-    {"steps", Shape::steps, "values[n] holds from times_s[n] on"},
+    {"steps", Shape::steps, "values[n] applies from times_s[n] on"},
     {"square", Shape::square, "high in the first half of each period, low in the second"},
     {"ramp", Shape::ramp, "from start to end in a straight line, from begin_s until end_s or at slope"},
     {"sine", Shape::sine, "offset + amplitude sin(360 deg frequency_Hz t + phase_deg)"},
@@ -155,8 +154,8 @@ inline constexpr Choice<Shape> shape_choices[] = {
     {"csv", Shape::csv, "through the rows of a file, or through times_s and values"},
 };
 inline constexpr Choice<Interpolation> interpolation_choices[] = {
-    {"linear", Interpolation::linear, "goes on in a straight line"},
-    {"hold", Interpolation::hold, "holds until the next row"},
+    {"linear", Interpolation::linear, "linear between two rows"},
+    {"hold", Interpolation::hold, "each value applies until the next row"},
 };
 inline constexpr Choice<DriveRequest> request_choices[] = {
     {"none", DriveRequest::none, "nothing new"},

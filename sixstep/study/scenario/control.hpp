@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller of a scenario. control_description.hpp says what each key means.
+// The controller of a scenario. control_description.hpp describes each key.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -40,7 +40,7 @@ struct CurrentLoop {
                                               // u/nominal bus
 };
 
-/// Whether the loop gives any key from which a PI's gains follow.
+/// True if the loop gives any key from which a PI's gains follow.
 template <class Loop>
 bool gives_gains(const Loop& loop) {
   return loop.d1 || loop.d0 || loop.kp || loop.ki || loop.ki_per_s || loop.settle_s || loop.damping;
@@ -72,7 +72,7 @@ struct SpeedLoop {
 /// The profile of the position loop's setpoint (control/profiled_position.hpp). Values that are not given are
 /// computed from the drive's torque and speed limits (compile/position_profile.cpp).
 struct PositionProfile {
-  bool on = false;  // false: the setpoint goes to the loop unshaped
+  bool on = false;  // false: the setpoint is not shaped
   std::optional<double> speed_rad_s, acceleration_rad_s2;
   std::optional<double> jerk_rad_s3, smoothing_s;
   bool feed_forward = true;
@@ -134,7 +134,7 @@ struct Control {
   CurrentLoop current;
   SpeedLoop speed;
   PositionLoop position;
-  std::optional<double> slew;  // of the setpoint, in the mode's unit
+  std::optional<double> slew;  // largest rate of the setpoint, in the mode's unit
   Limits limits;
   Regeneration regeneration;
   SmoothChopping smooth_chopping;

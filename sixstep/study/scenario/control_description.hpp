@@ -35,9 +35,10 @@ inline constexpr GainMeanings speed_gain_meanings{
 
 template <class Loop>
 void describe_gains(base::Visitor& v, Loop& s, const GainMeanings& of) {
-  v.value(
-      "settle_s", s.settle_s,
-      {.meaning = "settling time the poles are placed for, with damping", .unit = "s", .range = above(0)});
+  v.value("settle_s", s.settle_s,
+          {.meaning = "settling time for which the poles are placed, with damping",
+           .unit = "s",
+           .range = above(0)});
   v.value(
       "damping", s.damping,
       {.meaning = "damping of the placed pole pair, with settle_s", .range = base::Range{0, 1, false, true}});
@@ -66,10 +67,11 @@ inline void describe(base::Visitor& v, CurrentLoop& s) {
       {.meaning =
            "deadbeat: fraction of the prediction error that each sample corrects by a voltage. Default: 0.25",
        .range = base::Range{0, 1, false, true}});
-  v.value("limit_A", s.limit_A,
-          {.meaning = "bound on an outer loop's current reference; the outer loop's integral stops at it",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "limit_A", s.limit_A,
+      {.meaning = "bound on an outer loop's current reference; the outer loop's integral stops at this bound",
+       .unit = "A",
+       .range = above(0)});
   v.value("back_emf_feed_forward", s.back_emf_feed_forward,
           {.meaning = "pi: whether the back-EMF at the measured speed is added to the voltage"});
   v.value("measured_bus_from_V", s.measured_bus_from_V,
@@ -84,7 +86,7 @@ inline void describe(base::Visitor& v, SpeedLoop& s) {
   v.choice("law", s.law, speed_law_choices,
            {.meaning = "algorithm of the speed controller; each is designed for settle_s"});
   v.choice("form", s.form, speed_form_choices,
-           {.meaning = "form of its PI; below the limit both forms are equal"});
+           {.meaning = "form of the speed controller's PI; below the limit both forms are equal"});
   describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output. Default: torque of 2.5 times the "
@@ -102,7 +104,7 @@ inline void describe(base::Visitor& v, SpeedLoop& s) {
            .unit = "s",
            .range = above(0)});
   v.value("derivative_filter_s", s.derivative_filter_s,
-          {.meaning = "time constant that smooths the derivative; without it a tenth of derivative_s",
+          {.meaning = "time constant that smooths the derivative. Default: a tenth of derivative_s",
            .unit = "s",
            .range = from(0)});
   v.value("setpoint_weight", s.setpoint_weight,
@@ -132,15 +134,15 @@ inline void describe(base::Visitor& v, PositionProfile& s) {
            .range = above(0),
            .also = words::acceleration});
   v.value("jerk_rad_s3", s.jerk_rad_s3,
-          {.meaning = "fastest change of the acceleration; smoothing_s says the same as a time",
+          {.meaning = "fastest change of the acceleration; smoothing_s gives the same limit as a time",
            .unit = "rad/s3",
            .range = above(0),
            .also = words::jerk});
-  v.value(
-      "smoothing_s", s.smoothing_s,
-      {.meaning = "time in which the acceleration rises, acceleration over jerk; without both speed.settle_s",
-       .unit = "s",
-       .range = from(0)});
+  v.value("smoothing_s", s.smoothing_s,
+          {.meaning =
+               "time in which the acceleration rises, acceleration divided by jerk. Default: speed.settle_s",
+           .unit = "s",
+           .range = from(0)});
   v.value(
       "feed_forward", s.feed_forward,
       {.meaning = "feed-forward: the profile's speed is added to the position loop's output, the torque for "
@@ -153,12 +155,13 @@ inline void describe(base::Visitor& v, PositionLoop& s) {
            .unit = "rad/s/deg",
            .range = above(0),
            .also = words::position_gain});
-  v.value("speed_limit_rad_s", s.speed_limit_rad_s,
-          {.meaning = "bound on the position loop's speed reference. Default: supply.voltage_V over K_t, "
-                      "the motor's speed without load and loss",
-           .unit = "rad/s",
-           .range = above(0),
-           .also = words::speed_limit});
+  v.value(
+      "speed_limit_rad_s", s.speed_limit_rad_s,
+      {.meaning = "bound on the position loop's speed reference. Default: supply.voltage_V divided by K_t, "
+                  "the motor's speed without load and loss",
+       .unit = "rad/s",
+       .range = above(0),
+       .also = words::speed_limit});
   v.table(
       "profile", s.profile,
       {.meaning =
@@ -166,13 +169,15 @@ inline void describe(base::Visitor& v, PositionLoop& s) {
 }
 
 inline void describe(base::Visitor& v, FullScale& s) {
-  v.value("current_A", s.current_A,
-          {.meaning = "largest current and difference of currents that a number holds. Default: three "
-                      "times the largest reference or limit, or one plus the current that the bus can drive",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "current_A", s.current_A,
+      {.meaning =
+           "largest current and difference of currents that a number represents. Default: three "
+           "times the largest reference or limit, or the sum of this value and the current that the bus can drive",
+       .unit = "A",
+       .range = above(0)});
   v.value("voltage_V", s.voltage_V,
-          {.meaning = "largest voltage; without it supply.voltage_V", .unit = "V", .range = above(0)});
+          {.meaning = "largest voltage. Default: supply.voltage_V", .unit = "V", .range = above(0)});
   v.value("speed_rad_s", s.speed_rad_s,
           {.meaning = "largest speed and difference of speeds. Default: speed without load and loss plus the "
                       "largest reference",
@@ -180,7 +185,7 @@ inline void describe(base::Visitor& v, FullScale& s) {
            .range = above(0),
            .also = words::speed});
   v.value("position_deg", s.position_deg,
-          {.meaning = "largest position and difference of positions; without it twice the largest reference",
+          {.meaning = "largest position and difference of positions. Default: twice the largest reference",
            .unit = "deg",
            .range = above(0),
            .also = words::full_position});
@@ -193,12 +198,12 @@ inline void describe(base::Visitor& v, Regeneration& s) {
            "bus voltage above which the drive feeds no current back: all gates are off, unless the motor drives",
        .unit = "V",
        .range = above(0)});
-  v.value(
-      "gain_A_per_V", s.gain_A_per_V,
-      {.meaning = "braking current per volt below limit_V; without it a tenth of supply.capacitance_F over "
-                  "pwm.period_s",
-       .unit = "A/V",
-       .range = above(0)});
+  v.value("gain_A_per_V", s.gain_A_per_V,
+          {.meaning =
+               "braking current per volt below limit_V. Default: a tenth of supply.capacitance_F divided by "
+               "pwm.period_s",
+           .unit = "A/V",
+           .range = above(0)});
 }
 
 inline void describe(base::Visitor& v, Limits& s) {
@@ -208,7 +213,7 @@ inline void describe(base::Visitor& v, Limits& s) {
            .unit = "A",
            .range = above(0)});
   v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "the same as a torque, over K_t; the lower one counts",
+          {.meaning = "the same bound as a torque, divided by K_t; the lower bound applies",
            .unit = "N m",
            .range = above(0),
            .also = words::force});
@@ -218,12 +223,13 @@ inline void describe(base::Visitor& v, Limits& s) {
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed});
-  v.value("gain_A_s_per_rad", s.gain_A_s_per_rad,
-          {.meaning = "current per rad/s below limits.speed_rad_s; without it J/(K_t settling time of the "
-                      "current loop)",
-           .unit = "A s/rad",
-           .range = above(0),
-           .also = words::speed_limit_gain});
+  v.value(
+      "gain_A_s_per_rad", s.gain_A_s_per_rad,
+      {.meaning =
+           "current per rad/s below limits.speed_rad_s. Default: J/(K_t settling time of the current loop)",
+       .unit = "A s/rad",
+       .range = above(0),
+       .also = words::speed_limit_gain});
 }
 
 inline void describe(base::Visitor& v, SmoothChopping& s) {
@@ -252,7 +258,7 @@ inline void describe(base::Visitor& v, Advance& s) {
            .unit = "deg s/rad",
            .range = from(0)});
   v.value("limit_deg", s.limit_deg,
-          {.meaning = "limit of the sum of both, electrical angle",
+          {.meaning = "limit of the total advance, electrical angle",
            .unit = "deg",
            .range = base::strictly_between(0, 60)});
 }
@@ -260,13 +266,13 @@ inline void describe(base::Visitor& v, Advance& s) {
 inline void describe(base::Visitor& v, Control& s) {
   v.choice("drive", s.drive, drive_choices, {.meaning = "firmware on the chip"});
   v.choice("mode", s.mode, mode_choices,
-           {.meaning = "controlled quantity; the reference has its meaning and unit"});
+           {.meaning = "controlled quantity, which determines meaning and unit of the reference"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,
-           {.meaning = "number type the controller computes in"});
+           {.meaning = "number type in which the controller computes"});
   v.table("full_scale", s.full_scale, {.meaning = "fixed point: physical values at the ends of the range"});
   v.table("current", s.current, {.meaning = "the current controller"});
-  v.table("speed", s.speed, {.meaning = "the speed controller around it"});
-  v.table("position", s.position, {.meaning = "the position controller around both"});
+  v.table("speed", s.speed, {.meaning = "the speed controller around the current controller"});
+  v.table("position", s.position, {.meaning = "the position controller around the speed controller"});
   v.value("slew", s.slew,
           {.meaning = "fastest change of the setpoint, in the mode's unit per second. Default: no limit",
            .range = above(0),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says whether a run of a scenario draws random numbers.
+// Decides whether a run of a scenario draws random numbers.
 #pragma once
 #include "sixstep/study/scenario/scenario.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Current control of a field-oriented drive (control/field/) in a scenario. field_description.hpp says what
-// each key means.
+// Current control of a field-oriented drive (control/field/) in a scenario. field_description.hpp describes
+// each key.
 #pragma once
 #include <optional>
 

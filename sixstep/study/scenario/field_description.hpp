@@ -8,8 +8,9 @@ namespace sixstep::study {
 
 inline constexpr base::Choice<control::VoltageLimit> voltage_limit_choices[] = {
     {"circle", control::VoltageLimit::circle,
-     "voltage vector within the measured bus over sqrt 3; the part that weakens the field has priority"},
-    {"axes", control::VoltageLimit::axes, "each axis within half the nominal bus"},
+     "the voltage vector is limited to the measured bus voltage divided by sqrt 3; its component along the magnet, which weakens the field, has priority"},
+    {"axes", control::VoltageLimit::axes,
+     "the voltage of each axis is limited to half the nominal bus voltage"},
 };
 
 inline constexpr base::Choice<FieldAngle> field_angle_choices[] = {
@@ -23,10 +24,9 @@ inline constexpr base::Choice<FieldAngle> field_angle_choices[] = {
 };
 
 inline constexpr base::Choice<FieldLaw> field_law_choices[] = {
-    {"pi", FieldLaw::pi, "a PI controller for each axis; PWM makes its voltage"},
+    {"pi", FieldLaw::pi, "a PI controller for each axis; PWM generates the voltage"},
     {"finite-set", FieldLaw::finite_set,
-     "no pulses: three legs keep one of their eight states for a whole period, the one whose predicted current is "
-     "nearest to its reference"},
+     "no pulses: three legs keep one of their eight states for a whole period: the state whose predicted current is nearest to its reference"},
 };
 
 inline void describe(base::Visitor& v, Field& s) {
@@ -47,7 +47,7 @@ inline void describe(base::Visitor& v, Field& s) {
   v.value(
       "torque_per_ampere", s.torque_per_ampere,
       {.meaning =
-           "whether a salient rotor gets the current along the magnet that makes most torque per ampere"});
+           "whether a salient rotor gets the current along the magnet that gives the largest torque per ampere"});
   v.value(
       "weakening_A", s.weakening_A,
       {.meaning =
@@ -64,7 +64,7 @@ inline void describe(base::Visitor& v, Field& s) {
   v.choice("angle", s.angle, field_angle_choices, {.meaning = "source of the magnet's angle"});
   v.value("angle_bandwidth_Hz", s.angle_bandwidth_Hz,
           {.meaning = "bandwidth of the loop that follows the estimated angle. Default: a hundredth of the "
-                      "control frequency, more if full torque would leave the angle 5 degrees behind",
+                      "control frequency, more if the angle would lag by 5 degrees at full torque",
            .unit = "Hz",
            .range = above(0)});
   v.value(
@@ -87,7 +87,7 @@ inline void describe(base::Visitor& v, Field& s) {
       "harmonic_current", s.harmonic_current,
       {.meaning =
            "whether the current follows the shape of a non-sinusoidal back-EMF, so that its torque is the "
-           "same at every angle. It is the least such current, along the magnet and across it"});
+           "same at every angle. The drive uses the smallest current with this torque"});
   v.value(
       "switching_weight_A", s.switching_weight_A,
       {.meaning =

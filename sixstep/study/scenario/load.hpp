@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The load at the shaft. load_description.hpp says what each key means.
+// The load at the shaft. load_description.hpp describes each key.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@ enum class Between : std::uint8_t { steps, lines };
 
 struct Load {
   double torque_Nm = 0.0;
-  std::vector<double> times_s;  // with steps: torques_Nm[n] holds from times_s[n] on
+  std::vector<double> times_s;  // with steps: torques_Nm[n] applies from times_s[n] on
   std::vector<double> torques_Nm;
   Between between = Between::steps;
   std::vector<double> at_speeds_rad_s, at_speeds_Nm;           // table of torque over the load's speed

@@ -33,7 +33,8 @@ inline void describe(base::Visitor& v, Load& s) {
            .also = words::at_speeds});
   v.value(
       "at_speeds_Nm", s.at_speeds_Nm,
-      {.meaning = "torque over the load's speed, added to the others: lines between, level beyond the ends",
+      {.meaning =
+           "load torques at at_speeds_rad_s, added to the other load torques: linear between the points, constant beyond the ends",
        .unit = "N m",
        .also = words::at_speeds_forces});
   v.value("dynamometer_times_s", s.dynamometer_times_s,
@@ -42,7 +43,8 @@ inline void describe(base::Visitor& v, Load& s) {
            .range = from(0)});
   v.value(
       "dynamometer_rad_s", s.dynamometer_rad_s,
-      {.meaning = "dynamometer: speeds of the load, imposed, lines between; the load torque is the result",
+      {.meaning =
+           "dynamometer: imposed speeds of the load, linear between the points; the load torque is the result",
        .unit = "rad/s",
        .also = words::dynamometer});
   v.value("viscous_Nm_s", s.viscous_Nm_s,

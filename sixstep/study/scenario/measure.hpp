@@ -63,7 +63,7 @@ enum class Signal : std::uint8_t {
   winding_temperature,
   housing_temperature,
   junction_temperature,
-  direct_current,  // from here on: only with a field-oriented drive
+  direct_current,  // this signal and the next ones: only with a field-oriented drive
   quadrature_current,
   direct_current_reference,
   quadrature_current_reference,
@@ -84,7 +84,7 @@ struct Measure {
   std::optional<double> tail;   // steady_error, largest_error: evaluated part at the end of each level, as a
                                 // fraction of the level's duration
   std::optional<double> frequency_Hz;  // thd: frequency of the fundamental; default: the electrical frequency
-  bool sampled = false;                // use only the controller's samples
+  bool sampled = false;                // true: only the controller's samples are evaluated
   std::string label;                   // shown instead of metric and signal
 };
 

@@ -13,22 +13,23 @@ using base::from;
 
 inline void describe(base::Visitor& v, Measure& s) {
   v.choice("metric", s.metric, metric_choices,
-           {.meaning = "figure that is taken of the signal", .required = true});
-  v.choice("signal", s.signal, signal_choices, {.meaning = "signal that the figure is taken of"});
+           {.meaning = "figure that is computed from the signal", .required = true});
+  v.choice("signal", s.signal, signal_choices, {.meaning = "signal from which the figure is computed"});
   v.value("from_s", s.from_s,
-          {.meaning = "start of the window; without it the start of the run", .unit = "s", .range = from(0)});
+          {.meaning = "start of the window. Default: the start of the run", .unit = "s", .range = from(0)});
   v.value("to_s", s.to_s,
-          {.meaning = "end of the window; without it the end of the run", .unit = "s", .range = above(0)});
+          {.meaning = "end of the window. Default: the end of the run", .unit = "s", .range = above(0)});
   v.value("level", s.level,
           {.meaning = "value to be reached, in the signal's unit", .unit_here = unit_of(s.signal)});
   v.value(
       "start", s.start,
-      {.meaning = "initial value of the step, in the signal's unit. Default: the signal's value at from_s; "
-                  "for steps of the reference, its level before, and 0 before the first (reach_time_s of a "
-                  "square: always 0)",
+      {.meaning =
+           "initial value of the step, in the signal's unit. Default: the signal's value at from_s; "
+           "for steps of the reference, the level before the step, and 0 before the first step (reach_time_s of a "
+           "square: always 0)",
        .unit_here = unit_of(s.signal)});
   v.value("fraction", s.fraction,
-          {.meaning = "reach_time_s: part of the way from start to level",
+          {.meaning = "reach_time_s: fraction of the step from start to level",
            .range = base::Range{0, 1, false, true}});
   v.value("band", s.band,
           {.meaning = "settling_time_s: half width of the band as part of the step", .range = above(0)});
@@ -37,7 +38,8 @@ inline void describe(base::Visitor& v, Measure& s) {
                       "that is evaluated. Default: 0.1; the whole window if from_s is given",
            .range = base::Range{0, 1, false, true}});
   v.value("frequency_Hz", s.frequency_Hz,
-          {.meaning = "thd: the fundamental; without it the electrical frequency, followed by the angle",
+          {.meaning =
+               "thd: frequency of the fundamental. Default: the electrical frequency, followed by the angle",
            .unit = "Hz",
            .range = base::Range{0, 1e7, false, true}});
   v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are evaluated"});

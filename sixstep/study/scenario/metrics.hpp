@@ -71,8 +71,8 @@ inline constexpr MetricFact metric_facts[] = {
     {MetricKind::maximum, "max", "maximum of", "", "largest value in the window"},
     {MetricKind::minimum, "min", "minimum of", "", "smallest value in the window"},
     {MetricKind::peak_to_peak, "peak_to_peak", "peak-to-peak", "",
-     "largest less smallest value in the window: the ripple, peak to peak"},
-    {MetricKind::ripple_rms, "ripple_rms", "rms ripple of", "", "rms of the signal less its mean"},
+     "largest minus smallest value in the window: the ripple, peak to peak"},
+    {MetricKind::ripple_rms, "ripple_rms", "rms ripple of", "", "rms of the signal minus its mean"},
     {MetricKind::overshoot, "overshoot", "overshoot of", "",
      "overshoot of the signal beyond level, in the signal's unit", TakenOf::signal, TakenOver::steps},
     {MetricKind::reach_time, "reach_time_s", "time to reach,", "s",
@@ -84,25 +84,23 @@ inline constexpr MetricFact metric_facts[] = {
      "the reference",
      TakenOf::signal, TakenOver::steps},
     {MetricKind::settling_time, "settling_time_s", "settling time of", "s",
-     "time of the last exit from level +- band |level - start|, counted from from_s; of samples: of the "
-     "first one from which on all lie inside",
+     "time of the last exit from level +- band |level - start|, counted from from_s; with sampled: time of the first sample after which all samples lie inside",
      TakenOf::signal, TakenOver::steps},
     {MetricKind::steady_error, "steady_error", "steady error of", "",
      "mean of level - signal; without level: of reference - signal at the end of each of the reference's "
      "levels, the largest by size",
      TakenOf::signal, TakenOver::levels},
     {MetricKind::largest_error, "largest_error", "largest error of", "",
-     "largest distance of the signal from level: half width of the band it keeps; without level as for "
+     "largest distance of the signal from level: half width of the band that the signal keeps; without level as for "
      "steady_error",
      TakenOf::signal, TakenOver::levels},
     {MetricKind::thd, "thd", "THD of", "1",
-     "total harmonic distortion: rms of all but mean and fundamental, over the rms of the fundamental; over "
-     "whole electrical turns, or whole periods of frequency_Hz",
+     "total harmonic distortion: rms of everything except mean and fundamental, divided by the rms of the fundamental; measured over whole electrical turns, or whole periods of frequency_Hz",
      TakenOf::fundamental},
     {MetricKind::energy, "energy_J", "energy of", "J", "energy over the window of a power or a loss",
      TakenOf::power},
     {MetricKind::efficiency, "efficiency", "efficiency", "1",
-     "energy given to load and inertia over energy taken from the bus; while braking the inverse ratio",
+     "energy given to load and inertia divided by energy taken from the bus; while braking the inverse ratio",
      TakenOf::energies},
     {MetricKind::band_excess, "band_excess_A", "excess above the band of", "A",
      "largest excess above the upper limit of the hysteresis band", TakenOf::band},
@@ -114,7 +112,7 @@ inline constexpr MetricFact metric_facts[] = {
      "turn-ons per second in the window: of the chopped switches, or of one switch with signal = \"gate_T1\"",
      TakenOf::switching},
     {MetricKind::switching_loss, "switching_loss_W", "switching loss", "W",
-     "mean power over the window that turning on, turning off and reverse recovery cost, by the bridge's energies",
+     "mean loss over the window by turn-on, turn-off and reverse recovery, from the bridge's energies",
      TakenOf::transitions},
     {MetricKind::commutation_error, "commutation_error_deg", "commutation error", "deg",
      "largest electrical angle between the change of the pair and the edge of its sector",
@@ -139,10 +137,10 @@ static_assert([] {
   return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::commutation_error_rms) + 1;
 }());
 
-/// Whether the figure is computed for each step of the reference if no level is given.
+/// True if the figure is computed for each step of the reference if no level is given.
 constexpr bool is_of_a_step(MetricKind kind) { return fact_of(kind).over == TakenOver::steps; }
 constexpr bool is_of_a_level(MetricKind kind) { return fact_of(kind).over == TakenOver::levels; }
-/// Whether the figure is a time. A time is infinite if its event never occurs.
+/// True if the figure is a time. A time is infinite if its event never occurs.
 constexpr bool is_time(MetricKind kind) { return fact_of(kind).unit == "s"; }
 
 }  // namespace sixstep::study

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp says what each
-// key means.
+// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp describes each
+// key.
 #pragma once
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ struct Own {
   bool operator==(const Own&) const = default;
 };
 
-/// Whether the controller commands three legs; otherwise it commands a driven pair.
+/// True if the controller commands three legs; otherwise it commands a driven pair.
 inline bool answers_legs(const Own& own) {
   return own.loaded != nullptr && own.loaded->answers == SIXSTEP_ANSWERS_LEGS;
 }

@@ -9,14 +9,15 @@ namespace sixstep::study {
 inline void describe(base::Visitor& v, OwnNumber& s) {
   v.value("name", s.name, {.meaning = "name of one of the controller's numbers", .required = true});
   v.value("value", s.value,
-          {.meaning = "its value, in the unit that the controller gives it", .required = true});
+          {.meaning = "value of this number, in the unit that the controller defines", .required = true});
 }
 
 inline void describe(base::Visitor& v, Own& s) {
-  v.value("controller", s.controller,
-          {.meaning =
-               "shared object that it is compiled into, beside this file; it runs as a part of the program"});
-  v.list("number", s.number, {.meaning = "a number of the controller, where it is not as preset"});
+  v.value(
+      "controller", s.controller,
+      {.meaning =
+           "shared object of the compiled controller, beside this file; it runs as a part of the program"});
+  v.list("number", s.number, {.meaning = "numbers of the controller that differ from their presets"});
 }
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers with which a user's controller runs: those of the scenario, else the controller's presets.
+// The numbers with which a user's controller runs: the scenario's values, else the controller's presets.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace sixstep::study {
 struct UsedNumber {
   const sixstep_parameter* is = nullptr;
   double value = 0.0;
-  bool preset = true;  ///< whether this is the controller's preset, because the scenario gives no value
+  bool preset = true;  ///< true: this is the controller's preset, because the scenario gives no value
 };
 
 /// All numbers in the controller's order; empty as long as the controller's file has not been loaded.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Monitoring, start and stop of the product drive (control/protected_drive.hpp) in a scenario.
-// protection_description.hpp says what each key means.
+// protection_description.hpp describes each key.
 #pragma once
 #include <optional>
 

@@ -27,30 +27,32 @@ inline void describe(base::Visitor& v, Align& s) {
 inline void describe_thresholds(base::Visitor& v, Protection& s) {
   using base::above;
   using base::from;
-  v.value("over_current_A", s.over_current_A,
-          {.meaning = "a measured phase current above it is a fault", .unit = "A", .range = above(0)});
+  v.value(
+      "over_current_A", s.over_current_A,
+      {.meaning = "a measured phase current above this value is a fault", .unit = "A", .range = above(0)});
   v.value("over_voltage_V", s.over_voltage_V,
-          {.meaning = "a bus voltage above it is a fault", .unit = "V", .range = above(0)});
+          {.meaning = "a bus voltage above this value is a fault", .unit = "V", .range = above(0)});
   v.value("under_voltage_V", s.under_voltage_V,
-          {.meaning = "a bus voltage below it is a fault", .unit = "V", .range = from(0)});
+          {.meaning = "a bus voltage below this value is a fault", .unit = "V", .range = from(0)});
   v.value("over_speed_rad_s", s.over_speed_rad_s,
-          {.meaning = "a speed above it is a fault",
+          {.meaning = "a speed above this value is a fault",
            .unit = "rad/s",
            .range = above(0),
            .also = words::over_speed});
   v.value("voltage_samples", s.voltage_samples,
           {.meaning = "number of consecutive samples of a wrong voltage that make a fault",
            .range = base::between(1, 255)});
-  v.value("stall_current_A", s.stall_current_A,
-          {.meaning = "a phase current above it without a Hall edge for stall_s is a fault; without both, "
-                      "stalling is not watched",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "stall_current_A", s.stall_current_A,
+      {.meaning =
+           "a phase current above this value without a Hall edge for stall_s is a fault. Default: stalling is not monitored",
+       .unit = "A",
+       .range = above(0)});
   v.value(
       "stall_s", s.stall_s,
       {.meaning = "longest time without a Hall edge above stall_current_A", .unit = "s", .range = above(0)});
   v.value("offset_tolerance_A", s.offset_tolerance_A,
-          {.meaning = "offset of a current amplifier beyond which it counts as broken; without it 2 % of "
+          {.meaning = "offset of a current amplifier beyond which it counts as broken. Default: 2 % of "
                       "sensors.current_range_A",
            .unit = "A",
            .range = above(0)});
@@ -64,12 +66,13 @@ inline void describe(base::Visitor& v, Protection& s) {
           {.meaning = "braking current after the request to run is removed; 0: the motor coasts",
            .unit = "A",
            .range = from(0)});
-  v.value("short_below_rad_s", s.short_below_rad_s,
-          {.meaning = "speed below which braking shorts the driven windings; without it the one at which "
-                      "the short circuit carries brake_current_A",
-           .unit = "rad/s",
-           .range = from(0),
-           .also = words::short_below});
+  v.value(
+      "short_below_rad_s", s.short_below_rad_s,
+      {.meaning =
+           "speed below which braking shorts the driven windings. Default: the speed at which the short circuit carries brake_current_A",
+       .unit = "rad/s",
+       .range = from(0),
+       .also = words::short_below});
   v.value("standing_rad_s", s.standing_rad_s,
           {.meaning = "speed at which braking ends and the bridge turns off; 0: no Hall edge for "
                       "sensors.timeout_s",

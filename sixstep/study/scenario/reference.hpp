@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference over time in a scenario. reference_description.hpp says what each key means.
+// The reference over time in a scenario. reference_description.hpp describes each key.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -6,7 +6,7 @@
 
 namespace sixstep::study {
 
-/// Longest time, s: 104 days. A run counts time in picoseconds with 63 bits, which end after 106 days.
+/// Longest time, s: 104 days. A run counts time in picoseconds; their 63 bits are enough for 106 days.
 inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 

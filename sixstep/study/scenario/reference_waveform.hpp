@@ -9,10 +9,10 @@
 
 namespace sixstep::study {
 
-/// An interval from at_s to the beginning of the next one.
+/// An interval from at_s to the beginning of the next interval.
 struct Stretch {
   double at_s = 0.0;
-  double value = 0.0;  ///< at at_s
+  double value = 0.0;  ///< value at at_s
   rig::Waveform waveform{};
 
   double at(double t_s) const { return waveform.after(value, t_s - at_s); }
@@ -32,7 +32,7 @@ std::vector<Level> reference_levels(const Scenario& scenario);
 /// The largest magnitude of the reference during the run; for a sine an upper bound.
 double largest_reference(const Scenario& scenario);
 
-/// Whether the reference moves anywhere in [from_s, to_s).
+/// True if the reference moves anywhere in [from_s, to_s).
 bool reference_moves(const Scenario& scenario, double from_s, double to_s);
 
 /// Time in s after which the reference would stay constant if the run continued. It may lie after the run's

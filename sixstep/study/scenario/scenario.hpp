@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario as typed data: everything that one run needs, with files already resolved to numbers. Only
-// scenario_description.hpp says what each key means, with unit, range and default.
+// scenario_description.hpp describes each key, with unit, range and default.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -31,7 +31,7 @@ struct Supply {
                                 // stiff
   double capacitance_F = 0.0;
   bool sinks = true;
-  double inductance_H = 0.0;          // in series with resistance_ohm
+  double inductance_H = 0.0;          // of the source, in series with resistance_ohm
   double brake_resistance_ohm = 0.0;  // across the bus from brake_on_V until brake_off_V; 0: no chopper
   double brake_on_V = 0.0, brake_off_V = 0.0;
   double sink_limit_A = 0.0;              // sinks = false: current that the source takes back nevertheless
@@ -39,7 +39,7 @@ struct Supply {
   std::vector<double> battery_charges,
       battery_voltages_V;  // open-circuit voltage over charge
   double battery_capacity_Ah = 0.0;
-  double battery_charge = 1.0;  // at the start
+  double battery_charge = 1.0;  // charge at the start, relative to the full charge
   double battery_recovery_ohm = 0.0, battery_recovery_F = 0.0;
   double mains_rms_V = 0.0;  // single phase: of the line; three phases: line-to-line
   double mains_Hz = 50.0;
@@ -52,7 +52,7 @@ struct Bridge {
   rig::WireOrder phases = rig::WireOrder::abc;  // the motor's phases at legs a, b, c
   Device device = Device::mosfet;
   double on_resistance_ohm = 0.0;
-  double saturation_V = 0.0;  // only IGBTs
+  double saturation_V = 0.0;  // used for IGBTs only
   double diode_drop_V = 0.0;
   double diode_resistance_ohm = 0.0;
   double dead_time_s = 0.0;
@@ -86,7 +86,7 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;         // 0: edges are not quantised
-  double minimum_pulse_s = 0.0;  // shorter pulses are left out, and shorter off-times become on-time
+  double minimum_pulse_s = 0.0;  // shorter pulses are omitted, and shorter off-times become on-time
 };
 
 struct Initial {

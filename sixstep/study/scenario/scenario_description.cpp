@@ -51,21 +51,20 @@ void describe(base::Visitor& v, Initial& s) {
           {.meaning = "mechanical speed at the start", .unit = "rad/s", .also = words::speed});
   v.value("angle_rad", s.angle_rad,
           {.meaning = "mechanical angle at the start", .unit = "rad", .also = words::position});
-  v.value(
-      "bus_V", s.bus_V,
-      {.meaning = "bus voltage at the start; without it supply.voltage_V", .unit = "V", .range = above(0)});
+  v.value("bus_V", s.bus_V,
+          {.meaning = "bus voltage at the start. Default: supply.voltage_V", .unit = "V", .range = above(0)});
 }
 
 void describe(base::Visitor& v, Record& s) {
   v.value("grid_s", s.grid_s,
-          {.meaning = "spacing of the recorded rows; without it pwm.period_s",
+          {.meaning = "spacing of the recorded rows. Default: pwm.period_s",
            .unit = "s",
            .range = from(shortest_period_s)});
   v.value(
       "events", s.events,
       {.meaning =
            "whether rows are recorded at every event, with both sides of each jump, instead of on the grid"});
-  v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
+  v.value("columns", s.columns, {.meaning = "columns to record, t_s always first. Default: all columns"});
 }
 
 void describe(base::Visitor& v, Spread& s) {
@@ -96,7 +95,7 @@ void describe(base::Visitor& v, Scenario& s) {
   v.value(
       "extends", s.extends,
       {.meaning =
-           "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier one. Lists of tables are appended; an empty list [] or table {} removes the inherited one"});
+           "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier file. Lists of tables are appended; an empty list [] or table {} removes the inherited list or table"});
   v.value("motor", s.motor,
           {.meaning = "motor file: a path, or a name looked up beside the scenario, in the data folder and "
                       "in the built-in list",
@@ -111,7 +110,7 @@ void describe(base::Visitor& v, Scenario& s) {
           {.meaning = "reason for which the design is not usable. A design writes it and each run prints "
                       "it; while it is present, no header is exported"});
   v.table("motor_override", s.sheet,
-          {.meaning = "single values that replace those of the motor file", .partial = true});
+          {.meaning = "values that replace single values of the motor file", .partial = true});
   v.table("believed", s.believed,
           {.meaning = "values of motor and sensor that the drive believes, instead of the true ones; its "
                       "design, its firmware and the exported header use them, and the simulated motor does "

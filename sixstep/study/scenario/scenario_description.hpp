@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of a scenario file. Only the descriptions in this folder define their names, units, ranges and
-// meanings. The structs hold the defaults.
+// meanings. The structs define the defaults.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

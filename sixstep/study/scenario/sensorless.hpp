@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Start and operation of a drive without a rotor sensor (control/sensorless/) in a scenario.
-// sensorless_description.hpp says what each key means.
+// sensorless_description.hpp describes each key.
 #pragma once
 #include <cstdint>
 

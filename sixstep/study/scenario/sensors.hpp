@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's measurements in a scenario. By default all are ideal. sensors_description.hpp says what each
-// key means.
+// The board's measurements in a scenario. By default all are ideal. sensors_description.hpp describes each
+// key.
 #pragma once
 #include <cstdint>
 #include <optional>

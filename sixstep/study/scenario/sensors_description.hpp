@@ -9,17 +9,17 @@
 namespace sixstep::study {
 
 inline constexpr base::Choice<rig::CurrentMeasurement> current_sensing_choices[] = {
-    {"ideal", rig::CurrentMeasurement::ideal, "the phase currents as they are"},
+    {"ideal", rig::CurrentMeasurement::ideal, "the exact phase currents"},
     {"phases", rig::CurrentMeasurement::phases, "an amplifier and a converter per phase"},
     {"dc-link", rig::CurrentMeasurement::dc_link,
      "one shunt or Hall transducer in the DC link, which shows the motor current within the on-time only"},
 };
 inline constexpr base::Choice<BusSensing> bus_sensing_choices[] = {
-    {"ideal", BusSensing::ideal, "the bus voltage as it is"},
+    {"ideal", BusSensing::ideal, "the exact bus voltage"},
     {"adc", BusSensing::adc, "through the converter, from 0 to bus_range_V"},
 };
 inline constexpr base::Choice<RotorSensing> rotor_sensing_choices[] = {
-    {"ideal", RotorSensing::ideal, "speed and position as they are; the sensorless drive: no probes"},
+    {"ideal", RotorSensing::ideal, "exact speed and position; for the sensorless drive: no probes"},
     {"hall", RotorSensing::hall, "from the times of the Hall edges, by the controller's own blocks"},
     {"encoder", RotorSensing::encoder,
      "from an incremental encoder; on the motor's shaft it also commutates"},
@@ -29,9 +29,9 @@ inline constexpr base::Choice<RotorSensing> rotor_sensing_choices[] = {
      "from a resolver and a tracking loop; on the motor's shaft it also commutates"},
 };
 inline constexpr base::Choice<rig::HallAngleFrom> hall_angle_choices[] = {
-    {"sectors", rig::HallAngleFrom::sectors, "by sectors of 60 degrees, as they are passed"},
+    {"sectors", rig::HallAngleFrom::sectors, "in sectors of 60 degrees, counted at the Hall edges"},
     {"interpolated", rig::HallAngleFrom::angle,
-     "by an angle that is interpolated between edges, less the probes' known delay and hysteresis; with "
+     "by an angle that is interpolated between edges, minus the effect of the probes' known delay and hysteresis; with "
      "pwm.commutation = \"sample\" it also commutates"},
     {"calibrated", rig::HallAngleFrom::learned_edges,
      "as interpolated, with the places of the edges measured in the first steady turns; their common "
@@ -167,8 +167,7 @@ inline void describe(base::Visitor& v, Sensors& s) {
   v.value(
       "bus_bandwidth_Hz", s.bus_bandwidth_Hz,
       {.meaning =
-           "bandwidth of the divider and its capacitor in front of the converter, a first-order lag; also "
-           "that of the terminals' dividers. Default: no lag",
+           "bandwidth of the divider and its capacitor in front of the converter, a first-order lag; also for the terminals' dividers. Default: no lag",
        .unit = "Hz",
        .range = base::between(1, 1e9)});
   v.value("terminal_gain_error", s.terminal_gain_error,

@@ -9,9 +9,9 @@ namespace sixstep::study {
 
 inline constexpr base::Choice<rig::ResolverReading> resolver_reading_choices[] = {
     {"sampled", rig::ResolverReading::sampled,
-     "the drive samples both windings at the excitation's peaks; its own loop follows them"},
+     "the drive samples both windings at the excitation's peaks; a tracking loop of the drive follows the samples"},
     {"tracking", rig::ResolverReading::tracking,
-     "a converter chip follows them at its own clock and gives angle and speed"},
+     "a converter chip tracks both windings at its own clock and gives angle and speed"},
 };
 
 }  // namespace sixstep::study
@@ -39,30 +39,32 @@ inline void describe(base::Visitor& v, Encoder& s) {
                       "index corrects the count",
            .unit = "Hz",
            .range = base::from(0)});
-  v.value("offset_deg", s.offset_deg,
-          {.meaning = "mounting: electrical angle that it shows above the rotor's; the drive subtracts "
-                      "believed.sensor_offset_deg",
-           .unit = "deg",
-           .range = base::between(-360, 360)});
+  v.value(
+      "offset_deg", s.offset_deg,
+      {.meaning = "mounting: electrical angle that the sensor shows minus the rotor's; the drive subtracts "
+                  "believed.sensor_offset_deg",
+       .unit = "deg",
+       .range = base::between(-360, 360)});
 }
 
 inline void describe(base::Visitor& v, AbsoluteEncoder& s) {
-  v.value("bits", s.bits, {.meaning = "number of bits of its Gray code", .range = base::between(4, 20)});
+  v.value("bits", s.bits, {.meaning = "number of bits of the Gray code", .range = base::between(4, 20)});
   v.value("latency_s", s.latency_s,
           {.meaning = "age of the latched code at a sample", .unit = "s", .range = base::from(0)});
   v.value("speed_samples", s.speed_samples,
           {.meaning = "number of control periods over which the speed is averaged",
            .range = base::between(1, 8)});
-  v.value("offset_deg", s.offset_deg,
-          {.meaning = "mounting: electrical angle that it shows above the rotor's; the drive subtracts "
-                      "believed.sensor_offset_deg",
-           .unit = "deg",
-           .range = base::between(-360, 360)});
+  v.value(
+      "offset_deg", s.offset_deg,
+      {.meaning = "mounting: electrical angle that the sensor shows minus the rotor's; the drive subtracts "
+                  "believed.sensor_offset_deg",
+       .unit = "deg",
+       .range = base::between(-360, 360)});
 }
 
 inline void describe(base::Visitor& v, Resolver& s) {
   v.value("pole_pairs", s.pole_pairs,
-          {.meaning = "pole pairs of the resolver; the motor's are a multiple of them",
+          {.meaning = "pole pairs of the resolver; the motor's pole pairs are a multiple of this number",
            .range = base::between(1, 32)});
   v.value("amplitude_V", s.amplitude_V,
           {.meaning = "peak of either winding at the converter", .unit = "V", .range = base::above(0)});
@@ -84,7 +86,7 @@ inline void describe(base::Visitor& v, Resolver& s) {
            .unit = "deg",
            .range = base::between(-60, 60)});
   v.value("sine_phase_deg", s.sine_phase_deg,
-          {.meaning = "the same for the sine winding, if different",
+          {.meaning = "phase angle of the sine winding, if it differs",
            .unit = "deg",
            .range = base::between(-60, 60)});
   v.value(
@@ -106,11 +108,12 @@ inline void describe(base::Visitor& v, Resolver& s) {
           {.meaning = "tracking: clock of the chip's loop", .unit = "Hz", .range = base::between(1e3, 1e7)});
   v.value("latency_s", s.latency_s,
           {.meaning = "tracking: age of the latched angle at a sample", .unit = "s", .range = base::from(0)});
-  v.value("offset_deg", s.offset_deg,
-          {.meaning = "mounting: electrical angle that it shows above the rotor's; the drive subtracts "
-                      "believed.sensor_offset_deg",
-           .unit = "deg",
-           .range = base::between(-360, 360)});
+  v.value(
+      "offset_deg", s.offset_deg,
+      {.meaning = "mounting: electrical angle that the sensor shows minus the rotor's; the drive subtracts "
+                  "believed.sensor_offset_deg",
+       .unit = "deg",
+       .range = base::between(-360, 360)});
 }
 
 }  // namespace sixstep::rig

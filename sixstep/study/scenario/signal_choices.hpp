@@ -72,12 +72,12 @@ inline constexpr SignalFact signal_facts[] = {
      "speed reference at the last sample", SignalKind::held},
     {Signal::position_reference, "position_ref_deg", "position reference", "deg", "position setpoint",
      SignalKind::held},
-    {Signal::current_error, "current_error_A", "current error", "A", "current reference less motor current",
+    {Signal::current_error, "current_error_A", "current error", "A", "current reference minus motor current",
      SignalKind::series},
-    {Signal::speed_error, "speed_error_rad_s", "speed error", "rad/s", "speed reference less speed",
+    {Signal::speed_error, "speed_error_rad_s", "speed error", "rad/s", "speed reference minus speed",
      SignalKind::series},
-    {Signal::position_error, "position_error_deg", "position error", "deg", "position setpoint less position",
-     SignalKind::series},
+    {Signal::position_error, "position_error_deg", "position error", "deg",
+     "position setpoint minus position", SignalKind::series},
     {Signal::load_torque, "load_Nm", "load torque", "N m", "load torque", SignalKind::held},
     {Signal::gate_T1, "gate_T1", "gate T1", "1", "upper gate of a, 1 while on: its mean is its duty",
      SignalKind::gate},
@@ -111,8 +111,7 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::battery_charge, "battery_charge", "charge of the battery", "1",
      "charge of the battery, relative to the full charge", SignalKind::series},
     {Signal::battery_recovery, "battery_recovery_V", "recovering voltage of the battery", "V",
-     "voltage across battery_recovery_ohm and battery_recovery_F, by which the battery is below its open-circuit "
-     "voltage beside resistance_ohm",
+     "voltage across battery_recovery_ohm and battery_recovery_F, by which the battery is below its open-circuit voltage, in addition to the drop across resistance_ohm",
      SignalKind::series},
     {Signal::loop_current, "loop_A", "sum of the delta's branch currents", "A",
      "sum of a delta's branch currents, three times the current that circulates; no terminal carries it",
@@ -162,8 +161,9 @@ inline constexpr base::Choice<Signal> linear_signal_words[] = {
     {"speed_ref_m_s", Signal::speed_reference, "linear motor: speed reference at the last sample",
      "speed_ref_rad_s"},
     {"position_ref_mm", Signal::position_reference, "linear motor: position setpoint", "position_ref_deg"},
-    {"speed_error_m_s", Signal::speed_error, "linear motor: speed reference less speed", "speed_error_rad_s"},
-    {"position_error_mm", Signal::position_error, "linear motor: position setpoint less position",
+    {"speed_error_m_s", Signal::speed_error, "linear motor: speed reference minus speed",
+     "speed_error_rad_s"},
+    {"position_error_mm", Signal::position_error, "linear motor: position setpoint minus position",
      "position_error_deg"},
     {"load_N", Signal::load_torque, "linear motor: load force", "load_Nm"},
     {"load_speed_m_s", Signal::load_speed, "linear motor: speed behind an elastic coupling",
@@ -194,21 +194,21 @@ static_assert([] {
 /// Unit of a signal, as shown behind a figure.
 constexpr std::string_view unit_of(Signal signal) { return fact_of(signal).unit; }
 
-/// Whether only a field-oriented drive has the signal.
+/// True if only a field-oriented drive has the signal.
 constexpr bool is_of_field(Signal signal) { return signal >= Signal::direct_current; }
 constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
 constexpr bool is_power(Signal signal) { return fact_of(signal).kind == SignalKind::power; }
-/// Whether the signal is a product of two of the engine's series (signal_products.hpp).
+/// True if the signal is a product of two of the engine's series (signal_products.hpp).
 constexpr bool is_product(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::voltage || kind == SignalKind::emf || kind == SignalKind::power;
 }
-/// Whether the signal alternates about zero at the electrical frequency.
+/// True if the signal alternates about zero at the electrical frequency.
 constexpr bool alternates(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::phase_current || kind == SignalKind::voltage || kind == SignalKind::emf;
 }
-/// Whether the controller's samples represent the signal. False for signals that jump at the sample instants.
+/// True if the controller's samples represent the signal. False for signals that jump at the sample instants.
 constexpr bool is_known_at_samples(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return !is_power(signal) && kind != SignalKind::gate && kind != SignalKind::duty &&

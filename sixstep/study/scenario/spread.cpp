@@ -60,7 +60,7 @@ class NumberAt final : public base::Visitor {
   double* number = nullptr;  ///< null: not found
   base::Range range;
   std::string_view unit;
-  bool left_out = false;  ///< the key exists, but no value is given
+  bool left_out = false;  ///< true: the key exists, but no value is given
 
  private:
   void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
@@ -152,7 +152,7 @@ void set_number(Scenario& s, std::string_view key, double x) {
 }
 
 struct Checker {
-  Scenario scenario;  // with derived values written out
+  Scenario scenario;  // the scenario with explicit derived values
   base::Problems problems;
 
   void check(const Spread& spread, const std::string& where) {

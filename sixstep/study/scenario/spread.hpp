@@ -34,7 +34,7 @@ struct VaryingNumber {
   std::string unit;
 };
 
-/// The number at a key that scenario.spread allows; empty if the key is not one of them or has no value.
+/// The number at a key that scenario.spread allows; empty if the key is not allowed or has no value.
 std::optional<VaryingNumber> varying_number(const Scenario& scenario, std::string_view key);
 
 /// The scenario with one number set to x, in the key's unit; the controller stays as designed. Allowed are

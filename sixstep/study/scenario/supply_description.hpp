@@ -14,9 +14,10 @@ inline void describe_battery(base::Visitor& v, Supply& s) {
   v.value("battery_charges", s.battery_charges,
           {.meaning = "relative charges of a battery at which battery_voltages_V are given, rising, 1: full",
            .range = between(0, 1)});
-  v.value(
-      "battery_voltages_V", s.battery_voltages_V,
-      {.meaning = "open-circuit voltages at battery_charges, lines between", .unit = "V", .range = above(0)});
+  v.value("battery_voltages_V", s.battery_voltages_V,
+          {.meaning = "open-circuit voltages at battery_charges, linear between the points",
+           .unit = "V",
+           .range = above(0)});
   v.value("battery_capacity_Ah", s.battery_capacity_Ah,
           {.meaning = "charge of the full battery", .unit = "A h", .range = from(0)});
   v.value(
@@ -43,7 +44,7 @@ inline void describe(base::Visitor& v, Supply& s) {
   v.value("capacitance_F", s.capacitance_F,
           {.meaning = "bus capacitor behind resistance_ohm; 0: stiff bus", .unit = "F", .range = from(0)});
   v.value("sinks", s.sinks,
-          {.meaning = "whether the source takes current back; false: regeneration lifts the bus"});
+          {.meaning = "whether the source takes current back; false: regeneration raises the bus voltage"});
   v.value("inductance_H", s.inductance_H,
           {.meaning = "inductance between source and bus capacitor, in series with resistance_ohm",
            .unit = "H",

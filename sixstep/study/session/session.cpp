@@ -42,7 +42,7 @@ class Run {
 struct Session::State {
   // The scenario is never changed, only replaced, because copies of a session share it.
   std::shared_ptr<const Scenario> scenario;
-  std::shared_ptr<const Compiled> compiled;  ///< without the timeline, which the rig holds
+  std::shared_ptr<const Compiled> compiled;  ///< without the timeline, which the rig contains
   Observers watchers;
   Run run;
   Present present{};
@@ -50,7 +50,7 @@ struct Session::State {
   Instant reach{};
   sim::Stop stop = sim::Stop::observer;
   bool over = false;
-  bool figures_moved = false;  ///< the figures' windows differ from those at the beginning
+  bool figures_moved = false;  ///< true: the figures' windows have changed since the beginning
 
   Instant now() const { return run->now(); }
   std::int64_t period() const { return compiled->board.modulator.period_ticks; }
@@ -61,7 +61,7 @@ struct Session::State {
     const std::int64_t since = t.ticks - lead();
     return since < 0 ? Instant{lead(), 0.0} : Instant{lead() + (since / period() + 1) * period(), 0.0};
   }
-  /// Samples an earlier instant, if the last segment contains it.
+  /// Samples an earlier instant, if the last segment contains this instant.
   bool look_back(const Instant& asked) {
     if (!(asked < last->from)) {
       present.t_s = asked.seconds();
@@ -74,8 +74,8 @@ struct Session::State {
 
 namespace {
 
-/// Whether two configurations have the same effect on the past. A changed setpoint limit has none on
-/// setpoints within it.
+/// True if both configurations have the same effect on the past. A changed setpoint limit has no effect on
+/// setpoints within the limit.
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
   if (!(a.sensorless == b.sensorless) || !(a.field == b.field)) return false;
@@ -86,7 +86,7 @@ bool same_chip(const Tuned& a, const Tuned& b) {
   return one == other;
 }
 
-/// Whether the newly compiled scenario has the same run up to the present instant.
+/// True if the newly compiled scenario has the same run up to the present instant.
 bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
   if (!same_chip(
           {before.drive, {}, before.product, before.sensorless, before.field, before.own, before.estimator},
@@ -112,8 +112,8 @@ Instant next_change(const Instant& now, const Instant& next_tick, const Instant&
   return {tick, 0.0};
 }
 
-/// Keeps the run on the general kernel, even if the event that needed this kernel now comes after the end:
-/// adds an event with straight wires, which changes nothing.
+/// Keeps the run on the general kernel, even if the event that needed this kernel is now after the end. Adds
+/// an event with straight wires, which changes nothing.
 Scenario on_same_kernel(Scenario s, const Compiled& before) {
   if (!before.general || needs_general_plant(s)) return s;
   At straight;
@@ -210,7 +210,7 @@ bool Session::go(const Instant& asked, bool read, std::optional<std::uint8_t> pi
   if (!to_end && !(s.now() < asked)) {
     if (read && s.last) return s.look_back(asked);
     Slice here = s.slice(asked);
-    if (read) s.run->look(here);  // reads the present instant, because skip() has kept no earlier one
+    if (read) s.run->look(here);  // reads the present instant, because skip() has stored no earlier instant
     return true;
   }
   Slice slice = s.slice(to_end ? end : asked);
@@ -218,13 +218,13 @@ bool Session::go(const Instant& asked, bool read, std::optional<std::uint8_t> pi
   slice.pins = pins;
   if (!read) s.last.reset();
   s.stop = s.now() < slice.until ? s.run->advance(end, slice) : sim::Stop::observer;
-  // Actions due at the end of the run are done.
+  // Actions that are due at the end of the run are executed too.
   const bool at_end = !(s.now() < end);
   if (at_end && s.stop == sim::Stop::observer && !slice.stopped && to_end)
     s.stop = s.run->advance(end, slice);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
   if (!slice.taken && read) {
-    if (pins) s.last.reset();  // it is of an earlier segment
+    if (pins) s.last.reset();  // the stored segment is out of date
     s.run->look(slice);
   }
   return !s.over;

@@ -5,7 +5,8 @@
 // - Change: everything that [[at]] can change, at the next control tick. The session adds the change to its
 //   scenario. An invalid change is refused like an invalid file, and then nothing has changed.
 // - Copy: a session is a value. A copy is a saved state, and continues independently.
-// - Replay: run(session.scenario()) has the digest of the session, if that was run to its end or closed.
+// - Replay: run(session.scenario()) has the digest of the session, if the session ran to its end or was
+// closed.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -18,8 +19,8 @@ namespace sixstep::study {
 
 class Session {
  public:
-  /// Opens a session at t = 0. In fixed point, the scaling [control.full_scale] holds for the whole session.
-  /// `instead` is a chip that sets the gates in the drive's place; copies of the session share it.
+  /// Opens a session at t = 0. In fixed point, the scaling [control.full_scale] applies to the whole session.
+  /// `instead` is a chip that sets the gates instead of the drive; copies of the session share it.
   static base::Result<Session> open(const Scenario& scenario, const Listeners& listeners = {},
                                     const rig::ChipPort& instead = {});
 
@@ -30,23 +31,24 @@ class Session {
   ~Session();
 
   /// Advances to to_s in seconds, and then up to the next event. now_s() may therefore lie a little after
-  /// to_s; present() does not. Returns false if the run is over: it reached its end, a fault stopped it, or a
-  /// listener did.
+  /// to_s; present() does not. Returns false if the run is over: it reached its end, or a fault or a listener
+  /// stopped it.
   bool advance(double to_s);
   /// Advances like advance() without reading: present() keeps its values. Reading costs as much as one or two
   /// PWM periods. A later advance() to an instant before now_s() reads the values of now_s().
   bool skip(double to_s);
-  /// Advances like advance(), and calls done(present()) once per PWM period; `true` ends the advance.
+  /// Advances like advance(), and calls done(present()) once per PWM period. If done() returns true, the
+  /// advance ends.
   template <class Done>
   bool advance_until(double to_s, Done&& done);
 
   /// Advances to the next control tick after the present instant and reads it. The controller has not yet
   /// acted at this tick. Returns false like advance().
   bool advance_to_tick();
-  /// Advances to the instant at which the Hall pins get another code than at the present instant, or to to_s if none comes
-  /// before. Delays, glitches and broken lines count. False as by advance().
+  /// Advances to the next instant at which the code at the Hall pins changes, but at most to to_s. Changes by
+  /// delays, glitches and broken lines count. Returns false like advance().
   bool advance_to_hall_edge(double to_s);
-  /// Whether the present instant is a control tick on which the controller has not yet acted.
+  /// True if the present instant is a control tick on which the controller has not yet acted.
   bool at_tick() const;
   /// Instant of the first control tick after an instant.
   double tick_after_s(double at_s) const;
@@ -54,8 +56,8 @@ class Session {
   /// unchanged. The session must be at_tick().
   void call_controller() const;
 
-  /// Changes values at the next control tick, and returns its time in s, which scenario() has as well.
-  /// `at.time_s` is not read.
+  /// Changes values at the next control tick. Returns the time of this tick in s, which scenario() contains
+  /// too. `at.time_s` is not read.
   base::Result<double> change(At at);
 
   /// Values at the instant of the last advance. If the run stopped before that instant, or has not begun:
@@ -68,11 +70,11 @@ class Session {
   /// The board that the scenario was compiled to.
   const rig::BoardConfig& board() const;
 
-  /// Ends the session and returns the results. A run that is not over ends at the next control tick: this
-  /// becomes the scenario's duration_s, and later events are dropped. If the reference was changed or the
-  /// session ends early, the figures' windows differ from those at the beginning. The figures are then taken
-  /// from a replay. Without `replay`, they are left out; this is for a controller that is not part of the
-  /// scenario.
+  /// Ends the session and returns the results. A run that is not over ends at the next control tick. The time
+  /// of this tick becomes the scenario's duration_s, and later events are dropped. If the reference was
+  /// changed or the session ends early, the figures' windows have changed since the beginning. The figures
+  /// are then taken from a replay. Without `replay`, the outcome contains no such figures: for a controller
+  /// that is not part of the scenario.
   base::Result<Outcome> close(bool replay = true);
 
  private:

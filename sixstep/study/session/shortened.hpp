@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a scenario end sooner.
+// Shortens a scenario.
 #pragma once
 #include "sixstep/study/scenario/scenario.hpp"
 

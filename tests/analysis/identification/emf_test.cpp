@@ -296,7 +296,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   EmfTruth brief = clean(false);
   brief.periods = 1.2;
   EXPECT_THAT(told(drawn_record(brief)),
-              ::testing::AnyOf(HasSubstr("holds 1.2 periods of the voltage; 1.5 are needed"),
+              ::testing::AnyOf(HasSubstr("contains 1.2 periods of the voltage; 1.5 are needed"),
                                HasSubstr("one and a half periods are needed")));
   brief = clean(false);
   brief.rows_per_period = 5.0;

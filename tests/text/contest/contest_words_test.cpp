@@ -39,7 +39,7 @@ std::string name(std::size_t who) { return std::string(analysis::contestants()[w
 
 TEST(ContestWords, WhoSharesAFigureIsNamed) {
   const auto told = words({{0, 1.0, 5.0}, {1, 2.0, 3.0}, {2, 3.0, 3.01}});
-  EXPECT_THAT(told, Contains(name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
+  EXPECT_THAT(told, Contains(name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
   EXPECT_THAT(told, Contains(HasSubstr(name(0) + " has the least ")));
   EXPECT_THAT(told, Not(Contains(HasSubstr("first two"))));
 }
@@ -49,16 +49,16 @@ TEST(ContestWords, WhoSharesAFigureIsNamed) {
 TEST(ContestWords, AllWhoShareAFigureAreNamed) {
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
-      Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
+      Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
   // Percentages refer to the smallest value, as on the whole page: 3.155 is 5.2 % more than 3.
   EXPECT_THAT(words({{0, 1.0, 3.155}, {1, 2.0, 3.0}, {2, 3.0, 3.01}}),
-              Contains(name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
+              Contains(name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}, {5, 6.0, 9.0}}),
       Contains("All controllers that hold the course, but for " + name(5) +
-               ", share the least loss in all, within 5 %."));
+               ", share the least total loss, within 5 %."));
   EXPECT_THAT(words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}}),
-              Contains("All controllers that hold the course share the least loss in all, within 5 %."));
+              Contains("All controllers that hold the course share the least total loss, within 5 %."));
 }
 
 /// A controller that exceeds 1.5 times the limit's current at the start has an unfair advantage. It must have

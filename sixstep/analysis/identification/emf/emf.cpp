@@ -152,7 +152,7 @@ void take_harmonics(MeanShape& mean, EmfResult& out) {
 /// shape's harmonics and of the fundamental add.
 struct Doubt {
   double fundamental = 0.0;  ///< relative standard deviation
-  double shape = 0.0;        ///< standard deviation of a value of the shape, absolute
+  double shape = 0.0;        ///< absolute standard deviation of a value of the shape
   double student = 0.0;
   Interval of(double size, double figure, double shape_part) const {
     const double relative =
@@ -247,7 +247,7 @@ base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit
        .limit = "with " + base::rounded(fit.phase.rate[0] / base::turn_rad, 5) + " Hz makes " +
                 base::rounded(pairs, 4) + " pole pairs" +
                 (request.pole_pairs ? ", not " + std::to_string(*request.pole_pairs) : ", no whole number"),
-       .cure = request.pole_pairs ? "leave out the less certain one: the speed or the pole pairs"
+       .cure = request.pole_pairs ? "remove the less certain value: the speed or the pole pairs"
                                   : "give the pole pairs instead of the speed"}};
 }
 
@@ -262,7 +262,7 @@ base::Result<EmfResult> measure_emf(const EmfRequest& request) {
   if (base::Problems noise = check_noise(request.record, *fit); !noise.empty()) return noise;
   if (fit->periods < least_periods)
     return base::Problem{.where = "time",
-                         .limit = "holds " + base::rounded(fit->periods, 3) + " periods of the voltage; " +
+                         .limit = "contains " + base::rounded(fit->periods, 3) + " periods of the voltage; " +
                                   base::rounded(least_periods, 2) + " are needed",
                          .cure = "record for longer, or turn the motor faster"};
   EmfResult out;

@@ -18,7 +18,7 @@ namespace sixstep::analysis {
 struct EmfRequest {
   EmfRecord record;
   std::optional<int> pole_pairs;
-  std::optional<double> speed_rad_s;  ///< speed of the shaft; frequency and speed give the pole pairs
+  std::optional<double> speed_rad_s;  ///< speed of the shaft; the pole pairs follow from frequency and speed
 };
 
 struct EmfHarmonic {
@@ -42,10 +42,11 @@ struct EmfChannelResult {
                          ///< of a period
 };
 
-/// Constants in V s per electrical rad; multiplied by the pole pairs, per mechanical rad.
+/// Constants in V s per electrical rad. Multiplied by the pole pairs, they are in V s per mechanical rad.
 struct EmfConstants {
   Interval line_peak, line_rms, line_fundamental;
-  /// Constants of a phase. If they come from voltages between lines, harmonics of order 3, 9, .. are missing.
+  /// Constants of a phase. If they are computed from voltages between lines, harmonics of order 3, 9, .. are
+  /// missing.
   Interval phase_peak, phase_rms, phase_fundamental;
 };
 

@@ -12,7 +12,7 @@ namespace sixstep::analysis {
 namespace {
 
 /// Height in V that an invisible clipping may have cut off. If all rows of a top lie within one step of the
-/// converter, it is up to this step; with noise it is more.
+/// converter, the height is up to this step. Noise increases it.
 double hidden_V(const EmfChannelResult& channel) { return 2.0 * (channel.step_V + channel.residual_rms_V); }
 
 double middle_of(std::vector<double> values) {
@@ -101,7 +101,7 @@ double lost_beyond(const std::vector<double>& u, double extreme, double periods)
   std::vector<double> lost, bent;
   const std::vector<Top> tops = tops_at(u, extreme);
   // Clipping appears in every period. Hum moves a flat top within one step of the converter only in some
-  // periods. If there are fewer flat tops per period than `most_periods`, they are therefore no clipping.
+  // periods. Fewer flat tops per period than `most_periods` are therefore not caused by clipping.
   if (static_cast<double>(tops.size()) + 1.0 < most_periods * periods) return 0.0;
   for (const Top& top : tops) {
     lost.push_back(top.near / near_of_lost);

@@ -59,7 +59,7 @@ std::vector<double> crossings(const Curve& curve, const Level& level) {
   return out;
 }
 
-/// True if successive half waves have similar lengths; with spikes they have not.
+/// True if successive half waves have similar lengths. Spikes cause half waves of very different lengths.
 bool are_regular(const std::vector<double>& passed) {
   constexpr double alike = 3.0;
   for (std::size_t n = 2; n < passed.size(); ++n) {

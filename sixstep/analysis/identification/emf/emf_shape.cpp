@@ -27,8 +27,9 @@ void drop_thirds(ShapeHarmonics& shape) {
   for (std::size_t n = 2; n < shape.size(); n += 3) shape.re[n] = shape.im[n] = 0.0;
 }
 
-/// e_a - e_b = Re E_h (1 - exp(-j h 120 deg)) exp(j h y). The bracket is sqrt 3 exp(+-j 30 deg), + for h = 1,
-/// 4, 7. The line's own angle, which is 0 at its fundamental's peak, is y + 30 deg.
+/// e_a - e_b = Re E_h (1 - exp(-j h 120 deg)) exp(j h y); E_h: harmonic of order h of a phase, y: angle. The
+/// bracket is sqrt 3 exp(+-j 30 deg), + for h = 1, 4, 7. The line's own angle, which is 0 at its
+/// fundamental's peak, is y + 30 deg.
 double line_ahead(int order) { return order % 3 == 1 ? thirty_deg * (1 - order) : -thirty_deg * (1 + order); }
 
 }  // namespace
@@ -52,8 +53,8 @@ double ShapeHarmonics::rms() const {
 }
 
 ShapeHarmonics seen_backward(ShapeHarmonics seen) {
-  // e = K w f(y) with w < 0; time runs with x = -y - 180 deg. The fundamental is then positive at its peak
-  // again.
+  // The back-EMF is e = K w f(y) with the speed w < 0, the constant K and the shape f. Time runs with x = -y
+  // - 180 deg. The fundamental is then positive at its peak again.
   for (std::size_t n = 0; n < seen.size(); ++n) {
     const bool even = n % 2 == 1;
     if (even) seen.re[n] = -seen.re[n];

@@ -12,7 +12,7 @@ namespace sixstep::analysis {
 
 /// The measured value in one of the possible frames of the printed number.
 struct FrameReading {
-  std::string_view frame;   ///< name as in motor files; for a frame without a name there, a description
+  std::string_view frame;   ///< name as in motor files; a description for a frame that has no such name
   Interval measured;        ///< in the unit of the printed value
   double deviation = 0.0;   ///< measured/printed - 1
   bool is_printed = false;  ///< true: the sheet's file names this frame

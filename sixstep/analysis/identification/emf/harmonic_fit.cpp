@@ -234,8 +234,8 @@ class Iteration {
   Symmetric left_;
 };
 
-/// Copies the channels from the last step. The noise near the channels' fundamentals gives the speed's
-/// deviation.
+/// Copies the channels from the last step. Computes the speed's deviation from the noise near the channels'
+/// fundamentals.
 base::Problems take_channels(const EmfRecord& record, const HarmonicPoints& points, Iteration& iteration,
                              HarmonicFit& out) {
   constexpr double least_explained = 0.5;

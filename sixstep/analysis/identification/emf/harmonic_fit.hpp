@@ -4,10 +4,11 @@
 //
 //   u(t) = offset + w(t)/w_0 sum over h of (a_h cos h phase + b_h sin h phase)
 //
-// w_0 is the speed at the recording's middle. The factor w(t)/w_0 is needed because an induced voltage is
-// proportional to the speed w. The residual is usually not white noise: a drill wobbles, the mains cause hum,
-// an oscilloscope has steps. Each harmonic's interval therefore follows from the residual's spectrum near the
-// harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975, 5.4).
+// a_h, b_h: harmonic of order h; w_0: speed at the recording's middle. The factor w(t)/w_0 is needed because
+// an induced voltage is proportional to the speed w. The residual is usually not white noise: a drill
+// wobbles, the mains cause hum, an oscilloscope has steps. Each harmonic's interval therefore follows from
+// the residual's spectrum near the harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975,
+// 5.4).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -27,13 +28,14 @@ struct ChannelFit {
   std::vector<Harmonic> harmonics;  ///< harmonics[0] is the fundamental
   double residual_rms_V = 0.0;
   double step_V = 0.0;          ///< smallest difference of two successive rows: the converter's step
-  double step_at_peak_V = 0.0;  ///< rms error of the peak through the steps
+  double step_at_peak_V = 0.0;  ///< rms error of the peak caused by the steps
   double explained = 0.0;       ///< fraction of the power about the mean that the fit explains
 };
 
 struct HarmonicFit {
   EmfPhase phase;
-  double speed_deviation = 0.0;  ///< standard deviation of the electrical speed at the middle, rad/s
+  double speed_deviation =
+      0.0;  ///< standard deviation of the electrical speed at the recording's middle, rad/s
   double degrees_of_freedom = 0.0;
   double periods = 0.0;
   std::vector<ChannelFit> channels;

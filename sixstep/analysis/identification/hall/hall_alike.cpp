@@ -37,8 +37,9 @@ std::vector<double> between_terminals(const HallLog& log, std::size_t from) {
   return out;
 }
 
-/// Fits w cos, w sin and an offset. The residual depends on the error of each edge of the path; the number of
-/// independent values is therefore the number of edges.
+/// Fits the factors of w cos(theta) and w sin(theta), and an offset; w: speed, theta: angle. The residual
+/// depends on the error of each edge of the path; the number of independent values is therefore the number of
+/// edges.
 std::optional<Size> size_of(const HallLog& log, const std::vector<double>& u_V, const MotionPath& path,
                             std::size_t edges) {
   NormalEquations equations(3);
@@ -61,8 +62,8 @@ std::optional<Size> size_of(const HallLog& log, const std::vector<double>& u_V, 
 }  // namespace
 
 base::Problems check_alike(const HallLog& log, const MotionPath& path, std::size_t edges) {
-  // Voltages of one motor differ by a few per cent. Another divider or unit causes a factor. In a noisy log
-  // each voltage deviates by chance.
+  // Voltages of one motor differ by a few per cent. A different divider or unit changes a voltage by a large
+  // factor. In a noisy log each voltage deviates by chance.
   constexpr double most = 0.05, deviations = 4.0;
   constexpr const char* names[] = {"u_ab", "u_bc", "u_ca"};
   double least = HUGE_VAL, greatest = 0.0, deviation = 0.0;

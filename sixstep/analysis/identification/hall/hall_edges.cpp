@@ -81,8 +81,8 @@ base::Problems bridged_lines(const Codes& codes) {
 }
 
 /// Finds the pair of codes that never occurs: the mask and its complement. Every code is a glitch with the
-/// same unknown probability. Its prior, for a size of some per cent, is a beta distribution with parameters
-/// 1/2 and 19/2.
+/// same unknown probability. The prior of this probability has a mean of some per cent; it is a beta
+/// distribution with parameters 1/2 and 19/2.
 void find_mask(const Codes& codes, HallEdges& out) {
   constexpr std::uint8_t masks[] = {0b000, 0b100, 0b010, 0b001};
   double logs[4], best = 0.0;

@@ -18,8 +18,8 @@ constexpr double contradiction = 5.0;
 /// Largest fraction of sightings that may be excluded.
 constexpr double most_left_out = 0.05;
 
-/// Excludes in each neighbourhood the sighting with the largest contradiction. Only one is excluded, because
-/// an edge with a large error shifts its neighbours.
+/// Excludes in each neighbourhood the sighting with the largest contradiction. No other sighting is excluded,
+/// because an edge with a large error shifts its neighbours.
 void leave_out(FoundMotion& m) {
   const auto size = m.points.size();
   std::vector<std::size_t> worst;
@@ -123,8 +123,8 @@ std::optional<FoundMotion> motion_of_edges(const HallEdges& edges, std::size_t o
   m.effects.relative = true;
   m.sector_s = edges.sector_s;
   const std::vector<double> rough = rough_speeds(edges.edges);
-  // A new stretch begins where the rotor reverses. Without voltages, two unknowns cannot be determined there:
-  // the rotor's path beyond the last edge, and the hysteresis of the next edge.
+  // A new stretch begins where the rotor reverses. Without voltages, two unknowns cannot be determined at a
+  // reversal: the rotor's path beyond the last edge, and the hysteresis of the next edge.
   std::vector<HallEdge> one_way = edges.edges;
   for (std::size_t n = 1; n < one_way.size(); ++n)
     if (one_way[n].direction != one_way[n - 1].direction) one_way[n].begins = true;

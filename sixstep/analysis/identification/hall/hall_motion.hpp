@@ -53,10 +53,10 @@ struct FoundMotion {
 /// determine the effects, or if keep_going ended the work.
 bool find_motion(FoundMotion& motion, int rounds, const std::function<void(FoundMotion&)>& refine);
 
-/// Possible error of each repeating edge if the rows were synchronous with it: at the rotor's speed, the edge
-/// is then always in the same part of the time between two rows. The sampling error does not average out in
-/// this case. Half widths in degrees, 95 %. 0 if chance could bring edges and rows as close together
-/// (Rayleigh's test, 5 %).
+/// Possible error of each repeating edge if the rows were synchronous with it, in degrees: 95 % half width.
+/// At the rotor's speed, the edge is then always in the same part of the time between two rows, and the
+/// sampling error does not average out. The error is 0 if chance could also explain this coincidence of edges
+/// and rows (Rayleigh's test, 5 %).
 std::vector<double> in_step_deg(const FoundMotion& motion);
 
 /// The motion from the edges only, with a repeating pattern of `own` edges. Empty if the edges do not

@@ -127,7 +127,7 @@ base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector
     models[m] = fit_voltages(vectors, turned(by_edges.points, m == 0 ? 1.0 : -1.0, 0.0));
   if (!models[0] || !models[1])
     return base::Problem{.where = parity_columns(log),
-                         .limit = "hold too few rows while the rotor turns",
+                         .limit = "contain too few rows while the rotor turns",
                          .cure = "record voltages and Hall lines at the same time"};
   out.mirrored = models[1]->residual_V2 < models[0]->residual_V2;
   out.voltages = *models[out.mirrored ? 1 : 0];
@@ -139,9 +139,9 @@ base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector
   if (odds(out.voltages.still_V2) < (least < 0.5 * out.voltages.still_V2 ? likely : sure))
     return base::Problem{
         .where = parity_columns(log),
-        .limit = "do not follow the Hall lines: the best fit leaves " +
+        .limit = "do not follow the Hall lines: the best fit does not explain " +
                  base::rounded(100.0 * least / std::max(out.voltages.still_V2, 1e-300), 3) +
-                 " % of the voltages' power unexplained",
+                 " % of the voltages' power",
         .cure =
             "measure the three terminals of the same motor with the bridge off, and turn the motor faster"};
   out.mirrored_probability = 1.0 / (1.0 + base::exp(-odds(models[out.mirrored ? 0 : 1]->residual_V2)));

@@ -6,14 +6,14 @@
 namespace sixstep::analysis {
 
 struct HallOffsetEstimate {
-  bool mirrored = false;  ///< the lines' order is opposite to the rotor's direction
+  bool mirrored = false;  ///< true: the lines' order is opposite to the rotor's direction
   double mirrored_probability = 0.0;
-  int rotation = 0;    ///< the rotor's sector while the lines show sector 0; if mirrored, one more
+  int rotation = 0;    ///< the rotor's sector while the lines show sector 0; if mirrored, this sector plus 1
   FoundMotion motion;  ///< in electrical angles
   VoltageModel voltages;
   bool between_turns = false;  ///< true: enough edges lie between the rotor's reversals to find the
                                ///< hysteresis
-  std::size_t at_turns = 0;    ///< edges that are excluded, because the rotor reversed beyond them
+  std::size_t at_turns = 0;    ///< number of edges that are excluded because the rotor reversed next to them
 
   /// The rotor's sector while the lines show the sector `shown`, counted as if each line were at its own pin.
   int sector_of(int shown) const {

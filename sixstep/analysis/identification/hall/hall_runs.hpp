@@ -9,7 +9,7 @@
 namespace sixstep::analysis {
 
 /// A code and the time for which it lasted. It began at some instant of [came_after_s, came_before_s],
-/// between the last row of the code before and its own first row.
+/// between the last row of the code before and the first row of this code.
 struct Stay {
   std::uint8_t code = 0;
   double came_after_s = 0.0, came_before_s = 0.0;

@@ -135,7 +135,7 @@ void judge(const std::vector<VoltageVector>& vectors, const MotionPath& path, Vo
   }
   // Largest number of rows that count as one, for arbitrarily smooth residuals: each edge jitters
   // independently, and the path's error between two edges ends with the sector.
-  constexpr double sectors = 3.0;  // in half a turn
+  constexpr double sectors = 3.0;  // number of sectors in half a turn
   const double most = static_cast<double>(model.rows) /
                       (sectors * static_cast<double>(std::max<std::size_t>(half_turns.count(), 1)));
   model.memory_rows = std::min(memory.rows(), std::max(most, 1.0));
@@ -215,8 +215,8 @@ double turned_into_place(VoltageModel& model) {
 
 namespace {
 
-/// Rows over a few degrees of the path. They give one common correction of the path's angle, by one
-/// Gauss-Newton step.
+/// Rows over a few degrees of the path. One Gauss-Newton step computes from them a common correction of the
+/// path's angle.
 class Window {
  public:
   bool holds(double angle_deg) const { return rows_ == 0 || std::fabs(angle_deg - begin_deg_) < longest_deg; }

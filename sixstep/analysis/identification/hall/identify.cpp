@@ -110,7 +110,7 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
       .limit = "has " + std::to_string(own) +
                " edges on a turn of the shaft, and the log passes one of them " +
                (least == 0 ? "never" : "once"),
-      .cure = "turn the shaft by at least two turns without reversing, or leave the pole pairs out"};
+      .cure = "turn the shaft by at least two turns without reversing, or remove the pole pairs"};
 }
 
 /// Counts excluded sightings: edges, without the edges at reversals of the rotor, and voltage readings.
@@ -204,7 +204,7 @@ base::Result<HallIdentity> identified(const HallLog& log, int pole_pairs, const 
         .limit =
             "needs voltages: without them an uneven rotation of the shaft cannot be distinguished from "
             "displaced edges",
-        .cure = "also record the voltages of the terminals, or leave the pole pairs out"};
+        .cure = "also record the voltages of the terminals, or remove the pole pairs"};
   const std::size_t own = 6 * static_cast<std::size_t>(pole_pairs);
   if (const std::optional<base::Problem> rare = too_rare(*edges, own)) return *rare;
   const std::optional<FoundMotion> by_edges = motion_of_edges(*edges, own, keep_going);

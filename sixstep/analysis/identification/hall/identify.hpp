@@ -34,9 +34,9 @@ struct IdentifiedEdge {
 struct IdentifiedPlace {
   PinCodes codes{};                ///< codes at the pins, in sectors 0 to 5
   double probability = 0.0;        ///< probability that all six codes are right
-  double order_probability = 0.0;  ///< probability that the lines' direction is not the opposite one
+  double order_probability = 0.0;  ///< probability that the lines' direction is right
   std::vector<HallWires> wires;    ///< all wirings with these codes, the simplest first
-  bool forward = true;             ///< direction of most of the log
+  bool forward = true;             ///< true: the rotor turns forward in most of the log
   /// Common offset of all edges, in the direction of positive angles. If the log has one direction only, the
   /// offset cannot be separated from half the hysteresis and from the delay's path at the log's speed. The
   /// value is then the sum of the three for this direction.
@@ -57,8 +57,8 @@ struct IdentifiedPlace {
 struct EdgePassage {
   double t_s = 0.0, speed_deg_s = 0.0;  ///< electrical speed
   std::size_t edge = 0;                 ///< index in HallIdentity::edges
-  /// Distance from the edge's nominal angle, including the offset and the edge's own deviation; without
-  /// voltages, except for an unknown constant.
+  /// Distance from the edge's nominal angle, including the offset and the edge's own deviation. Without
+  /// voltages, an unknown constant is added to this distance.
   double place_deg = 0.0;
   bool left_out = false, begins = false;
 };
@@ -69,7 +69,7 @@ struct HallIdentity {
   bool rows_are_changes = false;
   std::size_t forward = 0, backward = 0;  ///< number of edges; without voltages the direction is counted as
                                           ///< if each line were at its own pin
-  std::size_t glitches = 0, skipped = 0;  ///< as in hall_edges.hpp
+  std::size_t glitches = 0, skipped = 0;  ///< numbers as defined in hall_edges.hpp
   std::size_t left_out = 0;               ///< number of edges that contradict all others
   std::size_t voltages_left_out = 0;      ///< number of voltage readings that contradict all others
   std::size_t unused = 0;                 ///< number of edges after the first most_edges

@@ -44,7 +44,8 @@ template <std::size_t order>
 struct MotionSpread {
   std::array<std::array<double, order>, order> P{};
 
-  /// Advances the covariance: P = F P F' + Q, with Q the integral of the noise's response over the step.
+  /// Advances the covariance P = F P F' + Q; F: matrix of the step, Q: integral of the noise's response over
+  /// the step.
   void pass(const Step<order>& step, double intensity) {
     for (std::size_t c = 0; c < order; ++c)
       for (std::size_t i = 0; i < order; ++i)

@@ -11,13 +11,14 @@ namespace sixstep::analysis {
 /// Sector and direction of the rotor during a stay.
 struct Whereabouts {
   std::uint8_t sector = 0;  ///< 0..5, with each line at its own pin
-  bool forward = true;      ///< direction in which the rotor entered the sector
+  bool forward = true;      ///< true: the rotor entered the sector forward
   bool glitch = false;      ///< true: the stay's code is not the code of the sector
 };
 
 struct RotorPath {
   std::vector<Whereabouts> at_stays;  ///< one per stay
-  /// Median time in a sector, s; of an even count the longer of the two middle times; 0: none.
+  /// Median time in a sector, s; for an even count the longer of the two middle times; 0: no sector was
+  /// passed.
   double sector_s = 0.0;
 };
 

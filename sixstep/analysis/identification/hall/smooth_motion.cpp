@@ -123,7 +123,8 @@ class Stretch {
     points.insert(points.end(), out.begin(), out.end());
   }
 
-  /// r = H'u + r with u = v/F - K'r; N = H'H/F + (I - K H)' N (I - K H). Returns u divided by its deviation.
+  /// r = H'u + r with u = v/F - K'r; N = H'H/F + (I - K H)' N (I - K H), with de Jong's symbols. Returns u
+  /// divided by its deviation.
   static double take(const Passed<order>& p, MotionState<order>& r,
                      std::array<std::array<double, order>, order>& N) {
     double u = p.innovation / p.gain.F, D = 1.0 / p.gain.F;

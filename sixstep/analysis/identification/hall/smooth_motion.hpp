@@ -51,7 +51,7 @@ enum class Smoothness : std::uint8_t { second = 2, third = 3 };
 
 struct MotionNoise {
   Smoothness smoothness = Smoothness::third;
-  double intensity = 0.0;  ///< intensity of that derivative's noise: deg^2/s^3 (second), deg^2/s^5 (third)
+  double intensity = 0.0;  ///< intensity of this derivative's noise: deg^2/s^3 (second), deg^2/s^5 (third)
   double jitter_deg = 0.0;
   double voltage_scale = 1.0;
 };

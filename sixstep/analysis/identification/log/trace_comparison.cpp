@@ -35,7 +35,8 @@ std::optional<double> value_at(const Values& t_s, const Values& values, double t
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Whether the column has this label at a time: the one of either row around it. Empty beyond the column's ends.
+/// True if the column has this label at a time: the label of either row around this time. Empty beyond the
+/// column's ends.
 std::optional<bool> has_label(const Values& t_s, const Values& labels, double t, double label) {
   const auto next = static_cast<std::size_t>(std::upper_bound(t_s.begin(), t_s.end(), t) - t_s.begin());
   if (next == 0 || (next == t_s.size() && t != t_s.back())) return {};
@@ -134,7 +135,7 @@ struct Weighed {
   double scale = 1.0;  ///< the column's span, or the least step of its log
   double step = 0.0;
   double floor =
-      0.0;  ///< rms that its resolution alone causes: 1/sqrt(12) of the step; of labels, half a row
+      0.0;  ///< rms that the column's resolution alone causes: 1/sqrt(12) of the step; for labels, half a row
   std::size_t rows = 0;  ///< rows that can be compared without a shift
 };
 

@@ -36,9 +36,9 @@ inline constexpr std::size_t fewest_compared = 5;
 /// because it starts some time after power-on. The difference is the geometric mean of the columns' rms. Each
 /// rms is a fraction of the column's span or, if it is greater, of the least step of the column's log.
 ///
-/// The search uses a grid of `step_s`, then finer grids; of thousands of rows it uses a part. The result is 0
-/// if the shift reduces the difference by too little: by less than a thousandth of the spans, a tenth of the
-/// difference, or the log's own steps.
+/// The search uses a grid of `step_s`, then finer grids. With thousands of rows it uses a part of the rows.
+/// The result is 0 if the shift reduces the difference by too little: by less than a thousandth of the spans,
+/// a tenth of the difference, or the log's own steps.
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s);
 
 /// Shift in s for a clock that counts from midnight or from power-on: minus the first row's time if no row
