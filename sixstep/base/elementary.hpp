@@ -23,8 +23,8 @@ SinCos sin_cos(double rad);
 inline double sin(double rad) { return sin_cos(rad).sin; }
 inline double cos(double rad) { return sin_cos(rad).cos; }
 
-/// Angle of the point (x, y), rad, in [-pi, pi]. On the negative x axis the result has the sign of the zero
-/// y.
+/// Angle of the point (x, y), rad, in [-pi, pi]. On the negative x axis the result is pi for y = 0 and -pi
+/// for y = -0.
 double atan2(double y, double x);
 
 }  // namespace sixstep::base
