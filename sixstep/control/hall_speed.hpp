@@ -67,8 +67,8 @@ constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::in
   if (state.known < 7) ++state.known;
 }
 
-/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per timeout_ticks, because only
-/// this call detects standstill.
+/// Speed at counter reading `now`, mechanical rad/s. Call hall_speed() at least once per timeout_ticks,
+/// because only this call detects standstill.
 template <class Scalar>
 constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedState& state, std::uint32_t now) {
   using T = ScalarTraits<Scalar>;
