@@ -12,8 +12,7 @@
 namespace sixstep::plant::general {
 
 struct HeatGiven {
-  bool motor = false, devices = false;  ///< true: the temperatures of the motor, of the switches are
-                                        ///< simulated
+  bool motor = false, devices = false;  ///< true: the temperatures of motor or switches are simulated
   double step_s = 1e-3;
   // The motor: resistances K/W, time constants s, temperatures degC.
   double winding_housing_K_W = 0.0, housing_ambient_K_W = 0.0, winding_s = 0.0, motor_s = 0.0;
