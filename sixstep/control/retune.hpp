@@ -7,10 +7,11 @@
 //                 times the error. An observer and a sliding surface continue from their states.
 //   other law     The new law of the speed loop starts with the old law's output at zero error. At zero error
 //                 the output does not change. In the positional form this holds only if the setpoint is not
-//                 weighted. other mode    A loop that both modes use keeps its state. A loop that only the
-//                 new mode uses starts with output 0. A slewed or profiled setpoint starts at the measurement
-//                 (drive_extras.hpp). The bridge keeps the last command until the next tick. other limits  A
-//                 position profile with other limits continues from its position and speed, without
+//                 weighted.
+//   other mode    A loop that both modes use keeps its state. A loop that only the new mode uses starts with
+//                 output 0. A slewed or profiled setpoint starts at the measurement (drive_extras.hpp). The
+//                 bridge keeps the last command until the next tick.
+//   other limits  A position profile with other limits continues from its position and speed, without
 //                 acceleration.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"

@@ -3,9 +3,9 @@
 // firmware.hpp it samples the three terminals, and requests timer interrupts between two ticks.
 //
 //                     input of a tick                         a compare match         a fault
-//   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, new start;
-//                     off after as SensedDrive                          commutate               more than
-//                     lock.retries in a row
+//   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, new start; off after
+//                     as SensedDrive                          commutate               more than lock.retries losses
+//                                                                                     in sequence
 //
 // The same timer captures the edges of comparators at the terminals (crossing_comparators.hpp). Terminals and
 // bus have equal dividers and converters, `sensors.bus`. The frequency of the timer is `sensors.capture_Hz`.

@@ -8,10 +8,9 @@
 //
 // w is the speed. Above w_high no voltage is injected. The phases of the start:
 //
-//   with injection      axis -> north -> following      the magnet is found at standstill; the rotor does not
-//                                move '-----> unseen         the iron does not saturate: the drive stops
-//                                without injection   aligning -> ramping -> following     a current turns the
-//                                rotor at first
+//   with injection      axis -> north -> following      the magnet is found while the rotor is at rest
+//                                '-----> unseen         the iron does not saturate: the drive stops
+//   without injection   aligning -> ramping -> following     at first a current vector turns the rotor
 //                            '--------'---------'--> unseen  too many consecutive failed starts
 //
 // Without injection, a voltage along an axis pulls the rotor, then a voltage a quarter turn ahead of this

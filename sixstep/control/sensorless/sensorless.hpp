@@ -3,9 +3,8 @@
 // drive.hpp uses this code as a Hall code; the timer's compare match replaces the Hall interrupt.
 //
 //   off -> catching -> aligning -> ramping -> running        if the setpoint has a direction
-//           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than
-//           lock.retries consecutive losses '-> running                                        if the rotor
-//           already turns (spin.hpp)
+//           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than lock.retries losses
+//           '-> running                                        if the rotor already turns (spin.hpp)
 //
 // In phase `following` the Hall probes commutate. Crossings are only recorded, so that the back-EMF can
 // replace the probes while the motor turns.
