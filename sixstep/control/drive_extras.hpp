@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds optional parts to the drive's loops. One flag enables all of them, so that a drive without optional
 // parts needs one branch per tick:
-//   a slewed setpoint, or a position setpoint by a profile a window for the current reference back-EMF
-//   feed-forward and compensation of the measured bus chopping without a step at zero duty, and PWM patterns
-//   other laws of the speed loop than the PI in velocity form a deadbeat current loop control of the staying
-//   phase's current, and a duty that keeps this current constant during a commutation
+// - a slewed setpoint, or a position setpoint by a profile
+// - a window for the current reference
+// - back-EMF feed-forward, and compensation of the measured bus voltage
+// - chopping without a jump at zero duty, and PWM patterns
+// - other laws of the speed loop than the PI in velocity form
+// - a deadbeat current loop
+// - control of the staying phase's current, and a duty that keeps it constant during a commutation
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"

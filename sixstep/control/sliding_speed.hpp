@@ -12,8 +12,7 @@
 //
 //   |s| > P   s changes by b (R - l) per sample: s reaches the layer from s_0 after (|s_0| - P)/(b (R - l))
 //             samples
-//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: s settles at P l/R, where R sat(s/P) equals the load, and y =
-//             r
+//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: s settles at P l/R: R sat(s/P) equals the load, and y = r
 //
 // At a limit of u, m changes so that u is exactly the limit, as far as the layer allows. Outside of the layer
 // the distance of m from the speed does not increase, so that m does not wind up.

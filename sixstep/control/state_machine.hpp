@@ -2,8 +2,8 @@
 // Selects the operating state of a drive: off, calibrate, align, run, brake, fault. This file contains only
 // the transitions; protected_drive.hpp performs the actions of each state.
 //
-//   off --start--> calibrate --offsets measured--> align --rotor in place--> run run --stop--> brake --at
-//   rest--> off;  brake --start--> run;  calibrate, align --stop--> off
+//   off --start--> calibrate --offsets measured--> align --rotor in place--> run
+//   run --stop--> brake --at rest--> off;  brake --start--> run;  calibrate, align --stop--> off
 //   any --fault--> fault --clear, no cause present--> off
 //
 // Offsets are measured once, and again after a fault. The alignment is optional.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hall probes with their mounting errors (model.md 10). Edge n, between sectors n - 1 and n, lies at
 //
-//   60 deg n + offset + own[n mod N],   N = 6 (one electrical turn), or N = 6 p (one mechanical turn, if the
-//   magnets differ)
+//   60 deg n + offset + own[n mod N],   N = 6 (one electrical turn), or 6 p (one turn, if the magnets differ)
 //
 // and appears h/2 later in the direction of motion, with the hysteresis h. own[] are the errors of single
 // edges, p the pole pairs. At the start of a run the shown sector is determined without hysteresis.

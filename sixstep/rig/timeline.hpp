@@ -45,8 +45,8 @@ enum class ActionKind : std::uint8_t {
   divider_breaks        ///< leg 0 to 2
 };
 
-/// Setpoint as a function of the time t since its action, in s: value + rate t + curvature t^2/2 + amplitude
-///   sin(2 pi (frequency_Hz t + phase_turns)).
+/// Setpoint as a function of the time t since its action, in s:
+///   value + rate t + curvature t^2/2 + amplitude sin(2 pi (frequency_Hz t + phase_turns)).
 /// A control tick evaluates the waveform; between two ticks the setpoint keeps the value of the last tick.
 struct Waveform {
   double rate = 0.0;       ///< per s

@@ -10,8 +10,7 @@
 //   rising     raises a voltage vector until the test current flows. The vector lengths at half of the test
 //              current and at the test current are the two levels.
 //   leaning    pulls the rotor to a quarter turn. A direct pull to 0 would fail if the rotor rested at half
-//   a
-//              turn, where the torque is 0.
+//              a turn, where the torque is 0.
 //   aligning   pulls the rotor to 0, where it rests until the end of the steps
 //   stepping   switches between the two levels, to measure R and L (level_steps.hpp)
 //   turning    turns the field slowly forward and backward, to record the Hall edges (hall_survey.hpp)

@@ -4,8 +4,7 @@
 // any saliency:
 //
 //   lambda = integral(u - R i) dt        the winding's total flux
-//   psi_a  = lambda - L_q i              active flux: vector along the magnet, of length psi + (L_d - L_q)
-//   i_d
+//   psi_a  = lambda - L_q i              active flux: along the magnet, of length psi + (L_d - L_q) i_d
 //
 // u and i are voltage and current, psi is the magnet's flux linkage. An integral keeps its initial error
 // forever. In each control period T, lambda therefore moves towards the flux of a magnet in the assumed

@@ -11,10 +11,9 @@
 // frame at rest: the magnet's frame in the middle of the period. In this frame the winding has R, L and the
 // coupling voltage of the rotation (field_current.hpp):
 //
-//   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b =
-//   (1 - a)/R L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or the shape's
-//   back-EMF
-//                                                              (harmonic_current.hpp)
+//   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d
+//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or harmonic_current.hpp
+//   per axis: i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
 //
 // i is rotated back by x/2, advanced by a period, and rotated back by x/2 again. For a round rotor this is
 // exact except for e. During the period e rotates by +-x/2 about its mean, which causes an error of x^2/24 of

@@ -7,8 +7,8 @@
 // |i| is least where i_d^2 - i_q^2 = psi i_d/(L_q - L_d) (Jahns, Kliman and Neumann, Interior
 // Permanent-Magnet Synchronous Motors for Adjustable-Speed Drives, IEEE Trans. IA 22, 1986). The solution is
 //
-//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d)) or:  i_d = -i_q k/(1/4 + sqrt(1/16 + k^2)), k =
-//   i_q/(4 a)
+//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d))
+//   i_d = -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
 //
 // psi: flux linkage, L_d, L_q: inductances of a phase. This file uses the second form, because it does not
 // subtract nearly equal numbers. It also does not need a, which is infinite for a round rotor; k and i_d are

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the angles of the six Hall edges from the edge times, while the rotor turns at constant speed.
 //
-//   fraction of the turn at edge j = (sum over n turns of (t_j - t_0))/(sum of the turns' times) deviation[j]
-//   = angle of this fraction - 60 j degrees, minus the mean of all deviations
+//   fraction of the turn at edge j = (sum over n turns of (t_j - t_0))/(sum of the turns' times)
+//   deviation[j] = angle of this fraction - 60 j degrees, minus the mean of all deviations
 //
 // t_j is the time of the j-th edge after the turn's first edge. The times do not show an angle that is common
 // to all edges, because common offset, hysteresis and delay shift all edges alike. This common angle is

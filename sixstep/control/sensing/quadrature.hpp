@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Incremental encoder: decodes the lines A, B and Z to four counts per line, a direction and an angle.
 //
-//   A = 1 while frac(N theta_m/(2 pi)) < 1/2; B lags A by a quarter of a line (model.md 10); forward AB = 10,
-//   11, 01, 00
+//   A = 1 while frac(N theta_m/(2 pi)) < 1/2; B lags A by a quarter of a line (model.md 10)
+//   AB forward: 10, 11, 01, 00
 //
 // N is the number of lines, theta_m the mechanical angle. A change of A and B at once is invalid: one step
 // was missed, or a line is disturbed. The decoder then adds two counts in the last direction, so that the

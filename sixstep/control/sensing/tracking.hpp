@@ -2,8 +2,7 @@
 // Tracking loop of type 2: follows an angle and computes its speed, without a lag at constant speed. It is
 // used for a resolver, and for any angle that has steps or noise.
 //
-//   e[n]     = measured[n] - angle[n]                      error: the shorter rotation, or the output of a
-//            phase detector
+//   e[n]     = measured[n] - angle[n]                      the shorter rotation, or from a phase detector
 //   w[n+1]   = w[n] + K_i e[n]
 //   angle[n+1] = angle[n] + w[n+1] + K_p e[n]              the angle predicted for the next tick
 //

@@ -2,12 +2,12 @@
 // Computes the time of the next commutation from the times of the zero crossings (zero_crossing.hpp):
 //
 //   T = mean of the last k intervals between crossings; if the last interval differs from the mean by more
-//       than a quarter, only the last interval t = crossing + T (1/2 - advance) - lead,     not before the
-//       crossing itself
+//       than a quarter, only the last interval
+//   t = crossing + T (1/2 - advance) - lead,     not before the crossing
 //
 // For a crossing that was not found, the expected time is stored. When the next crossing is found, the stored
-// time changes to the middle between the times before and after it. A guessed time therefore does not change
-// T.
+// time changes to the middle between the times before and after it. A wrong guess therefore has little effect
+// on T.
 //
 // A crossing is in the middle of its sector, and the commutation follows 30 degrees later. The advance is an
 // angle. The lead is a time: it compensates a phase's L/R and the delay of filters and converters. Times are

@@ -3,14 +3,13 @@
 // fixed amount psi_c:
 //
 //   psi = integral(w - R i) dt - L i          w: floating_voltage.hpp, without a star point
-//   discretised exactly:   psi[n+1] - psi[n] = T g,   g = w - (i[n+1] - a i[n])/b,   a = exp(-R T/L),   b =
-//                          (1 - a)/R
+//   discretised exactly:   psi[n+1] - psi[n] = T g,   g = w - (i[n+1] - a i[n])/b,
+//                          a = exp(-R T/L),   b = (1 - a)/R
 //
 // In the sector in which the phase's leg floats, psi grows up to the zero crossing and falls after it. From
 // the crossing to the commutation 30 degrees later psi falls by
 //
-//   psi_c = K_e/p integral_0^(pi/6) (2 s_f - s_s - s_k)/3 dtheta      s: shapes of the back-EMFs of the free
-//   and the driven phases
+//   psi_c = K_e/p integral_0^(pi/6) (2 s_f - s_s - s_k)/3 dtheta      s: shapes of the three back-EMFs
 //
 // at every speed and acceleration. Nothing is extrapolated from earlier sectors, and K_e is the only data of
 // the motor in psi_c. The fall of psi grows with the square of the angle: an error of 10 % in K_e shifts the
