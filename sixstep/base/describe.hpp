@@ -100,8 +100,8 @@ enum class Trust : std::uint8_t {
 };
 
 inline constexpr Choice<Trust> trust_choices[] = {
-    {"sheet", Trust::sheet, "the maker's print"},
-    {"measured", Trust::measured, "by another source, on one motor"},
+    {"sheet", Trust::sheet, "printed by the maker"},
+    {"measured", Trust::measured, "measured by another source, on one motor"},
     {"derived", Trust::derived, "computed from other values"},
 };
 
