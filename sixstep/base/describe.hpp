@@ -4,8 +4,8 @@
 //
 //   void describe(Visitor& v, S& s);          (base/visitor.hpp)
 //
-// This function visits the members in reading order. For each member, describe() calls one of these functions
-// of the visitor:
+// describe() visits the members in the order of the help. For each member it calls one of these functions of
+// the visitor:
 //   v.value(key, member, about)            double, int, bool, std::string,
 //                                          std::optional<double>, std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
@@ -45,7 +45,7 @@ constexpr Range strictly_between(double low, double high) { return {low, high, f
 /// Another key for the same value, because data sheets differ: another unit, another name, or a linear motor.
 struct Spelling {
   std::string_view key;
-  int ten = 0;                    ///< value in the key's own unit = 10^ten times the written value
+  int ten = 0;                    ///< value in the unit of the key = 10^ten times the written value
   std::string_view unit = "";     ///< unit of the written value; empty: the key's unit
   std::string_view frame = "";    ///< the only possible frame of a value with this spelling; empty: the key's
                                   ///< frames

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elementary functions with the same bits on every platform. The last digit of the C library's functions
-// differs between systems; code that can influence a trajectory therefore never calls them. The functions
-// here use only + - * / and integer operations. Their error is below 1 ulp over the whole range, including
-// subnormals (measured: tests/base/elementary_test.cpp). Special values are as in C's annex F; every NaN
-// result is the same quiet NaN.
+// differs between systems; code that can influence a trajectory therefore never calls them. The functions in
+// this file use only + - * / and integer operations. Their error is below 1 ulp over the whole range,
+// including subnormals (measured: tests/base/elementary_test.cpp). Special values are as in C's annex F;
+// every NaN result is the same quiet NaN.
 #pragma once
 
 namespace sixstep::base {

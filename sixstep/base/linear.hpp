@@ -128,7 +128,7 @@ struct Motion {
   std::string words(std::string text) const { return linear ? linear_words(std::move(text)) : text; }
 };
 
-/// Converts a number written with another spelling to the key's own unit; as_spelled() converts back.
+/// Converts a number that is written with another spelling to the key's unit; as_spelled() converts back.
 inline double in_own_unit(double written, const Spelling& s) {
   return times_ten_to(written, s.ten) * s.factor;
 }

@@ -88,7 +88,7 @@ Reduced reduce_large(double x) {
       carry = i < top ? sum >> 32 : 0;
     }
   }
-  DoubleDouble fraction;  // summed from the smallest term on, so that no bit is lost
+  DoubleDouble fraction;  // summed beginning with the smallest term, so that no bit is lost
   double weight = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - point) << 52);
   for (std::size_t i = 0; i <= top; ++i, weight *= 0x1p32)
     fraction = fraction + static_cast<double>(product[i]) * weight;

@@ -2,8 +2,8 @@
 // Steps the duty at a commutation. While the leaving phase's current decays through its diode, the duty that
 // keeps the staying phase's current constant differs from the duty before and after. E is the back-EMF of a
 // phase on its flat top, R and L are the values of a phase, I is the current, U the bus voltage and d the
-// duty. The leaving terminal is at the far rail. The star's three equations (model.md 1) give for the staying
-// phase
+// duty. The leaving terminal is at the far rail. From the star's three equations (model.md 1) the staying
+// phase's current I changes by
 //
 //   L dI/dt = ((2 d - 1) U - 4 E - 3 R I)/3     if the staying phase's switch is chopped
 //   L dI/dt = (d U - 4 E - 3 R I)/3             if the entering phase's switch is chopped
@@ -15,7 +15,7 @@
 // Without a leaving current, I is constant at d = (2 E + 2 R I)/U. If 4 E + 3 R I is above U, I falls at
 // every duty, and d is 1 (Carlson, Lajoie-Mazenc and Fagundes, Analysis of torque ripple due to phase
 // commutation in brushless DC machines, IEEE Trans. Ind. Appl. 28, 1992). If legs may overlap, the leaving
-// phase's own switch is then also chopped, with the duty
+// phase's switch is then also chopped, with the duty
 //
 //   x = (4 E + 3 R I)/U - 1
 //
@@ -103,7 +103,7 @@ constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, Commut
   state.drives = Scalar{} < driven_rad_s;
   state.flank = state.flank + T::product(driven_rad_s, config.flanks_per_rad_s);
   const Scalar flank = state.flank + T::product(driven_rad_s, config.ahead_per_rad_s);
-  // If no commutation is in progress, the next one begins at an edge, where f is 0.
+  // If no commutation is in progress, the next commutation begins at an edge, where f is 0.
   const Scalar u = holding_voltage(config, driven_rad_s, state.driven_A,
                                    state.hands_over ? between(flank, Scalar{}, one<Scalar>) : Scalar{});
   const Scalar headroom = config.overlap_bus_V - u;

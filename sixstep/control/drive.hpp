@@ -159,7 +159,7 @@ constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config,
   s.part = holding_part(config, s.volts, measured);
 }
 
-/// True while the leaving phase still carries current. Meanwhile the duty keeps the staying phase's current
+/// True while the leaving phase still conducts current. Meanwhile the duty keeps the staying phase's current
 /// constant, and the current loop is not executed.
 template <class Scalar>
 constexpr bool holds_current(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {

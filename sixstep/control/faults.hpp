@@ -75,7 +75,7 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  // A false edge and a real overspeed give the same measurement; therefore both faults are set. The faulty
+  // A false edge and a real overspeed cause the same measurement; therefore both faults are set. The faulty
   // line is reported only if an invalid code identifies it.
   if (too_fast) now |= fault_over_speed;
   if (too_fast && events.false_edge != 0) now |= fault_hall;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transforms three phase quantities to one vector, in the stator's frame and in the rotor's frame (model.md
-// 11). The scaling keeps amplitudes: balanced phase quantities of peak 1 become a vector of length 1.
+// 11). The transform preserves amplitudes: balanced phase quantities of peak 1 become a vector of length 1.
 //
 //   x_alpha = (2 x_a - x_b - x_c)/3         x_d =  x_alpha cos + x_beta sin
 //   x_beta  = (x_b - x_c)/sqrt 3            x_q = -x_alpha sin + x_beta cos

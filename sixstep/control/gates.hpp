@@ -4,7 +4,7 @@
 // switches are on:
 //   soft           the driven switch that is not chopped: the sink's lower or the source's upper switch
 //   hard           no switch
-//   complementary  as soft, and also the other switch of the chopped leg, after the dead time that the timer
+//   complementary  as soft, and also the second switch of the chopped leg, after the dead time that the timer
 //                  inserts
 #pragma once
 #include <cstdint>

@@ -3,10 +3,10 @@
 // code that the arrangement cannot produce, and a jump over a sector. If the edge times allow it, the broken
 // line is identified. The table of codes is in commutation.hpp.
 //
-// Probes 60 degrees apart give 110 111 011 001 000 100 in sectors 0 to 5: each probe is high over half a turn
-// and lags the previous probe by one sector. 010 and 101 are invalid (model.md 3). H3 of this arrangement
-// equals H2 of the 120-degree arrangement. H2 of this arrangement equals the inverted H3 of the 120-degree
-// arrangement.
+// The codes of probes 60 degrees apart are 110 111 011 001 000 100 in sectors 0 to 5: each probe is high over
+// half a turn and lags the previous probe by one sector. 010 and 101 are invalid (model.md 3). H3 of this
+// arrangement equals H2 of the 120-degree arrangement. H2 of this arrangement equals the inverted H3 of the
+// 120-degree arrangement.
 #pragma once
 #include <cstdint>
 
@@ -87,9 +87,8 @@ namespace detail {
 /// cases. Only the edge times of a rotor at steady speed distinguish them:
 /// - A line breaks between its edges. The broken line is the line that changes now, or the line whose last
 ///   edge was false.
-/// - A line misses its edge. The code stays valid for two sectors, until the edge of another line. The rotor
-///   is then two sectors further. The broken line is the line that differs from the correct code of this
-///   sector.
+/// - A line misses its edge. The code is valid for two sectors, until the edge of another line. The rotor is
+///   then two sectors further. The broken line is the line that differs from the correct code of this sector.
 constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
   const auto differs_from = [&](int sectors_on) {
     const int sector = (state.sector + 12 + sectors_on * state.direction) % 6;

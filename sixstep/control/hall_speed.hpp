@@ -47,7 +47,7 @@ constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known)
   return intervals < most ? intervals : most;
 }
 
-/// Number of sectors over which the speed is measured now; 0: the speed is not known yet.
+/// Number of sectors over which the speed is measured now; 0: no speed is available yet.
 template <class Scalar>
 constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                           const HallSpeedState& state) {
@@ -96,9 +96,8 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
   return later <= earlier + earlier / 4 && later >= earlier - earlier / 4;
 }
 
-/// Compares the time since the last edge with the times of the last sectors. The result is not `unknown` if
-/// two conditions hold: at least five edges in one direction, and successive sector times that differ by at
-/// most a quarter.
+/// Compares the time since the last edge with the times of the last sectors. The result is `unknown` before
+/// five edges in one direction, or if successive sector times differ by more than a quarter.
 ///
 /// Under these conditions, a rotor that starts from rest at a constant torque (sector times 1, 0.41, 0.32,
 /// 0.27, 0.24) has no edge that is `soon`. A rotor that slows down at a constant torque has no edge that is
@@ -122,7 +121,7 @@ constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grai
   return twice ? SectorTime::twice : SectorTime::unknown;
 }
 
-/// Distance since the last edge in the direction of rotation, 0..1 sector; 1/2 while the speed is not known.
+/// Distance since the last edge in the direction of rotation, 0..1 sector; 1/2 while no speed is available.
 template <class Scalar>
 constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
                                  std::uint32_t now) {

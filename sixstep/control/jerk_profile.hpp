@@ -20,18 +20,19 @@
 //   c v + v + (v - a) + .. = R,   v = (R + a m (m + 1)/2)/(m + 1 + c),
 //   m: largest integer with a m (2 c + m + 1)/2 <= R
 //
-// A move over a distance d takes d/v + v/a + a/j (j: jerk limit) if it is long enough to reach its speed and
-// acceleration limits; no profile is faster. A shorter move takes a little longer than the fastest profile.
-// If the target is nearer than the stopping distance, the profile passes it and returns.
+// The time of a move over a distance d is d/v + v/a + a/j (j: jerk limit) if the move is long enough to reach
+// its speed and acceleration limits. No profile is faster. The time of a shorter move is slightly above that
+// of the fastest profile. If the target is nearer than the stopping distance, the profile passes it and
+// returns.
 //
 // A stride has one control tick, or as many ticks as necessary for M <= 64. Then 64 stored numbers suffice
 // for any jerk. Between two strides the setpoint is the cubic B-spline of the means: position, speed and
-// acceleration are continuous. The spline's derivatives are B-splines of the differences; each limit
-// therefore holds at every instant. The spline lags by three strides.
+// acceleration are continuous. The spline's derivatives are B-splines of the differences; each limit is
+// therefore valid at every instant. The spline lags by three strides.
 //
 // Speeds and distances are integer counts. One stride at full speed is 2^26 counts. Sums are exact and cannot
 // drift, and the final position is exactly the target. A new target moves the setpoint at once by at most
-// half a count, 2^-27 of a stride at full speed. From rest, a distance of at most M counts takes one stride.
+// half a count, 2^-27 of a stride at full speed. From rest, a distance of at most M counts needs one stride.
 // A distance beyond 2^28 strides at full speed is covered in parts.
 //
 // The profile is for float and double only: a fixed-point position in degrees cannot represent the increment

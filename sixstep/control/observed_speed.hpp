@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the speed with an observer that estimates speed and load; the controller feeds back both. The
-// observer's model uses torques as fractions of the torque limit. The torque t follows the output u with a
-// lag. An unmeasured constant load l acts against t. w is the speed; a, b, c are constants of
+// Controls the speed with an observer that estimates speed and load; the controller feeds back these two
+// estimates. The observer's model uses torques as fractions of the torque limit. The torque t follows the
+// output u with a lag. An unmeasured constant load l acts against t. w is the speed; a, b, c are constants of
 // ObservedSpeedConfig:
 //
 //   t[n] = c t[n-1] + (1 - c) u[n],   w[n+1] = a w[n] + b (t[n] - l)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number
-// of turns.
+// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it is exact after any number of
+// turns.
 //
 //   incremental: A = 1 while frac(N theta/(2 pi)) < 1/2; B follows a quarter of a line later;
 //                Z = 1 over the first line of a turn; the count is floor(4 N theta/(2 pi))

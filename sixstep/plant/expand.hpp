@@ -22,7 +22,8 @@ template <class Real>
 void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   int halvings = 0;
   const int n = out.degree;
-  // An infinite term stays infinite: the length then becomes 0, and the run stops for lack of progress.
+  // An infinite term is still infinite after a halving: the length then becomes 0, and the run stops because
+  // the time does not advance.
   for (Real a = excess_last, b = excess_before; (a > 1 || b > 1) && halvings < most_halvings; ++halvings) {
     for (int j = 0; j < n; ++j) a /= 2;
     // mutant: n - 1 => n
@@ -151,7 +152,7 @@ struct Recurrence {
     out.w[n + 1] = y.w[n + 1];
     out.x[n + 1] = y.x[n + 1];
     out.torque[n] = y.torque[n];
-    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // terms after the first stay zero for a stiff bus
+    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // for a stiff bus the terms after the first are zero
     if constexpr (Currents::sine_shape) {
       out.phi0[n + 1] = y.phi0[n + 1];
       out.phi1[n + 1] = y.phi1[n + 1];

@@ -35,8 +35,8 @@ class HallProbes {
       : half_(rad(placement.hysteresis_deg) / 2) {
     for (const double own : placement.own_deg) edge_.push_back(rad(placement.offset_deg + own));
     if (edge_.empty()) edge_.push_back(rad(placement.offset_deg));
-    // Least hysteresis: a rotor that reverses on an edge must leave the range of rounding errors in which the
-    // edge was located.
+    // Least hysteresis: a rotor that reverses on an edge must exceed the rounding error with which the edge
+    // was located.
     const Real least = 4 * noise_of(Real(base::sector_rad), Real(1));
     if (half_ < least) half_ = least;
     shown_ = at.sector;

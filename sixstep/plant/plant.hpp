@@ -42,13 +42,14 @@ class Plant {
     constants_.load = static_cast<Real>(torque_Nm);
     stale_ = true;
   }
-  // Other changes that a scenario may make (plant_changes.hpp).
+  // Other changes by a scenario (plant_changes.hpp).
   void set_locked(bool locked);
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
 
   /// Settles the mode if gates, load or state have changed since the last call, then expands the state over
-  /// `wanted`, s, or less. Returns the length covered, s; a negative value means that no mode is consistent.
+  /// `wanted`, s, or less. Returns the length of the expansion, s; a negative value means that no mode is
+  /// consistent.
   double expand(double wanted);
   template <class Visit>
   void guards(Visit&& visit) const {

@@ -2,8 +2,9 @@
 // Simulates an analogue input: an amplifier with offset, gain error and noise, then a converter of `bits`
 // bits over a range. The firmware converts the counts back (control/adc.hpp).
 //
-//   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, limited to 0..2^bits - 1 both signs:
-//   lsb = 2 range/2^bits, zero = 2^(bits - 1)         one sign:  lsb = range/2^bits, zero = 0
+//   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, limited to 0..2^bits - 1
+//   both signs:  lsb = 2 range/2^bits, zero = 2^(bits - 1)
+//   one sign:    lsb = range/2^bits, zero = 0
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -20,7 +20,7 @@ class ProductDrive {
   static constexpr bool decodes_arrangement = true;  ///< the configuration contains the arrangement of the
                                                      ///< probes
 
-  /// The position is relative to the rotor's angle at power-up, which is known.
+  /// The counted position starts at the rotor's sector at power-up.
   ProductDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
       : config_(config), registers_(board.sensors), bases_(board.bases), core_(board.core) {
     state_.position.sectors = static_cast<std::int32_t>(power_up.sector);

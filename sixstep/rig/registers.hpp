@@ -37,11 +37,12 @@ struct SensorsConfig {
   bool commutates_by_angle = false;  ///< true: the drive commutates at a sample, by the measured angle
   std::uint8_t learned_edges = 1;  ///< number of edges over which a speed is averaged after the positions are
                                    ///< learned
-  std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
+  std::uint16_t calibration_turns = 8;  ///< number of electrical turns in which the edge positions are
+                                        ///< learned
   double hall_delay_s = 0.0;            ///< delay of the edges according to the data sheet
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;      ///< s; if `edges` edges take longer, a speed is measured over one edge; 0:
-                              ///< always over `edges` edges
+  double window_s = 0.0;      ///< s; if the time of `edges` edges is longer, a speed is measured over one
+                              ///< edge; 0: always over `edges` edges
   ShaftSensorConfig shaft{};  ///< an encoder or a resolver instead of the Hall probes
   double period_s = 0.0;      ///< period of the control ticks
 

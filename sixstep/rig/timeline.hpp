@@ -11,7 +11,7 @@
 
 namespace sixstep::rig {
 
-/// Kinds of actions; each comment gives the meaning of Action::value.
+/// Kinds of actions. The comments are the meaning and unit of Action::value.
 enum class ActionKind : std::uint8_t {
   setpoint,             ///< the new setpoint, in the mode's unit
   load_torque,          ///< N m

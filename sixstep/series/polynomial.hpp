@@ -72,7 +72,7 @@ inline Real half_increment_square_term(const Coefficients<Real>& a) {
   return sum;
 }
 
-/// Coefficient n of the product of two series, if n is known only at run time.
+/// Coefficient n of the product of two series, for an n that is not a compile-time constant.
 template <class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
   Real sum = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commissioning: the drive measures the motor that is connected to it.
-// - Steps of the voltage give resistance and inductance.
-// - A slow turn in each direction gives the table of the Hall lines.
-// - A fast turn gives the flux linkage.
+// - Steps of the voltage determine resistance and inductance.
+// - A slow turn in each direction determines the table of the Hall lines.
+// - A fast turn determines the flux linkage.
 // Commissioning needs the data of converters and timer, and the allowed current. It needs no data of the
 // motor.
 //

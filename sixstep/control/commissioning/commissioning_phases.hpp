@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the control tick of each commissioning phase. commissioning.hpp gives the order of the phases.
+// Runs the control tick of each commissioning phase. The order of the phases is in commissioning.hpp.
 #pragma once
 #include <cstdint>
 

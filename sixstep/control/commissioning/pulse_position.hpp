@@ -24,7 +24,7 @@
 // I_0 is the mean of the six currents. Rounding by itself causes at most 5.1 times this deviation. A first
 // harmonic below 6 times the deviation is rejected (`seen` is false): the rotor is round, or the current is
 // too small to saturate it. A second harmonic must also exceed the amplifiers' difference of gain; otherwise
-// the first harmonic gives the angle. The rotor must not turn: opposite pairs follow each other, so that
+// the first harmonic determines the angle. The rotor must not turn: opposite pairs follow each other, so that
 // their torques cancel.
 #pragma once
 #include <cstdint>

@@ -10,15 +10,15 @@
 // controls a winding of R and L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The
 // voltage has one of two limits:
 //
-//   axes     each axis has the limit of its own PI
+//   axes     the limit of each axis is `limit` of the axis's PI
 //   circle   |v| <= U_s/sqrt 3, the longest vector that three legs produce in every direction at the bus
 //            voltage U_s. v_d has priority, because i_d weakens the field when the bus voltage is too low.
 //            v_q is limited to sqrt(U_s^2/3 - v_d^2).
 //
 // In both cases the PI's state is its output after the limit, minus e. The state therefore cannot wind up,
-// although the bound changes with the speed and with the other axis.
+// although the bound changes with the speed and with the voltage of the second axis.
 //
-// If the rotation needs more than 0.9 of the available voltage, priority of v_d would leave too small a v_q.
+// If the rotation needs more than 0.9 of the available voltage, v_q would be too small if v_d had priority.
 // The magnet would then drive a current that needs even more v_d, up to a current of twice psi/L_d. In this
 // case v moves back to the circle, along the line to the voltage that a constant current at the reference
 // needs. The integrals do not change. A drive without decoupling then decouples only the deviation from the
@@ -132,7 +132,7 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
   return u == high ? most : u == low ? -most : u + e;
 }
 
-/// Coupling voltage of the measured current minus that of the reference, V.
+/// Coupling voltage of the measured current minus coupling voltage of the reference, V.
 template <class Scalar>
 constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                                   const Dq<Scalar>& measured, Scalar speed_rad_s) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the currents without a modulator. Three legs, each high or low for a whole period, give seven
-// different voltages. The controller applies the voltage that brings the current nearest to the reference
-// (Rodriguez et al., Predictive current control of a voltage source inverter, IEEE Trans. IE 54, 2007).
+// Controls the currents without a modulator. With three legs, each high or low for a whole period, seven
+// different voltages are possible. The controller applies the voltage that brings the current nearest to the
+// reference (Rodriguez et al., Predictive current control of a voltage source inverter, IEEE Trans. IE 54,
+// 2007).
 //
 // If the output acts one period late, the controller first predicts the current at the begin of that period,
 // from the voltage that acts until then (Cortes et al., Delay compensation in model predictive current

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the direction of the magnet without a sensor. At standstill and low speed it uses the current's
 // response to a pulsing voltage (injection.hpp). At higher speed it uses the magnet's flux in the winding
-// (active_flux.hpp). Each method gives an error: the angle by which the magnet is ahead of the estimate. One
-// tracking loop (sensing/tracking.hpp) follows the mean of both errors, weighted by speed:
+// (active_flux.hpp). The error of the estimate is the angle by which the magnet is ahead of the estimate.
+// Each method measures this error. One tracking loop (sensing/tracking.hpp) follows the mean of both errors,
+// weighted by speed:
 //
 //   error = (1 - m) e_injection + m e_flux,   m = (|w| - w_low)/(w_high - w_low) within 0..1
 //

@@ -126,7 +126,7 @@ constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& co
   return {angle, tracking_speed(state.loop), square, state.outside >= patience};
 }
 
-/// Stores the counts of the other peak, for a loop that runs once per period.
+/// Stores the counts of the negative peak, for a loop that is executed once per period.
 constexpr void resolver_hold(ResolverState& state, const ResolverCounts& counts) {
   state.last = counts;
   state.begun = true;

@@ -65,7 +65,7 @@ constexpr std::uint32_t last_interval(const CommutationClockState& state) {
              : static_cast<std::uint32_t>(state.crossings.times[0] - state.crossings.times[1]);
 }
 
-/// T in ticks; 0: not known yet.
+/// T in ticks; 0: not available yet.
 constexpr std::uint32_t sector_ticks(const CommutationClockConfig& config,
                                      const CommutationClockState& state) {
   const std::uint8_t k = hall_speed_edges(config.crossings, state.crossings.known);

@@ -40,8 +40,8 @@ struct FloatingVoltageConfig {
   Gain<Scalar> third_per_count{};  ///< V/3 per count of the converter; in fixed point: raw units
   std::uint16_t rail_counts = 0;   ///< a terminal within this distance from a rail counts as clamped by a
                                    ///< diode or a switch
-  bool through_freewheel = false;  ///< true: also uses periods at the rail, because L and each phase's
-                                   ///< current are known
+  bool through_freewheel = false;  ///< true: also uses periods at the rail, if L and each phase's current are
+                                   ///< measured
   bool operator==(const FloatingVoltageConfig&) const = default;
 };
 

@@ -32,7 +32,7 @@ struct PositionSourceState {
   HallSpeedState edges{};  ///< times of the probes' edges
   std::uint8_t agreed = 0;
   std::uint8_t line = 0;  ///< 1..3: the line that failed; 0: none, or unknown
-  bool broken = false;    ///< true: a line has failed; stays true until the drive restarts
+  bool broken = false;    ///< true: a line has failed since the drive started
   bool started = false;
 };
 

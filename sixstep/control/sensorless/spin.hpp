@@ -33,7 +33,7 @@ struct SpinState {
   std::uint32_t zero[3]{};  ///< time of the last change of each sign
   std::uint32_t at = 0;     ///< time of the last sample
   std::uint32_t since = 0;  ///< time of the last crossing, or of the begin
-  std::uint8_t signs = 0;   ///< signs as bits 2, 1, 0: positive back-EMF of a, b, c; 000: not known yet
+  std::uint8_t signs = 0;   ///< signs as bits 2, 1, 0: positive back-EMF of a, b, c; 000: not determined yet
   std::uint8_t found = 0;   ///< number of consecutive crossings at similar intervals
   bool looked = false;
 };

@@ -14,8 +14,8 @@
 // There are three cases.
 //   driving motor    At this rail y has the sign after the crossing. Until the current has ended, y is
 //                    ignored (blanking). The duration of the blanking is measured.
-//   braking motor    At the opposite rail y has the sign before the crossing: no blanking is needed. small
-//   duty       In soft chopping a negative e_f drives a current through the leg's lower diode, and the
+//   braking motor    At the opposite rail y has the sign before the crossing: no blanking is needed.
+//   small duty       In soft chopping a negative e_f drives a current through the leg's lower diode, and the
 //                    on-time is too short to end this current. The leg is at the lower rail, which
 //                    corresponds to the sign of e_f.
 // The crossing is the zero of the straight line between the last sample with y > 0 and the first sample with
@@ -74,7 +74,7 @@ struct ZeroCrossingState {
 
 enum class Crossing : std::uint8_t {
   none,
-  seen,          ///< a crossing at a known time
+  seen,          ///< a crossing at the time `at`
   passed_before  ///< a crossing between the commutation and `at` that could not be detected
 };
 
