@@ -36,7 +36,7 @@ template <class Scalar>
 struct Measurement {
   Scalar i_a_A{}, i_b_A{}, i_c_A{};
   Scalar speed_rad_s{};   ///< mechanical
-  Scalar position_deg{};  ///< mechanical, counted over turns
+  Scalar position_deg{};  ///< mechanical; does not wrap after a full turn
   Scalar bus_V{};
   std::uint8_t hall = 0;  ///< H1 H2 H3 as bits 2, 1, 0
 };

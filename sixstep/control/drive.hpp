@@ -22,16 +22,16 @@ struct DriveConfig {
   Mode mode = Mode::off;
   Chopping chopping = Chopping::soft;
   CurrentControl current_control = CurrentControl::pi;
-  PiConfig<Scalar> current{};  ///< A -> V
+  PiConfig<Scalar> current{};  ///< converts the current error in A to a voltage in V
   HysteresisConfig<Scalar> hysteresis{};
-  Divisor<Scalar> nominal_bus_V{};  ///< the duty is u/nominal_bus_V
-  PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; with SpeedControl::duty: rad/s
-                                    ///< -> duty
+  Divisor<Scalar> nominal_bus_V{};  ///< the duty is u/nominal_bus_V, with the current loop's voltage u
+  PiConfig<Scalar> speed{};  ///< converts the speed error in rad/s to a fraction of the torque limit; with
+                             ///< SpeedControl::duty: to a duty
   Gain<Scalar> current_at_full_torque_A{};  ///< torque limit/K_t: the speed loop's output times this value is
                                             ///< the current reference
   Scalar current_limit_A{};      ///< bound of the speed loop's current reference; set `speed.limit` to the
                                  ///< same bound
-  Gain<Scalar> position_gain{};  ///< degrees -> rad/s
+  Gain<Scalar> position_gain{};  ///< speed reference in rad/s per degree of position error
   Scalar speed_limit_rad_s{};    ///< bound of the position loop's speed reference
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};

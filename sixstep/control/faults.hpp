@@ -27,11 +27,11 @@ enum Fault : std::uint16_t {
 /// Default: any bus voltage and any current is a fault. A forgotten limit is therefore reported at once.
 template <class Scalar>
 struct FaultConfig {
-  Scalar over_current_A{};         ///< a phase's |i| above this is a fault
-  Scalar over_voltage_V{};         ///< a bus voltage above this is a fault
-  Scalar under_voltage_V{};        ///< a bus voltage below this is a fault
-  Scalar over_speed_rad_s{};       ///< |w| above this is a fault
-  Scalar stall_current_A{};        ///< a phase's |i| above this, without a Hall edge, is a stall
+  Scalar over_current_A{};    ///< a phase current with |i| above this value is a fault
+  Scalar over_voltage_V{};    ///< a bus voltage above this value is a fault
+  Scalar under_voltage_V{};   ///< a bus voltage below this value is a fault
+  Scalar over_speed_rad_s{};  ///< a speed with |w| above this value is a fault
+  Scalar stall_current_A{};   ///< a phase current with |i| above this value, without a Hall edge, is a stall
   std::uint32_t stall_ticks = 0;   ///< consecutive ticks after which a stall is a fault
   std::uint8_t voltage_ticks = 1;  ///< consecutive ticks after which a wrong voltage is a fault; 0 counts as
                                    ///< 1

@@ -99,11 +99,10 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
 /// Compares the time since the last edge with the times of the last sectors. The result is `unknown` before
 /// five edges in one direction, or if successive sector times differ by more than a quarter.
 ///
-/// Under these conditions, a rotor that starts from rest at a constant torque (sector times 1, 0.41, 0.32,
-/// 0.27, 0.24) has no edge that is `soon`. A rotor that slows down at a constant torque has no edge that is
-/// `twice`, and no two sectors that are `within`. If a sector's time T is less than eight grains g, the
-/// result is `unknown`. For T >= 8 g, the ratio (T - g)/(T + g) of two measured times at steady speed is at
-/// least 3/4.
+/// A rotor that starts from rest at a constant torque (sector times 1, 0.41, 0.32, 0.27, 0.24) has no edge
+/// that is `soon`. A rotor that slows down at a constant torque has no edge that is `twice`, and no two
+/// sectors that are `within`. If a sector's time T is less than eight grains g, the result is `unknown`. For
+/// T >= 8 g, the ratio (T - g)/(T + g) of two measured times at steady speed is at least 3/4.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);

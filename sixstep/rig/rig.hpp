@@ -171,7 +171,7 @@ class Rig {
     return looks_at_terminals;
   }
   static constexpr int probe_ahead = plant::guard::first_free + 2, probe_behind = probe_ahead + 1,
-                       crossing = probe_behind + 1;  // + leg
+                       crossing = probe_behind + 1;  // the leg's number is added
 
   /// Converts the pins to the code that the firmware reads. For a firmware without the arrangement of the
   /// probes, this is the code of probes 120 degrees apart.

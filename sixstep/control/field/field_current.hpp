@@ -35,7 +35,9 @@ enum class VoltageLimit : std::uint8_t { axes, circle };
 /// Default: the voltage is 0.
 template <class Scalar>
 struct FieldCurrentConfig {
-  PiConfig<Scalar> d{}, q{};  ///< A -> V of a phase; their `limit` applies to VoltageLimit::axes only
+  /// They convert the current error in A to a phase voltage in V. Their `limit` applies to VoltageLimit::axes
+  /// only.
+  PiConfig<Scalar> d{}, q{};
   VoltageLimit limit = VoltageLimit::circle;
   bool decouples = false;
   Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s of the coupling to q

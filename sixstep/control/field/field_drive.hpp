@@ -32,7 +32,7 @@ namespace sixstep::control {
 /// Default: Mode::off, the bridge is off.
 template <class Scalar>
 struct FieldDriveConfig {
-  DriveConfig<Scalar> drive{};  ///< mode and the loops around the currents
+  DriveConfig<Scalar> drive{};  ///< mode and outer loops (speed, position)
   FieldCurrentConfig<Scalar> current{};
   FieldWeakeningConfig<Scalar> weakening{};
   TorquePerAmpereConfig<Scalar> per_ampere{};

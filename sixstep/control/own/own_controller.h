@@ -15,8 +15,8 @@
  * chip computes in float. tools/own_cost.sh counts instructions, flash and RAM on the chip.
  *
  * The result must depend only on config, state and the arguments, because the program repeats, resumes and
- * copies runs, and executes several runs at once. State is copied as bytes, so it must not contain a pointer into itself. No function may
- * allocate, block, throw or end the program. */
+ * copies runs, and executes several runs at once. State is copied as bytes, so the state must not contain a
+ * pointer into itself. No function may allocate, block, throw or end the program. */
 #ifndef SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 #define SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 
@@ -50,10 +50,13 @@ enum { SIXSTEP_ANSWERS_PAIR = 0, SIXSTEP_ANSWERS_LEGS = 1 };
 typedef struct {
   sixstep_real current_A[3]; /* currents of phases a, b, c, into the motor */
   sixstep_real speed_rad_s;  /* mechanical; for a linear motor m/s */
-  sixstep_real position_deg; /* mechanical, counted over turns; for a linear motor: position in m times 180/pi */
+  /* Mechanical; does not wrap after a full turn. For a linear motor: position in m times 180/pi. */
+  sixstep_real position_deg;
   sixstep_real bus_V;
-  sixstep_real magnet_cos, magnet_sin; /* cosine and sine of the magnet's electrical angle from phase a's axis; with Hall codes only: of the middle of the sector */
-  uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
+  /* Cosine and sine of the magnet's electrical angle from phase a's axis. With Hall codes only: of the angle of the
+   * middle of the sector. */
+  sixstep_real magnet_cos, magnet_sin;
+  uint8_t hall; /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
 } sixstep_measured;
 
 typedef struct {

@@ -39,7 +39,7 @@ struct GrayConfig {
 struct GrayState {
   BinaryAngle past[9]{};  ///< angles of the last ticks, newest first
   UnwrappedAngle position{};
-  std::uint8_t known = 0;    ///< valid entries of `past`
+  std::uint8_t known = 0;    ///< number of valid entries of `past`
   std::uint8_t bad = 0;      ///< consecutive bad codes
   std::uint32_t faults = 0;  ///< bad codes in total
 };

@@ -59,7 +59,7 @@ struct StartUpState {
   std::uint32_t faster = 0;  ///< increase of the acceleration by the jerk, in 1/65536 of the unit of
                              ///< `acceleration`
   std::uint16_t ticks = 0;   ///< control ticks in the present sector
-  std::uint8_t waited = 0;   ///< whole sectors of waiting for a crossing
+  std::uint8_t waited = 0;   ///< number of whole sectors for which the ramp has waited for a crossing
   std::uint8_t trusted = 0;  ///< consecutive found crossings
   std::uint8_t passed = 0;   ///< consecutive sectors whose crossing had passed before it could be detected
 };
