@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mechanical and electrical angle are different types; only the number of pole pairs converts them.
+// Mechanical and electrical angles are different types. Only PolePairs converts between them.
 #pragma once
 
 namespace sixstep::base {
@@ -10,13 +10,14 @@ struct MechanicalAngle {
   bool operator==(const MechanicalAngle&) const = default;
 };
 
-/// Angle of the rotor's magnet against the stator, electrical, rad: theta_e = p theta_m (model.md 1).
+/// Electrical angle of the rotor's magnet relative to the stator, rad: the mechanical angle times the pole
+/// pairs (model.md 1).
 struct ElectricalAngle {
   double rad = 0.0;
   bool operator==(const ElectricalAngle&) const = default;
 };
 
-/// Number of pole pairs; for a linear motor pi/tau, which need not be an integer.
+/// Number of pole pairs. For a linear motor: pi/(pole pitch in m), which need not be an integer.
 struct PolePairs {
   double count = 1;
   constexpr ElectricalAngle electrical(MechanicalAngle m) const { return {m.rad * count}; }

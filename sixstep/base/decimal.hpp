@@ -10,9 +10,9 @@ namespace sixstep::base {
 inline constexpr double more_than_printed = 1e10;
 
 /// A printed number times 10^ten, as the double nearest to the decimal product. 0.572 mH becomes exactly the
-/// double of 0.000572, and 135 g cm^2 the double of 1.35e-5. For this purpose the digits, as an integer, are
-/// multiplied or divided by one exact power of ten and rounded once; dividing 0.572 itself would round twice.
-/// `ten` is in -22..22, where powers of ten are exact doubles.
+/// double of 0.000572, and 135 g cm^2 the double of 1.35e-5. The digits form an integer. This integer is
+/// multiplied or divided by one exact power of ten, which rounds once. Dividing 0.572 itself would round
+/// twice. `ten` is in -22..22, where powers of ten are exact doubles.
 inline double times_ten_to(double printed, int ten) {
   const auto scaled = [](double x, int power) {
     double exact = 1.0;

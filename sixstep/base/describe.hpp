@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// One description of each parameter serves all interfaces: the TOML reader with its checks, help, the schema
-// and Python, and later the web form and the FMU. For each parameter struct S there is one free function
+// Each parameter is described once. All interfaces use this description: TOML reader, help, schema, Python.
+// For each parameter struct S there is one free function
 //
 //   void describe(Visitor& v, S& s);          (base/visitor.hpp)
 //
-// This function visits the members in reading order. For each member it calls one of these functions of the
-// visitor:
+// describe() visits the members in the order of the help. For each member it calls one of these functions of
+// the visitor:
 //   v.value(key, member, about)            double, int, bool, std::string,
 //                                          std::optional<double>, std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
 //   v.quantity(key, member, about)         Quantity: a number with frame and source
-//   v.table(key, member, about)            a described struct, or a std::optional of one
+//   v.table(key, member, about)            a described struct, or a std::optional of a described struct
 //   v.list(key, member, about)             std::vector of a described struct, TOML's [[key]]
 // The default of a member is its value in a default-constructed S.
 #pragma once
@@ -23,7 +23,8 @@
 
 namespace sixstep::base {
 
-/// Range of a number. A missing end is open; `above`/`below` exclude the bound, `from`/`to` include it.
+/// Range of a number. The defaults are unbounded. above() and strictly_between() exclude the bounds, from()
+/// and between() include them.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -41,20 +42,20 @@ constexpr Range from(double low) { return {.low = low}; }
 constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 constexpr Range strictly_between(double low, double high) { return {low, high, false, false}; }
 
-/// Another key for the same value, for another form in a data sheet: another unit, or a line number.
+/// Another key for the same value, because data sheets differ: another unit, another name, or a linear motor.
 struct Spelling {
   std::string_view key;
-  int ten = 0;                    ///< value in the key's own unit = 10^ten times the written value
+  int ten = 0;                    ///< value in the unit of the key = 10^ten times the written value
   std::string_view unit = "";     ///< unit of the written value; empty: the key's unit
   std::string_view frame = "";    ///< the only possible frame of a value with this spelling; empty: the key's
                                   ///< frames
   std::string_view source = "";   ///< source that follows from the spelling: "data sheet, line 10"
-  std::string_view meaning = "";  ///< meaning in this only frame; empty: the key's meaning
-  double factor = 1.0;            ///< further factor on the written value
+  std::string_view meaning = "";  ///< meaning of the value in `frame`; empty: the key's meaning
+  double factor = 1.0;            ///< additional factor on the written value
   bool linear = false;            ///< true: the spelling is for linear motors only (base/linear.hpp)
 };
 
-/// The data of one key for an interface.
+/// Description of one key, for all interfaces.
 struct About {
   std::string_view meaning;     ///< one or two plain sentences, no full stop at the end
   std::string_view unit = "";   ///< "V", "rad/s"; empty for counts, words and ratios
@@ -70,7 +71,7 @@ struct About {
                                         ///< per second
   std::string_view unit_here =
       "";  ///< unit that follows from values read before, such as the unit of a figure or a signal
-  std::string_view unit_of = "";  ///< path of the key that has the unit
+  std::string_view unit_of = "";  ///< path of the key whose value selects the unit
 };
 
 /// One word of an enumeration as written in files, with its meaning.
@@ -99,8 +100,8 @@ enum class Trust : std::uint8_t {
 };
 
 inline constexpr Choice<Trust> trust_choices[] = {
-    {"sheet", Trust::sheet, "the maker's print"},
-    {"measured", Trust::measured, "by another source, on one motor"},
+    {"sheet", Trust::sheet, "printed by the maker"},
+    {"measured", Trust::measured, "measured by another source, on one motor"},
     {"derived", Trust::derived, "computed from other values"},
 };
 

@@ -30,8 +30,8 @@ constexpr DoubleDouble split(double a) {
   return {high, a - high};
 }
 
-/// a b exactly (Dekker 1971). A fused multiply-add would give the same two numbers, but not every target has
-/// this instruction.
+/// a b exactly (Dekker 1971). A fused multiply-add would compute the same two numbers, but not every target
+/// has this instruction.
 constexpr DoubleDouble two_prod(double a, double b) {
   const double p = a * b;
   const DoubleDouble x = split(a), y = split(b);

@@ -24,7 +24,7 @@ constexpr double log2_e = 0x1.71547652b82fep+0;
 
 bool is_nan(double x) { return x != x; }
 
-/// 2^n, for n for which 2^n is a normal double.
+/// 2^n for n in -1022..1023, so that 2^n is a normal double.
 double power_of_two(std::int64_t n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
@@ -62,8 +62,9 @@ double exp_sum(DoubleDouble x) {
   return scale(sum.high + (sum.low + (one_r.low + rest * (1.0 + (h + tail)))), n);
 }
 
-/// log x to about 2^-68, for finite x > 0: x = 2^k m with m in [sqrt(1/2), sqrt 2), s = (m - 1)/(m + 1),
-/// log m = 2 s (1 + s^2/3 + s^4/5 + ...), |s| <= 0.1716.
+/// log x with an error of about 2^-68, for finite x > 0: log x = k ln 2 + log m.
+/// x = 2^k m with m in [sqrt(1/2), sqrt 2).
+/// log m = 2 s (1 + s^2/3 + s^4/5 + ...) with s = (m - 1)/(m + 1), |s| <= 0.1716.
 DoubleDouble log_sum(double x) {
   std::int64_t k = 0;
   if (x < std::numeric_limits<double>::min()) {  // subnormal
@@ -71,8 +72,8 @@ DoubleDouble log_sum(double x) {
     k = -54;
   }
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-  // Adding the difference of the bits of 1 and of sqrt(1/2) carries into the exponent for all numbers from
-  // sqrt 2 on.
+  // Difference of the bits of 1 and of sqrt(1/2). Adding it to the bits of a number increments the exponent
+  // if the mantissa is at least sqrt 2.
   constexpr std::uint64_t half_octave = 0x3ff0000000000000u - 0x3fe6a09e667f3bcdu;
   const std::int64_t octave = static_cast<std::int64_t>((bits + half_octave) >> 52) - 1023;
   k += octave;
@@ -91,7 +92,7 @@ DoubleDouble log_sum(double x) {
   p = p * h + 1.0 / 13;
   p = p * h + 1.0 / 11;
   p = p * h + 1.0 / 9;
-  // The next terms are so large that their rounding has an effect; they are added in double-double.
+  // The rounding of the next terms would affect the result. They are added in double-double.
   DoubleDouble sum = q * p + DoubleDouble{0x1.2492492492492p-3, 0x1.2492492492492p-57};  // 1/7
   sum = q * sum + DoubleDouble{0x1.999999999999ap-3, -0x1.999999999999ap-57};            // 1/5
   sum = q * sum + DoubleDouble{0x1.5555555555555p-2, 0x1.5555555555555p-56};             // 1/3
@@ -110,7 +111,7 @@ Parity parity(double y) {
   return whole % 2 != 0 ? Parity::odd : Parity::even;
 }
 
-/// x^y for x > 0 and y != 0, each finite or infinite, neither NaN, and x != 1.
+/// x^y for x > 0, x != 1 and y != 0. Both numbers may be infinite, but not NaN.
 double pow_positive(double x, double y) {
   if (y == infinity || y == -infinity) return (x > 1.0) == (y > 0.0) ? infinity : 0.0;
   if (x == infinity) return y > 0.0 ? infinity : 0.0;

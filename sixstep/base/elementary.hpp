@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elementary functions with the same bits on every platform. The last digit of the C library's functions
-// differs between systems; code that can influence a trajectory therefore never calls them. The functions
-// here use only + - * / and integer operations. Their error is below 1 ulp over the whole range, including
-// subnormals (measured: tests/base/elementary_test.cpp). Special values are as in C's annex F; every NaN
-// result is the same quiet NaN.
+// differs between systems; code that can influence a trajectory therefore never calls them. The functions in
+// this file use only + - * / and integer operations. Their error is below 1 ulp over the whole range,
+// including subnormals (measured: tests/base/elementary_test.cpp). Special values are as in C's annex F;
+// every NaN result is the same quiet NaN.
 #pragma once
 
 namespace sixstep::base {
@@ -23,8 +23,8 @@ SinCos sin_cos(double rad);
 inline double sin(double rad) { return sin_cos(rad).sin; }
 inline double cos(double rad) { return sin_cos(rad).cos; }
 
-/// Angle of the point (x, y), rad, in [-pi, pi]. On the negative x axis the result has the sign of the zero
-/// y.
+/// Angle of the point (x, y), rad, in [-pi, pi]. On the negative x axis the result is pi for y = 0 and -pi
+/// for y = -0.
 double atan2(double y, double x);
 
 }  // namespace sixstep::base

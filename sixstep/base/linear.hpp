@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and units of linear motors. A linear motor has the equations of a rotary motor with v for w, m for J,
-// F for T and pi/tau for p (model.md 7). The library computes with the rotary motor's symbols, where 1 rad
-// means 1 m; files and results use metres. Only this file contains the table of both.
+// Words and units of linear motors. A linear motor has the equations of a rotary motor (model.md 7). Speed v
+// replaces w, mass m replaces J, force F replaces T, and pi/(pole pitch) replaces the pole pairs p. The
+// library computes with the rotary motor's symbols, where 1 rad means 1 m; files and results use metres. Only
+// this file contains the table of corresponding words and units.
 #pragma once
 #include <string>
 #include <string_view>
@@ -83,7 +84,7 @@ inline constexpr LinearWord linear_word_table[] = {
     {"K\u209c", "K_f"},
 };
 
-/// Units that are replaced one for one, in prose and in keys. No letter may precede or follow the unit.
+/// Units in prose and in keys. A unit is replaced only if no letter precedes or follows it.
 inline constexpr LinearWord linear_unit_words[] = {
     {"rad/s", "m/s"}, {"rad_s", "m_s"},  {"kg m2", "kg"}, {"kg_m2", "kg"},  {"N m/A", "N/A"}, {"Nm/A", "N/A"},
     {"Nm_A", "N_A"},  {"Nm_s", "N_s_m"}, {"Nm", "N"},     {"V_s", "V_s_m"}, {"N m", "N"},
@@ -108,9 +109,9 @@ inline void replace(std::string& text, const LinearWord& word, bool whole) {
 
 }  // namespace linear_text
 
-/// Replaces a rotary motor's words in a text or a name by a linear motor's: force for torque, mass for
-/// inertia, position for angle. Numbers are not converted: a text with a number in degrees, turns or
-/// thousandths needs its own version for linear motors.
+/// Replaces a rotary motor's words in a text or a name by a linear motor's words. Torque becomes force,
+/// inertia becomes mass, angle becomes position. Numbers are not converted: a text with a number in degrees,
+/// turns or thousandths needs its own version for linear motors.
 inline std::string linear_words(std::string text) {
   for (const LinearWord& word : linear_word_table) linear_text::replace(text, word, false);
   for (const LinearWord& unit : linear_unit_words) linear_text::replace(text, unit, true);
@@ -127,7 +128,7 @@ struct Motion {
   std::string words(std::string text) const { return linear ? linear_words(std::move(text)) : text; }
 };
 
-/// Converts a number written with another spelling to the key's own unit; as_spelled() converts back.
+/// Converts a number that is written with another spelling to the key's unit; as_spelled() converts back.
 inline double in_own_unit(double written, const Spelling& s) {
   return times_ten_to(written, s.ten) * s.factor;
 }

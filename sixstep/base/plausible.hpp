@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of plausible numbers for each unit. Every number from outside is checked against it: from a file,
-// the command line, a table of rows or another program. The ranges are so wide that only mistakes are
-// rejected (1e308, a forgotten unit), and so narrow that products of a few such numbers stay within a double.
-// A key may have a narrower range.
+// The table of plausible numbers for each unit. Every number from a file, the command line, a table of rows
+// or another program must be in the range of its unit. The ranges reject only mistakes, such as 1e308 or a
+// forgotten unit. Products of a few allowed numbers do not overflow a double. A key may have a narrower
+// range.
 #pragma once
 #include <string_view>
 
@@ -38,8 +38,8 @@ inline constexpr Plausible plausible_numbers[] = {
 /// Limits for gains, ratios, and numbers whose unit is not in the table.
 inline constexpr Plausible any_number = {"", 1e-12, 1e12};
 
-/// Formulas treat a smaller number like 0, but the inverse or the square of such a number would exceed the
-/// range of a double.
+/// Least magnitude of a number that is not 0. A smaller number has the same effect as 0 in formulas, but its
+/// inverse or its square would exceed the range of a double.
 inline constexpr double nearly_nothing = 1e-30;
 
 constexpr Plausible plausible(std::string_view unit) {

@@ -3,7 +3,7 @@
 // draws the same values regardless of earlier draws, of the number of threads and of the platform.
 //
 // Generator: Philox4x32-10 (J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as
-// easy as 1, 2, 3", SC11, 2011). Ten rounds pass all of TestU01's BigCrush; the authors' known answers are in
+// easy as 1, 2, 3", SC11, 2011). Ten rounds pass all of TestU01's BigCrush; the authors' test vectors are in
 // tests/base/random_test.cpp.
 #pragma once
 #include <array>
@@ -30,7 +30,8 @@ constexpr PhiloxBlock philox(PhiloxBlock x, PhiloxKey key) {
   return x;
 }
 
-/// Address of a random number. Addresses that differ in any of the three members give independent numbers.
+/// Address of a random number. The numbers at two addresses that differ in any of the three members are
+/// independent.
 struct RandomPlace {
   std::uint64_t seed = 0;
   std::uint64_t stream = 0;   ///< identifies the quantity: each quantity has its own stream

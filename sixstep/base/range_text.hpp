@@ -8,8 +8,7 @@
 
 namespace sixstep::base {
 
-/// The range as a clause: "must be above 0 and at most 1"; "must be a finite number" for a range open on both
-/// ends.
+/// The range as a clause: "must be above 0 and at most 1"; "must be a finite number" for an unbounded range.
 std::string limit_of(const Range& range);
 
 /// The limit that x, the number of a key, violates: the key's own range, or else the plausible range of its

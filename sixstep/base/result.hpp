@@ -17,13 +17,13 @@ class [[nodiscard]] Result {
 
   explicit operator bool() const { return content_.index() == 0; }
 
-  /// Requires a value, which operator bool shows; otherwise the call dereferences null.
+  /// Requires that operator bool is true; otherwise the call dereferences null.
   T& operator*() { return *std::get_if<0>(&content_); }
   const T& operator*() const { return *std::get_if<0>(&content_); }
   T* operator->() { return std::get_if<0>(&content_); }
   const T* operator->() const { return std::get_if<0>(&content_); }
 
-  /// Requires problems instead of a value; otherwise the call dereferences null.
+  /// Requires that operator bool is false; otherwise the call dereferences null.
   const Problems& problems() const { return *std::get_if<1>(&content_); }
 
  private:

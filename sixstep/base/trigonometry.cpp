@@ -50,15 +50,16 @@ constexpr std::array<std::uint32_t, 39> two_over_pi_words{
     0xef2f118b, 0x5a0a6d1f, 0x6d367ecf, 0x27cb09b7, 0x4f463f66, 0x9e5fea2d, 0x7527bac7, 0xebe5f17b,
     0x3d0739f7, 0x8a5292ea, 0x6bfb5fb1, 0x1f8d5d08, 0x56033046, 0xfc7b6bab, 0xf0cfbc20};
 
-/// Reduces x >= 2^20: x 2/pi modulo 4 in integers (Payne and Hanek 1983), with x = M 2^E. Words of 2/pi whose
-/// product with x is a multiple of 4 are skipped. The next seven words (224 bits) are exact to 2^-137.
+/// Reduces x >= 2^20: computes x 2/pi modulo 4 in integers (Payne and Hanek 1983), with x = M 2^E. The
+/// function skips words of 2/pi whose product with x is a multiple of 4. The next seven words (224 bits) are
+/// exact to 2^-137.
 Reduced reduce_large(double x) {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   const std::int64_t E = static_cast<std::int64_t>(bits >> 52) - 1075;
   const std::uint64_t M = (bits & 0xfffffffffffffu) | 0x10000000000000u;
   const std::uint64_t M_parts[2] = {M & 0xffffffffu, M >> 32};
   const std::int64_t first = E >= 34 ? (E - 2) / 32 : 0;
-  std::array<std::uint64_t, 10> product{};  // limbs of 32 bits, least first
+  std::array<std::uint64_t, 10> product{};  // digits of 32 bits, least significant first
   for (std::size_t m = 0; m < 2; ++m) {
     std::uint64_t carry = 0;
     for (std::size_t j = 0; j < 7; ++j) {
@@ -76,7 +77,7 @@ Reduced reduce_large(double x) {
   const std::uint64_t half_bit =
       shift > 0 ? (product[top] >> (shift - 1)) & 1u : (product[top - 1] >> 31) & 1u;
   double sign = 1.0;
-  if (half_bit != 0) {  // the next quarter turn is nearer: the remainder is counted back from it
+  if (half_bit != 0) {  // the next quarter turn is nearer: the remainder relative to it is negative
     ++quarters;
     sign = -1.0;
     std::uint64_t carry = 1;
@@ -87,7 +88,7 @@ Reduced reduce_large(double x) {
       carry = i < top ? sum >> 32 : 0;
     }
   }
-  DoubleDouble fraction;  // summed from the smallest term on, so that no bit is lost
+  DoubleDouble fraction;  // summed beginning with the smallest term, so that no bit is lost
   double weight = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - point) << 52);
   for (std::size_t i = 0; i <= top; ++i, weight *= 0x1p32)
     fraction = fraction + static_cast<double>(product[i]) * weight;
@@ -135,8 +136,9 @@ constexpr std::array<DoubleDouble, 9> atan_eighths{{{0.0, 0.0},
                                                     {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
                                                     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
 
-/// atan(y/x) for 0 <= y <= x with x in [1, 2): atan c + atan s. c is the eighth nearest to y/x, and
-/// s = (y - c x)/(x + c y), |s| <= 1/16, atan s = s - s^3/3 + ...
+/// atan(y/x) for 0 <= y <= x with x in [1, 2): atan c + atan s.
+/// c is the multiple of 1/8 nearest to y/x.
+/// s = (y - c x)/(x + c y), |s| <= 1/16, and atan s = s - s^3/3 + ...
 DoubleDouble atan_ratio(double y, double x) {
   const double eighths = std::floor(8.0 * (y / x) + 0.5), c = eighths / 8.0;
   const DoubleDouble s = (-two_prod(c, x) + y) / (two_prod(c, y) + x);
@@ -164,8 +166,8 @@ double first_quadrant(double y, double x, bool mirrored) {
   if (small < big * 0x1p-60) {  // atan of the ratio equals the ratio, and is negligible beside pi/2
     if (y <= x && !mirrored) return y / x;
   } else {
-    // A power of two scales the larger number to [1, 2). It is applied as two factors, because it may not be
-    // a double itself.
+    // A power of two scales the larger number to [1, 2). This power may exceed the range of a double, so it
+    // is applied as two factors.
     const std::int64_t exponent = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(big) >> 52) - 1023;
     const double half = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent / 2) << 52);
     const double other =
@@ -205,7 +207,7 @@ double atan2(double y, double x) {
   if (y_size == infinity || x_size == infinity) {  // only the direction has an effect: 0, 45 or 90 degrees
     y_size = y_size == infinity ? 1.0 : 0.0;
     x_size = x_size == infinity ? 1.0 : 0.0;
-  } else if (y_size < 0x1p-900 && x_size < 0x1p-900) {  // both are tiny: scaled by a common factor
+  } else if (y_size < 0x1p-900 && x_size < 0x1p-900) {  // both are tiny: a common factor scales them
     y_size *= 0x1p110;
     x_size *= 0x1p110;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visitors of the members of described structs (base/describe.hpp). Descriptions are compiled once, for class
-// Visitor. The visitor receives a member whose type is a struct or an enumeration through a small handle that
-// hides the type.
+// Visitor. A member that is a struct, a list or an enumeration is passed to the visitor as a handle that
+// hides the member's type.
 #pragma once
 #include <cstddef>
 #include <cstdint>

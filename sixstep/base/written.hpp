@@ -22,12 +22,12 @@ inline std::string rounded(double x, int digits) {
   return {text, end.ptr};
 }
 
-/// A number in a sentence that need not be exact.
+/// x rounded to three significant digits, for sentences that need no exact value.
 inline std::string three_digits(double x) { return rounded(x, 3); }
-/// A number that a user gave, or the result of a formula.
+/// x rounded to six significant digits, for a number from a user or from a formula.
 inline std::string six_digits(double x) { return rounded(x, 6); }
 
-/// A number as sixteen hexadecimal digits.
+/// `bits` as sixteen hexadecimal digits.
 inline std::string written_hex(std::uint64_t bits) {
   std::string text(16, '0');
   for (auto digit = text.rbegin(); bits != 0; ++digit, bits >>= 4) *digit = "0123456789abcdef"[bits & 15];

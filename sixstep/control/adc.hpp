@@ -19,7 +19,7 @@ template <class Scalar>
 struct AdcConfig {
   Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
                                        ///< fixed point: raw units
-  std::uint16_t offset_counts = 0;     ///< counts without current, by the circuit's design
+  std::uint16_t offset_counts = 0;     ///< nominal counts without current
   std::uint16_t offset_tolerance = 0;  ///< largest deviation of the measured offset, counts
   std::uint8_t log2_samples = 6;       ///< 2^n samples in one calibration, n at most 12
   bool operator==(const AdcConfig&) const = default;
@@ -33,8 +33,8 @@ struct AdcState {
 
 enum class Calibration : std::uint8_t { running, done, failed };
 
-/// Takes one sample while the bridge is off and no current flows. The result is `done` or `failed` at the
-/// last sample.
+/// Adds one sample of the calibration. The bridge must be off, without current. The result is `done` or
+/// `failed` at the last sample.
 template <class Scalar>
 constexpr Calibration adc_calibrate(const AdcConfig<Scalar>& config, AdcState& state, std::uint16_t counts) {
   const std::uint8_t n = config.log2_samples > 12 ? std::uint8_t{12} : config.log2_samples;

@@ -4,8 +4,8 @@
 //
 //   advance = fixed + per_speed |w|, at most limit;    switch early where fraction >= 1 - advance
 //
-// advance and fraction are in sectors (60 electrical degrees = 1), measured in the direction of turning. w is
-// the mechanical speed.
+// advance and fraction are in sectors (1 = 60 electrical degrees), measured in the direction of rotation. w
+// is the mechanical speed.
 #pragma once
 #include <cstdint>
 
@@ -14,8 +14,8 @@
 
 namespace sixstep::control {
 
-/// With the default the drive commutates at the edge. With a limit of 1/2 or less, the selected pair is at
-/// most 30 degrees ahead of the correct pair.
+/// Default: the drive commutates at the edge. With a limit of 1/2 or less, the drive commutates at most 30
+/// electrical degrees before the edge.
 template <class Scalar>
 struct AdvanceConfig {
   Scalar fixed{};            ///< sectors
@@ -31,8 +31,8 @@ constexpr Scalar advance_angle(const AdvanceConfig<Scalar>& config, Scalar speed
   return between(wanted, Scalar{}, config.limit);
 }
 
-/// The sector to commutate for. `direction`: -1, 0 or 1. `fraction`: distance since the last edge in this
-/// direction, in sectors.
+/// The sector whose pair the drive selects. `direction`: -1, 0 or 1. `fraction`: distance since the last edge
+/// in `direction`, in sectors.
 template <class Scalar>
 constexpr std::uint8_t advanced_sector(const AdvanceConfig<Scalar>& config, std::uint8_t sector,
                                        std::int8_t direction, Scalar fraction, Scalar speed_rad_s) {

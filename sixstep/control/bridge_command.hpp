@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface between controller and chip. Measurement and setpoint are its input, a bridge command is its
-// output. The simulated board and a real board use the same plain structs.
+// The interface between controller and chip. The controller reads a Measurement and a Setpoint and returns a
+// BridgeCommand. The simulated board and a real board use the same plain structs.
 #pragma once
 #include <cstdint>
 
 namespace sixstep::control {
 
-/// The thesis's modes (model.md 13). The mode defines the meaning and the unit of the setpoint.
+/// Control modes. The mode defines the meaning and the unit of the setpoint.
 enum class Mode : std::uint8_t { off, duty, current, speed, position };
 
 /// State of the switches in the off part of a PWM period (model.md 3).
@@ -36,7 +36,7 @@ template <class Scalar>
 struct Measurement {
   Scalar i_a_A{}, i_b_A{}, i_c_A{};
   Scalar speed_rad_s{};   ///< mechanical
-  Scalar position_deg{};  ///< mechanical, counted over turns
+  Scalar position_deg{};  ///< mechanical; does not wrap after a full turn
   Scalar bus_V{};
   std::uint8_t hall = 0;  ///< H1 H2 H3 as bits 2, 1, 0
 };
@@ -63,12 +63,12 @@ struct BridgeCommand {
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
-  /// Duty -1..1 of the leaving leg: it has left the pair, but its current has not ended. Above 0 its upper
-  /// switch is chopped, below 0 its lower switch.
+  /// Duty, -1..1, of the leaving leg. This leg has left the pair, but its current still decays. Above 0: its
+  /// upper switch is chopped; below 0: its lower switch.
   Scalar overlap{};
-  Scalar on_below_A{};   ///< a comparator switches on if its current is below this
-  Scalar off_above_A{};  ///< a comparator switches off if its current is above this
-  bool fault = false;    ///< an invalid Hall code was seen; the bridge is off
+  Scalar on_below_A{};   ///< a comparator switches on if its current is below this value
+  Scalar off_above_A{};  ///< a comparator switches off if its current is above this value
+  bool fault = false;    ///< true: the Hall code was invalid, and the bridge is off
 
   bool operator==(const BridgeCommand&) const = default;
 };

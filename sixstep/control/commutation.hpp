@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the commutation table. Only this file relates Hall codes, sectors and driven pairs (model.md 3).
+// The commutation table: only this file relates Hall codes, sectors and driven pairs (model.md 3).
 #pragma once
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace sixstep::control {
 inline constexpr std::uint8_t no_sector = 0xff;
 
 /// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0). Returns no_sector for 000
-/// and 111: intact probes 120 degrees apart never give these codes, so a wire or a probe is broken.
+/// and 111: intact probes 120 degrees apart never produce these codes, so a wire or a probe is broken.
 constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
   switch (code) {
     case 0b100:
@@ -63,8 +63,8 @@ constexpr Scalar phase_current(const Measurement<Scalar>& m, Leg leg) {
   return leg == Leg::a ? m.i_a_A : leg == Leg::b ? m.i_b_A : m.i_c_A;
 }
 
-/// Motor current i_m = (i_p - i_n)/2 of the positive-torque pair, so that T_e = K_t i_m on flat tops
-/// (model.md 3).
+/// Motor current i_m = (i_p - i_n)/2, with the currents i_p of the source and i_n of the sink of the
+/// positive-torque pair. On flat tops the torque T_e is K_t i_m, with the torque constant K_t (model.md 3).
 template <class Scalar>
 constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
   return ScalarTraits<Scalar>::half_difference(phase_current(m, positive.source),
@@ -88,8 +88,9 @@ constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   return state.leg;
 }
 
-/// i_m measured in the staying phase only. During a commutation this current determines the torque, T_e w = 2
-/// E i while all shapes are flat. At other times it equals the current of the pair.
+/// i_m measured in the staying phase only. During a commutation this current i determines the torque T_e: T_e
+/// w = 2 E i while all back-EMFs are flat, with speed w and back-EMF E of a phase. At other times it equals
+/// the current of the pair.
 template <class Scalar>
 constexpr Scalar staying_current(StayingPhase& state, const Measurement<Scalar>& m, std::uint8_t sector) {
   const Leg leg = staying_leg(state, sector);

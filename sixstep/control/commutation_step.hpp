@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps the duty at a commutation. While the leaving phase's current decays through its diode, the duty that
-// holds the staying phase's current differs from the duty of the pair. E is the back-EMF of a phase on its
-// flat top, R and L are the values of a phase, I is the current, U the bus voltage and d the duty. The
-// leaving terminal is at the far rail. The star's three equations (model.md 1) give for the staying phase
+// keeps the staying phase's current constant differs from the duty before and after. E is the back-EMF of a
+// phase on its flat top, R and L are the values of a phase, I is the current, U the bus voltage and d the
+// duty. The leaving terminal is at the far rail. From the star's three equations (model.md 1) the staying
+// phase's current I changes by
 //
 //   L dI/dt = ((2 d - 1) U - 4 E - 3 R I)/3     if the staying phase's switch is chopped
 //   L dI/dt = (d U - 4 E - 3 R I)/3             if the entering phase's switch is chopped
@@ -11,29 +12,29 @@
 //
 //   d = 1/2 + (4 E + 3 R I)/(2 U)   and   d = (4 E + 3 R I)/U
 //
-// whereas without a leaving current d = (2 E + 2 R I)/U holds it. If 4 E + 3 R I is above U, no duty holds
-// the current, and d is 1 (Carlson, Lajoie-Mazenc and Fagundes, Analysis of torque ripple due to phase
+// Without a leaving current, I is constant at d = (2 E + 2 R I)/U. If 4 E + 3 R I is above U, I falls at
+// every duty, and d is 1 (Carlson, Lajoie-Mazenc and Fagundes, Analysis of torque ripple due to phase
 // commutation in brushless DC machines, IEEE Trans. Ind. Appl. 28, 1992). If legs may overlap, the leaving
-// phase's own switch is then also chopped, with the duty
+// phase's switch is then also chopped, with the duty
 //
 //   x = (4 E + 3 R I)/U - 1
 //
-// The leaving terminal is then at x U on average instead of at the rail. This replaces d U above by (d + x)
-// U.
+// The leaving terminal is then at x U on average instead of at the rail. In the formulas above, (d + x) U
+// then replaces d U.
 //
-// Meanwhile the leaving current i falls by (2 E + R I + R i)/L. On average (i = I/2) it falls by u/L, with u
-// = 2 E + 3 R I/2, half of the voltage that the held current needs. With overlapping legs it falls by (U -
-// u)/L. A step comes too late if the rest of i at the instant when the command acts is less than the fall in
-// half a period. In a braking motor the back-EMF maintains the leaving current, and no step is needed.
+// Meanwhile the leaving current i falls by (2 E + R I + R i)/L per second. On average (i = I/2) it falls by
+// u/L, with u = 2 E + 3 R I/2, half of the voltage that keeps I constant. With overlapping legs i falls by (U
+// - u)/L. A step is too late if, at the instant when the command acts, i is less than its fall in half a
+// period. In a braking motor the back-EMF maintains the leaving current, and no step is needed.
 //
 // The leaving phase's flat top ends at the edge, or later by the fraction g of a flank. At the fraction f of
-// the flank its back-EMF is E (1 - 2 f), and -E at the flank's end. 4 E becomes 4 E - 2 E f, and 2 E in u
-// becomes 2 E - E f.
+// the flank the leaving phase's back-EMF is E (1 - 2 f). In the formulas, 4 E then becomes 4 E - 2 E f, and 2
+// E in u becomes 2 E - E f.
 //
 // The edge lies within a control period, and the staying current falls until the command acts. A step without
-// a correction would hold the lower current. The deviation from the reference therefore adds voltage: 3/2 V
-// for each volt that the pair's current loop would add. The factor is 3/2 because L di/dt is a third of the
-// voltage during a commutation, and half of it otherwise.
+// a correction would keep the current at this lower value. The deviation from the reference therefore adds
+// voltage: 3/2 V for each volt that the pair's current loop would add. The factor is 3/2 because L di/dt is a
+// third of the voltage during a commutation, and half of it otherwise.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -41,7 +42,7 @@
 
 namespace sixstep::control {
 
-/// By default the duty steps at every commutation in which a current flows, to 0 or 1/2.
+/// Default: the duty steps to 0 or 1/2 at every commutation in which a current flows.
 template <class Scalar>
 struct CommutationStepConfig {
   Gain<Scalar> K_t_V_s{};           ///< V of the back-EMF 2 E per mechanical rad/s
@@ -60,16 +61,16 @@ template <class Scalar>
 struct CommutationStepState {
   StayingPhase staying{};
   bool hands_over = false;
-  bool drives = false;  ///< the rotor turned in the command's direction at the last tick
+  bool drives = false;  ///< true: the rotor turned in the command's direction at the last tick
   Scalar driven_A{};    ///< the staying phase's current at the last tick, positive in the command's direction
   Scalar volts{};       ///< u at the last tick, V
   Scalar flank{};       ///< f; below 0 before the flank begins
-  Scalar least_A{};     ///< with a smaller leaving current a step comes too late
-  Scalar part{};        ///< (4 E + 3 R I)/(2 U): 0 to 1/2, to 1 if legs may overlap
+  Scalar least_A{};     ///< least leaving current for a step; below this value a step is too late
+  Scalar part{};        ///< (4 E + 3 R I)/(2 U): 0 to 1/2, or 0 to 1 if legs may overlap
 };
 
-/// u = 2 E - E f + 3 R I/2 in the command's direction, V: half of the voltage that the held current needs.
-/// `flank` is f, 0 to 1.
+/// u = 2 E - E f + 3 R I/2 in the command's direction, V: half of the voltage that keeps the staying current
+/// constant. `flank` is f, 0 to 1.
 template <class Scalar>
 constexpr Scalar holding_voltage(const CommutationStepConfig<Scalar>& config, Scalar driven_rad_s,
                                  Scalar driven_A, Scalar flank = {}) {
@@ -89,8 +90,8 @@ constexpr void enter_sector(const CommutationStepConfig<Scalar>& config, Commuta
   state.flank = -config.flat_flanks;
 }
 
-/// Call it once per tick. It compares the rest of the leaving current with state.least_A, and computes the
-/// voltage that holds the staying current. `reversed`: sign of the last command.
+/// Call it once per tick. It compares the leaving current with state.least_A, and computes the voltage that
+/// keeps the staying current constant. `reversed`: sign of the last command.
 template <class Scalar>
 constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, CommutationStepState<Scalar>& state,
                              const Measurement<Scalar>& measured, std::uint8_t sector, bool reversed) {
@@ -102,7 +103,7 @@ constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, Commut
   state.drives = Scalar{} < driven_rad_s;
   state.flank = state.flank + T::product(driven_rad_s, config.flanks_per_rad_s);
   const Scalar flank = state.flank + T::product(driven_rad_s, config.ahead_per_rad_s);
-  // If no commutation is in progress, the next one begins at an edge, where f is 0.
+  // If no commutation is in progress, the next commutation begins at an edge, where f is 0.
   const Scalar u = holding_voltage(config, driven_rad_s, state.driven_A,
                                    state.hands_over ? between(flank, Scalar{}, one<Scalar>) : Scalar{});
   const Scalar headroom = config.overlap_bus_V - u;
@@ -127,9 +128,9 @@ constexpr Scalar half_of_one() {
   return ScalarTraits<Scalar>::half_difference(one<Scalar>, Scalar{});
 }
 
-/// Bound to which a correction may raise state.part. Above 1/2 the duty also feeds the leaving phase: while
-/// the staying current is held, the leaving phase's L di/dt is u - U, and each rise of u raises it by 4/3 of
-/// the rise. With this bound the leaving current still falls at two thirds of its rate.
+/// Largest value of state.part after a correction. Above 1/2 the duty also feeds the leaving phase. The
+/// leaving phase's L di/dt is then u - U while the staying current is constant. Each rise of u raises this
+/// value by 4/3 of the rise. With this bound the leaving current still falls at two thirds of its rate.
 template <class Scalar>
 constexpr Scalar greatest_part(Scalar holding) {
   using T = ScalarTraits<Scalar>;
@@ -138,7 +139,8 @@ constexpr Scalar greatest_part(Scalar holding) {
   return most < half ? half : most;
 }
 
-/// Duty of the command's pair that holds the staying current. `chopped`: the command's chopped switch.
+/// Duty of the command's pair that keeps the staying current constant. `chopped`: the command's chopped
+/// switch.
 template <class Scalar>
 constexpr Scalar holding_duty(const CommutationStepState<Scalar>& state, Pair pair, ChoppedSwitch chopped) {
   const Scalar half = half_of_one<Scalar>();

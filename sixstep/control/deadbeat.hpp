@@ -8,23 +8,24 @@
 // The voltage computed from a sample begins a time `wait` later. Until then the last voltage acts:
 //
 //   i_w    = a(wait) i + b(wait) (u[n-1] - e)        current when the new voltage begins
-//   u[n]   = (i* - a(T) i_w)/b(T) + e                the current is i* one period T after that
+//   u[n]   = (i* - a(T) i_w)/b(T) + e                the current is i* one period T later
 //
-// e is K_t w plus a correction: at each sample it changes by g/b(T) times (predicted - measured current). g
-// is the gain of the correction. If the model lacks a constant voltage (drop, dead time, error of R), a
-// fraction (1 - g)^n of this voltage remains after n samples.
+// e is K_t w plus a correction, with torque constant K_t and speed w. At each sample the correction changes
+// by g/b(T) times (predicted - measured current). g is the gain of the correction. If the model lacks a
+// constant voltage (drop, dead time, error of R), a fraction (1 - g)^n of this voltage remains after n
+// samples.
 //
 // Without a limit the current follows i*[n] one period after the new voltage begins. If the inductance is m
-// times the model's inductance, the loop has its poles at 1 - 1/m. It is stable for m above 1/2 if there is
-// no wait.
+// times the model's inductance, the loop has its poles at 1 - 1/m. Without a wait, the loop is stable for m
+// above 1/2.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// Response of the winding over a time: i' = decay i + A_per_V (u - e). By default both factors are 0. For a
-/// time of 0, decay is 1 and A_per_V is 0.
+/// Response of the winding after a time t: i(t) = decay i + A_per_V (u - e). Default: both factors are 0. For
+/// t = 0, decay is 1 and A_per_V is 0.
 template <class Scalar>
 struct HeldWinding {
   Gain<Scalar> decay{};
@@ -32,7 +33,7 @@ struct HeldWinding {
   bool operator==(const HeldWinding&) const = default;
 };
 
-/// With the defaults the output is 0.
+/// Default: the output is 0.
 template <class Scalar>
 struct DeadbeatConfig {
   HeldWinding<Scalar> wait{};         ///< from a sample until the voltage computed from it begins

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes a filtered derivative: the D part of a PID, to be added to a PI. It differentiates the
-// measurement, because a step of the setpoint would cause a pulse of the output. Backward difference of K_d
-// s/(T_f s + 1):
+// Computes the filtered derivative part of a PID, for use with a PI. It differentiates the measurement,
+// because a step of the setpoint would cause a pulse of the output. K_d s/(T_f s + 1) as a backward
+// difference:
 //
 //   y[n] = y[n-1] + g (x[n] - x[n-1]) - b y[n-1],   g = K_d/(T_f + T_s),  b = T_s/(T_f + T_s)
 //
@@ -16,7 +16,7 @@
 
 namespace sixstep::control {
 
-/// The default gives 0.
+/// Default: the output is 0.
 template <class Scalar>
 struct DerivativeConfig {
   Gain<Scalar> g{};  ///< output per input: K_d/(T_f + T_s)

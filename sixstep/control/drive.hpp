@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the bridge command of a six-step drive: position P -> speed PI -> current loop -> commutation. The
-// mode selects the loop at which the chain begins. Alternatively the speed PI sets the duty (thesis 6.2.2).
+// mode selects the loop at which the chain begins. Alternatively the speed PI sets the duty directly.
 // Firmware calls step() once per control tick and on_hall() in the Hall interrupt.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
@@ -16,22 +16,22 @@ enum class CurrentControl : std::uint8_t { pi, hysteresis };
 /// Output of the speed loop: the reference of an inner current loop, or the duty directly.
 enum class SpeedControl : std::uint8_t { cascade, duty };
 
-/// With the defaults the bridge is off.
+/// Default: the bridge is off.
 template <class Scalar>
 struct DriveConfig {
   Mode mode = Mode::off;
   Chopping chopping = Chopping::soft;
   CurrentControl current_control = CurrentControl::pi;
-  PiConfig<Scalar> current{};  ///< A -> V
+  PiConfig<Scalar> current{};  ///< converts the current error in A to a voltage in V
   HysteresisConfig<Scalar> hysteresis{};
-  Divisor<Scalar> nominal_bus_V{};  ///< the duty is u/nominal_bus_V
-  PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; with SpeedControl::duty: rad/s
-                                    ///< -> duty
+  Divisor<Scalar> nominal_bus_V{};  ///< the duty is u/nominal_bus_V, with the current loop's voltage u
+  PiConfig<Scalar> speed{};  ///< converts the speed error in rad/s to a fraction of the torque limit; with
+                             ///< SpeedControl::duty: to a duty
   Gain<Scalar> current_at_full_torque_A{};  ///< torque limit/K_t: the speed loop's output times this value is
                                             ///< the current reference
   Scalar current_limit_A{};      ///< bound of the speed loop's current reference; set `speed.limit` to the
                                  ///< same bound
-  Gain<Scalar> position_gain{};  ///< degrees -> rad/s
+  Gain<Scalar> position_gain{};  ///< speed reference in rad/s per degree of position error
   Scalar speed_limit_rad_s{};    ///< bound of the position loop's speed reference
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};
@@ -136,8 +136,8 @@ constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<S
   return duty_for(config, u, measured);
 }
 
-/// A voltage u of the staying phase as a fraction of the bus: 0 to 1/2, or 0 to 1 if legs may overlap
-/// (commutation_step.hpp).
+/// Voltage u of the staying phase as a fraction of the bus voltage, limited to 0..1/2, or to 0..1 if legs may
+/// overlap (commutation_step.hpp).
 template <class Scalar>
 constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
                               const Measurement<Scalar>& measured) {
@@ -146,7 +146,7 @@ constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
 }
 
 /// Computes at each tick the duty to which the next commutation will step. It uses the tick's speed and
-/// current, because on_hall() has no measurement. In modes without a current loop there is no step.
+/// current, because on_hall() has no measurement. In modes without a current loop the duty does not step.
 template <class Scalar>
 constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                    const Measurement<Scalar>& measured, std::uint8_t sector) {
@@ -159,8 +159,8 @@ constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config,
   s.part = holding_part(config, s.volts, measured);
 }
 
-/// True while the leaving phase still carries current. Meanwhile the duty holds the staying phase's current,
-/// and the current loop rests.
+/// True while the leaving phase still conducts current. Meanwhile the duty keeps the staying phase's current
+/// constant, and the current loop is not executed.
 template <class Scalar>
 constexpr bool holds_current(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   return config.extras.on && config.extras.steps_commutation && state.extras.commutation.hands_over;
@@ -176,7 +176,8 @@ constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar
   s.part = between(holding_part(config, u, measured), Scalar{}, greatest_part(s.part));
 }
 
-/// Sets the duty and the overlap with which the pair of state.command holds the staying phase's current.
+/// Sets the duty and the overlap that keep the staying phase's current constant with the pair of
+/// state.command.
 template <class Scalar>
 constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   const CommutationStepState<Scalar>& held = state.extras.commutation;
@@ -186,7 +187,7 @@ constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar
   state.command.overlap = holding_overlap(held, state.command.pair);
 }
 
-/// First value of a slewed setpoint: the measurement in the unit of the mode.
+/// Initial value of a slewed setpoint: the measurement in the unit of the mode.
 template <class Scalar>
 constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, Scalar motor_current) {
   return mode == Mode::current    ? motor_current
@@ -203,8 +204,8 @@ constexpr void coast(DriveState<Scalar>& state) {
   state.command.watch = Watch::none;
 }
 
-/// Runs the loops of one tick, from the mode's loop inwards. The result is a pair with a duty, or armed
-/// comparators.
+/// Runs the loops of one tick, from the mode's loop to the innermost loop. The result is a pair with a duty,
+/// or armed comparators.
 template <class Scalar>
 constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Pair positive, Scalar value, Scalar i_m,
@@ -242,10 +243,10 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
 
 }  // namespace detail
 
-/// One control tick in a mode that may differ from the configured one (for example to brake). A cascade runs
-/// from the outer to the inner loop on one sample (model.md 4). An invalid Hall code turns the bridge off and
-/// reports a fault. Returns a reference into `state`, valid until the next call: on a chip a copy would cost
-/// as much as the current loop.
+/// One control tick in a mode that may differ from the configured mode (for example to brake). A cascade runs
+/// from the outer to the inner loop with one sample (model.md 4). An invalid Hall code turns the bridge off
+/// and reports a fault. Returns a reference into `state`, valid until the next call: on a chip a copy would
+/// cost as much as the current loop.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scalar>& config,
                                                DriveState<Scalar>& state, const Measurement<Scalar>& measured,
@@ -296,7 +297,7 @@ constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, D
 
 /// The Hall interrupt: the bridge changes to the new pair at once, with the same duty and sign (model.md 3).
 /// The PWM pattern selects the chopped switch. With a commutation step the duty changes to the value that
-/// holds the staying phase's current.
+/// keeps the staying phase's current constant.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                                std::uint8_t code) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds optional parts to the drive's loops. One flag enables them, so that a drive without any of them needs
-// one branch per tick:
-//   a slewed setpoint, or a position setpoint by a profile
-//   a window for the current reference
-//   back-EMF feed-forward and compensation of the measured bus
-//   chopping that is smooth through zero, and PWM patterns
-//   other laws of the speed loop than the PI in velocity form
-//   a deadbeat current loop
-//   control of the staying phase's current, and a duty that holds it during a commutation
+// Adds optional parts to the drive's loops. One flag enables all of them, so that a drive without optional
+// parts needs one branch per tick:
+// - a slewed setpoint, or a position setpoint by a profile
+// - a window for the current reference
+// - back-EMF feed-forward, and compensation of the measured bus voltage
+// - chopping without a jump at zero duty, and PWM patterns
+// - other laws of the speed loop than the PI in velocity form
+// - a deadbeat current loop
+// - control of the staying phase's current, and a duty that keeps it constant during a commutation
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -60,8 +60,8 @@ struct DriveExtras {
   SlewConfig<Scalar> slew{};  ///< largest step per tick, in the unit of the mode
   bool limits_current = false;
   LimitsConfig<Scalar> limits{};
-  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A: it limits the speed PI to the window
-                                         ///< of currents
+  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A: converts the window of currents to
+                                         ///< limits of the speed PI
   FeedForwardConfig<Scalar> feed_forward{};
   BusCompensationConfig<Scalar> bus{};
   bool smooth_chopping = false;  ///< false: DriveConfig::chopping applies
@@ -69,17 +69,17 @@ struct DriveExtras {
   PwmPatternConfig<Scalar> pwm{};  ///< which switch of the pair is chopped
   bool predicts_current = false;   ///< true: `deadbeat` is the current loop, false: DriveConfig::current
   DeadbeatConfig<Scalar> deadbeat{};
-  bool staying_phase = false;      ///< i_m is the current of the staying phase (commutation.hpp)
-  bool steps_commutation = false;  ///< a duty step holds the current while a commutation lasts, and the
-                                   ///< current loop rests
+  bool staying_phase = false;      ///< true: i_m is the current of the staying phase (commutation.hpp)
+  bool steps_commutation = false;  ///< true: a duty step keeps the current constant during a commutation, and
+                                   ///< the current loop is not executed
   CommutationStepConfig<Scalar> commutation{};
-  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi uses DriveConfig::speed, positional the next three members
+  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi uses DriveConfig::speed; positional uses the next three members
   PiPositionalConfig<Scalar> speed{};
   DerivativeConfig<Scalar> speed_derivative{};  ///< acts on the measured speed; its output is subtracted
-  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K, b the weight of the setpoint in the proportional part
-  SpeedLaws<Scalar> laws{};         ///< their outputs are limited by DriveConfig::speed.limit
-  [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< in Mode::position it replaces the
-                                                                    ///< slew
+  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K, with proportional gain K and setpoint weight b of the
+                                    ///< proportional part
+  SpeedLaws<Scalar> laws{};         ///< DriveConfig::speed.limit limits their outputs
+  [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< replaces `slew` in Mode::position
   bool operator==(const DriveExtras&) const = default;
 };
 
@@ -153,8 +153,8 @@ constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extra
   return {between(w.low, -limit, limit), between(w.high, -limit, limit)};
 }
 
-/// Output K (b r - y) + integral - derivative: two degrees of freedom (Astrom and Hagglund, PID Controllers,
-/// 3.4).
+/// PID with two degrees of freedom (Astrom and Hagglund, PID Controllers, 3.4). Output: K (b r - y) +
+/// integral - derivative, with setpoint r and measurement y.
 template <class Scalar>
 constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                   Scalar error, Scalar speed_rad_s, Scalar ahead, Scalar low, Scalar high) {
@@ -168,7 +168,7 @@ constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtras
 }
 
 /// One tick of the speed controller. In a cascade its output stays within the window of current references,
-/// because its integral would otherwise wind up against the window's limits.
+/// because otherwise its integral would wind up at the window's limits.
 template <class Scalar>
 constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                    const PiConfig<Scalar>& config, PiState<Scalar>& pi, Scalar error,

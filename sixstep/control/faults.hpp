@@ -21,18 +21,17 @@ enum Fault : std::uint16_t {
                            ///< speed
   fault_stall = 32,        ///< current without movement for too long
   fault_calibration = 64,  ///< the offset of a current amplifier is out of tolerance
-  fault_align = 128        ///< the rotor did not reach the sector to which it was pulled
+  fault_align = 128        ///< the rotor did not reach the sector of the alignment
 };
 
-/// With the defaults any bus voltage and any current is a fault. A limit that is not set is therefore
-/// noticed.
+/// Default: any bus voltage and any current is a fault. A forgotten limit is therefore reported at once.
 template <class Scalar>
 struct FaultConfig {
-  Scalar over_current_A{};         ///< a phase's |i| above this is a fault
-  Scalar over_voltage_V{};         ///< a bus voltage above this is a fault
-  Scalar under_voltage_V{};        ///< a bus voltage below this is a fault
-  Scalar over_speed_rad_s{};       ///< |w| above this is a fault
-  Scalar stall_current_A{};        ///< a phase's |i| above this, without a Hall edge, is a stall
+  Scalar over_current_A{};    ///< a phase current with |i| above this value is a fault
+  Scalar over_voltage_V{};    ///< a bus voltage above this value is a fault
+  Scalar under_voltage_V{};   ///< a bus voltage below this value is a fault
+  Scalar over_speed_rad_s{};  ///< a speed with |w| above this value is a fault
+  Scalar stall_current_A{};   ///< a phase current with |i| above this value, without a Hall edge, is a stall
   std::uint32_t stall_ticks = 0;   ///< consecutive ticks after which a stall is a fault
   std::uint8_t voltage_ticks = 1;  ///< consecutive ticks after which a wrong voltage is a fault; 0 counts as
                                    ///< 1
@@ -40,24 +39,24 @@ struct FaultConfig {
 };
 
 struct FaultState {
-  std::uint16_t present = 0;  ///< causes that are present in the last tick
+  std::uint16_t present = 0;  ///< causes that were present in the last tick
   std::uint16_t latched = 0;  ///< all causes since the last clearing
   std::uint16_t first = 0;    ///< causes in the tick that stopped the drive
-  std::uint32_t still = 0;    ///< ticks with stall current and no edge
+  std::uint32_t still = 0;    ///< consecutive ticks with stall current and without an edge
   std::uint8_t over = 0, under = 0;
   std::uint8_t hall_line = 0;  ///< 1..3: the faulty Hall line; 0: unknown
 };
 
 struct FaultEvents {
-  bool hall = false;            ///< an invalid code or a jump in this tick
+  bool hall = false;            ///< true: an invalid code or a jump over a sector in this tick
   std::uint8_t hall_line = 0;   ///< 1..3: the faulty line; 0: unknown
-  bool moved = false;           ///< a Hall edge occurred since the last tick
+  bool moved = false;           ///< true: a Hall edge occurred since the last tick
   std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that is impossible at steady speed; 0: none
   std::uint16_t other = 0;      ///< other causes: calibration, alignment
 };
 
 /// Checks one tick's measurement and returns the latched set. Turn the bridge off unless the set is 0. Each
-/// comparison is false for a fault, because a comparison with NaN is false.
+/// comparison is written so that `false` means a fault, because a comparison with NaN is false.
 template <class Scalar>
 constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState& state,
                                    const Measurement<Scalar>& m, const FaultEvents& events) {
@@ -76,8 +75,8 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  // A false edge and a real overspeed give the same measurement; therefore both faults are set. The line is
-  // reported only if a code proves that the line failed.
+  // A false edge and a real overspeed cause the same measurement; therefore both faults are set. The faulty
+  // line is reported only if an invalid code identifies it.
   if (too_fast) now |= fault_over_speed;
   if (too_fast && events.false_edge != 0) now |= fault_hall;
   if (events.hall) now |= fault_hall;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds the back-EMF and the measured bus voltage forward, so that the current loop has less to correct.
+// Feeds the back-EMF and the measured bus voltage forward, to reduce the error that the current loop must
+// correct.
 //
-//   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (model.md 1: e = K_t w)
-//   d = u/U_s                 measured bus in place of the nominal one (model.md 4)
+//   u = u_PI + K_t w          plus the back-EMF K_t w between the driven terminals on flat tops (model.md 1)
+//   d = u/U_s                 duty from the measured instead of the nominal bus voltage U_s (model.md 4)
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// The default adds no voltage.
+/// Default: no voltage is added.
 template <class Scalar>
 struct FeedForwardConfig {
   Gain<Scalar> K_t_V_s{};  ///< V between the driven terminals per mechanical rad/s; equals the torque
@@ -22,10 +23,11 @@ constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scala
   return ScalarTraits<Scalar>::product(speed_rad_s, config.K_t_V_s);
 }
 
-/// With the default the measured bus voltage is not used.
+/// Default: the measured bus voltage is not used.
 template <class Scalar>
 struct BusCompensationConfig {
-  Scalar lowest_bus_V{};  ///< least divisor, V; replaces a lower measurement (a failed sensor); 0: off
+  Scalar lowest_bus_V{};  ///< least divisor, V; replaces a lower measurement, for example of a failed sensor;
+                          ///< 0: off
   bool operator==(const BusCompensationConfig&) const = default;
 };
 

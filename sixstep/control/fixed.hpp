@@ -3,15 +3,17 @@
 // integer n means n/2^15. The storage has 16 or 32 bits, and any number of fraction bits below this width.
 //
 // Rounding: every product, quotient and conversion is the exact result rounded to the nearest representable
-// number, ties away from zero. Therefore (-a) b = -(a b), and a motor behaves alike in both directions.
+// number, ties away from zero. Therefore (-a) b = -(a b), and a drive behaves alike in both directions of
+// rotation.
 //
-// Saturation: a result beyond the range becomes the nearer limit of the range; nothing wraps. x/0 saturates
+// Saturation: a result beyond the range becomes the nearer limit of the range; no result wraps. x/0 saturates
 // in the direction of x, and 0/0 is 0. Sums and differences are exact unless they saturate.
 // tests/control/fixed_test.cpp compares all pairs of an 8-bit format, and random pairs of wider formats,
 // with exact arithmetic.
 //
-// The arithmetic is correct also where int has 16 bits. Every operand is widened to an explicitly sized type
-// before it is used (`1 << 15` is negative there), and only unsigned numbers are shifted.
+// The arithmetic is correct also where int has 16 bits. Every operand is converted to a wider type of
+// explicit size before use, because `1 << 15` is negative for a 16-bit int. Only unsigned numbers are
+// shifted.
 #pragma once
 #include <cstdint>
 
@@ -37,7 +39,7 @@ struct Fixed {
   constexpr Fixed() = default;
   /// The nearest representable number; 0 if x is NaN. Use it for constants and on the host: on a chip without
   /// a floating-point unit a conversion at run time would link a library. Where double has 32 bits (AVR), a
-  /// 32-bit format would get only 24 correct bits: use from_raw() for constants there.
+  /// 32-bit format would have only 24 correct bits: use from_raw() for constants on such a chip.
   explicit constexpr Fixed(double x)
       : raw(detail::nearest<Storage>(x * static_cast<double>(detail::two_to<std::int64_t>(FractionBits)))) {}
   static constexpr Fixed from_raw(Storage raw) {
@@ -78,13 +80,13 @@ struct Fixed {
 
 using Q15 = Fixed<std::int16_t, 15>;
 using Q31 = Fixed<std::int32_t, 31>;
-/// Formats with one fraction bit less, which contain the number 1; a full duty needs it.
+/// Formats with one fraction bit less. They contain the number 1, which a full duty needs.
 using Q14 = Fixed<std::int16_t, 14>;
 using Q30 = Fixed<std::int32_t, 30>;
 
 /// A factor between two signals of one format: mantissa/2^right. Its range is 2^-30 (16 bits) or 2^-62 (32
-/// bits) to the storage's largest number. The constructor rounds to the nearest such number. The relative
-/// error is at most 2^-15 or 2^-31 while `right` is below its limit.
+/// bits) to the storage's largest number. The constructor rounds to the nearest number of this form. The
+/// relative error is at most 2^-15 or 2^-31 while `right` is below its limit.
 template <class Storage>
 struct FixedGain {
   Storage mantissa = 0;
@@ -101,8 +103,8 @@ struct FixedGain {
     }
     mantissa = detail::nearest<Storage>(m < -end ? -end : m);
   }
-  /// The gain with these raw numbers. Its bits are the same with every compiler, also where double has 32
-  /// bits. Exported drives use it.
+  /// The gain with these raw numbers. Exported drives use this function, because its bits are the same with
+  /// every compiler, also where double has 32 bits.
   static constexpr FixedGain from_raw(Storage mantissa, std::int8_t right) {
     FixedGain gain;
     gain.mantissa = mantissa;
@@ -115,7 +117,7 @@ struct FixedGain {
   constexpr bool operator==(const FixedGain&) const = default;
 };
 
-/// Division by a constant, computed as a multiplication by its reciprocal. The default gives 0.
+/// Division by a constant, computed as a multiplication by its reciprocal. Default: the quotient is 0.
 template <class Storage>
 struct FixedDivisor {
   FixedGain<Storage> reciprocal{};
@@ -201,13 +203,13 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
   }
   static constexpr Scalar quotient(Scalar x, Divisor divisor) { return product(x, divisor.reciprocal); }
   /// `difference` may be a difference of two signals, which has one bit more than a signal. The product still
-  /// fits, because a mantissa is never the least number of its storage.
+  /// fits into Wide, because a mantissa is never the least number of its storage.
   static constexpr Accumulator accumulated(Wide difference, Gain gain) {
     const auto p = detail::product<Storage>(difference, gain.mantissa);
     return accumulated(p.size, p.negative, gain.right);
   }
   static constexpr Accumulator accumulated(Scalar x, Gain gain) { return accumulated(wide(x), gain); }
-  /// The sum's increment from a product that was already computed.
+  /// The increment of a sum, from the size and sign of a product.
   static constexpr Accumulator accumulated(detail::UnsignedOf<Wide> size, bool negative, int right) {
     const int down = right - Accumulator::guard_bits;
     return Accumulator::from_raw(down >= 0 ? detail::with_sign(detail::magnitude_down(size, down), negative)
@@ -225,7 +227,8 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     constexpr Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
     const Wide digits = detail::shifted_down(sum.raw, Accumulator::guard_bits);
     if (digits <= end && digits >= -end) return accumulated(digits, part);
-    // Shifted down, the greatest sum rounds up to one more than the largest difference of two signals.
+    // After the shift, the greatest sum is one more than the largest difference of two signals, due to
+    // rounding. Therefore accumulated(Wide, Gain) does not suit.
     const Wide p = static_cast<Wide>(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3) *
                                      static_cast<Wide>(part.mantissa));
     const Accumulator eighth = accumulated(detail::absolute(p), p < 0, part.right);
@@ -242,8 +245,8 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     const Unsigned q = detail::divided_unsigned(detail::absolute(ratio.raw), static_cast<Unsigned>(ticks));
     return narrow(detail::with_sign(q, ratio.raw < 0));
   }
-  /// Computed digit by digit: it keeps every digit of 32-bit counts and costs less than a division of 64
-  /// bits.
+  /// part/whole, computed bit by bit. This uses all 32 bits of the counts and is faster than a 64-bit
+  /// division.
   static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
     if (part >= whole) return one<Scalar>;
     UnsignedStorage q = 0;

@@ -6,7 +6,7 @@
 
 namespace sixstep::control::detail {
 
-/// Integer types by width. Wide holds a product of two numbers of the storage. int8_t exists for the
+/// Integer types by width. A product of two numbers of the storage fits into Wide. int8_t is used only by the
 /// exhaustive test.
 template <class Int>
 struct Widths;
@@ -42,7 +42,7 @@ using UnsignedOf = typename Widths<Int>::Unsigned;
 template <class Int>
 constexpr Int two_to(int n) {
   return static_cast<Int>(static_cast<Int>(1) << n);  // n must be less than the number of Int's bits without
-                                                      // its sign
+                                                      // the sign bit
 }
 /// 2^(bits-1) - 1, computed without the intermediate result 2^(bits-1), which does not fit.
 template <class Int>
@@ -82,7 +82,7 @@ constexpr Narrow saturated(Wide x) {
   return static_cast<Narrow>(x);
 }
 
-/// The signed number from magnitude and sign, in half the magnitude's width, saturated.
+/// The signed number from magnitude and sign, saturated to an integer of half the width.
 template <class Narrow, class Unsigned>
 constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
   if (magnitude > static_cast<Unsigned>(greatest<Narrow>)) return negative ? least<Narrow> : greatest<Narrow>;
@@ -98,7 +98,7 @@ struct Magnitude {
 };
 
 /// Product of 16 by 16 bits where int has 16 bits. On such chips a product of 32-bit factors would call a
-/// library; these four products of 8 bits cost a quarter of the call.
+/// library function. Four 8-bit products need a quarter of the time of this call.
 constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
   const auto part = [](std::uint16_t x, std::uint16_t y) {
     return static_cast<std::uint16_t>(static_cast<std::uint16_t>(x & 0xffu) *
@@ -123,12 +123,12 @@ constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   }
 }
 
-/// u/2^n for n >= 0, rounded to nearest. For a product and n = 2 bits - 2, the result is 0 or 1 by rounding.
+/// u/2^n for n >= 0, rounded to nearest.
 template <class Unsigned>
 constexpr Unsigned magnitude_down(Unsigned u, int n) {
   if (n == 0) return u;
-  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // u in half digits: adding a half before the
-                                                              // shift could overflow
+  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // u in halves of the last digit of the result;
+                                                              // adding 1/2 before the shift could overflow
   return static_cast<Unsigned>((half >> 1) + (half & 1u));
 }
 template <class Int>
@@ -150,8 +150,8 @@ constexpr Int shifted_up(Int x, int n) {
   return magnitude_up<Int>(absolute(x), x < 0, n);
 }
 
-/// a/b rounded to nearest, ties up. a must be at most 2^(width-1), and b below that: otherwise a + b/2 does
-/// not fit.
+/// a/b rounded to nearest, ties up. a must be at most 2^(width-1), and b less than 2^(width-1): otherwise a +
+/// b/2 does not fit.
 template <class Unsigned>
 constexpr Unsigned divided_unsigned(Unsigned a, Unsigned b) {
   return static_cast<Unsigned>((a + static_cast<Unsigned>(b >> 1)) / b);

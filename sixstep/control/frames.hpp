@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transforms three phase quantities to one vector, in the stator's frame and in the rotor's frame (model.md
-// 11). The scaling keeps amplitudes: phase quantities of peak 1 are a vector of length 1.
+// 11). The transform preserves amplitudes: balanced phase quantities of peak 1 become a vector of length 1.
 //
 //   x_alpha = (2 x_a - x_b - x_c)/3         x_d =  x_alpha cos + x_beta sin
 //   x_beta  = (x_b - x_c)/sqrt 3            x_q = -x_alpha sin + x_beta cos
 //
 // The d axis is the magnet's axis, at theta_d = theta_e - 150 degrees. Each frame is a type with its own
-// member names, so that the compiler rejects a phase quantity where an axis quantity is needed. Fixed point
-// saturates.
+// member names, so that the compiler rejects a phase quantity where an axis quantity is needed. In fixed
+// point, results saturate.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -38,8 +38,8 @@ struct Direction {
   Scalar cos = one<Scalar>, sin{};
 };
 
-/// The vector of three phase quantities, computed from halved differences, which fit every format. A part
-/// that is common to the three phases cancels.
+/// The vector of three phase quantities. It is computed from half differences, because these fit every
+/// format. A part that is common to the three phases cancels.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> clarke(const Abc<Scalar>& x) {
   using Traits = ScalarTraits<Scalar>;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts a bridge command to the six gates of one instant, for firmware that sets pins or the output modes
-// of a timer. In the on-time of a PWM period both driven switches are on. In its off-time (model.md 3) these
-// are on:
+// of a timer. In the on-time of a PWM period both driven switches are on. In the off-time (model.md 3) these
+// switches are on:
 //   soft           the driven switch that is not chopped: the sink's lower or the source's upper switch
 //   hard           no switch
-//   complementary  as soft, and also the other switch of the chopped leg, after the dead time that the timer
+//   complementary  as soft, and also the second switch of the chopped leg, after the dead time that the timer
 //                  inserts
 #pragma once
 #include <cstdint>

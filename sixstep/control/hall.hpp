@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes the Hall pins to sector and direction, with a filter against glitches. Two faults are detected: a
-// code that the arrangement cannot give, and a jump over a sector. If the times allow it, the broken line is
-// named. The table of codes is in commutation.hpp.
+// code that the arrangement cannot produce, and a jump over a sector. If the edge times allow it, the broken
+// line is identified. The table of codes is in commutation.hpp.
 //
-// Probes 60 degrees apart give 110 111 011 001 000 100 in sectors 0 to 5: each probe is high over half a turn
-// and lags the probe before by one sector. 010 and 101 are invalid (model.md 3). H3 of this arrangement
-// equals H2 of probes 120 degrees apart, and H2 of this arrangement equals their inverted H3.
+// The codes of probes 60 degrees apart are 110 111 011 001 000 100 in sectors 0 to 5: each probe is high over
+// half a turn and lags the previous probe by one sector. 010 and 101 are invalid (model.md 3). H3 of this
+// arrangement equals H2 of the 120-degree arrangement. H2 of this arrangement equals the inverted H3 of the
+// 120-degree arrangement.
 #pragma once
 #include <cstdint>
 
@@ -15,19 +16,20 @@ namespace sixstep::control {
 
 enum class HallArrangement : std::uint8_t { degrees_120, degrees_60 };
 
-/// Class of the time since the last edge, compared with the sectors before (hall_speed.hpp). It is used only
-/// to name a broken line.
+/// Class of the time since the last edge, relative to the times of the previous sectors (hall_speed.hpp). It
+/// is used only to identify a broken line.
 enum class SectorTime : std::uint8_t {
   unknown,  ///< the rotor starts, slows down or has reversed, or no other class fits
-  soon,     ///< less than 3/4 of a sector's time
-  within,   ///< no longer than a sector's time
-  twice     ///< about two sectors' time: an edge was missed
+  soon,     ///< the time is less than 3/4 of a sector's time
+  within,   ///< the time is 3/4 to 5/4 of a sector's time
+  twice     ///< the time is about that of two sectors: an edge was missed
 };
 
 enum class HallFault : std::uint8_t {
   none,
-  impossible_code,  ///< a code that intact probes do not give: a wire or a probe is broken
-  jump              ///< step between two sectors that are not neighbours: an edge was missed, or noise
+  impossible_code,  ///< a code that intact probes cannot produce: a wire or a probe is broken
+  jump              ///< change between two sectors that are not neighbours: an edge was missed, or the
+                    ///< reading is disturbed
 };
 
 struct HallConfig {
@@ -39,12 +41,13 @@ struct HallConfig {
 };
 
 struct HallState {
-  std::uint8_t candidate = 0xff;      ///< the code under test
-  std::uint8_t seen = 0;              ///< samples since the candidate appeared
+  std::uint8_t candidate = 0xff;      ///< the new code that is not accepted yet
+  std::uint8_t seen = 0;              ///< number of consecutive samples with the candidate
   std::uint8_t sector = no_sector;    ///< the last valid sector
   std::int8_t direction = 0;          ///< direction of the last edge: +1 forward, -1 backward, 0 none yet
   std::uint8_t suspect = 0;           ///< 1..3: line with an edge that is impossible at steady speed; 0: none
-  std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; `suspect` is cleared after 6
+  std::uint8_t edges_since = 0;       ///< number of edges since the edge that set `suspect`; the sixth edge
+                                      ///< clears `suspect`
   HallFault fault = HallFault::none;  ///< impossible_code while an invalid code is present
 };
 
@@ -80,11 +83,12 @@ constexpr std::uint8_t changed_line(std::uint8_t a, std::uint8_t b) {
 
 namespace detail {
 
-/// The line that causes an invalid code, for codes of probes 120 degrees apart; 0: unknown. Only the times of
-/// a steadily running rotor distinguish the two cases:
-/// - A line breaks between its edges. It is the line that changes now, or the line whose last edge was false.
-/// - A line misses its edge. The code stays valid for two sectors, until the next line's edge. The rotor is
-///   then two sectors further, and the broken line is the line that differs from the code due there.
+/// The line that causes an invalid code, for codes of probes 120 degrees apart; 0: unknown. There are two
+/// cases. Only the edge times of a rotor at steady speed distinguish them:
+/// - A line breaks between its edges. The broken line is the line that changes now, or the line whose last
+///   edge was false.
+/// - A line misses its edge. The code is valid for two sectors, until the edge of another line. The rotor is
+///   then two sectors further. The broken line is the line that differs from the correct code of this sector.
 constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
   const auto differs_from = [&](int sectors_on) {
     const int sector = (state.sector + 12 + sectors_on * state.direction) % 6;
@@ -93,17 +97,17 @@ constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, Se
   if (time == SectorTime::unknown || state.direction == 0) return 0;
   if (time == SectorTime::twice) return differs_from(2);
   const std::uint8_t line = differs_from(0);
-  return line != 0 ? line : differs_from(1);  // the line broke together with its neighbour's edge
+  return line != 0 ? line : differs_from(1);  // the line broke at the same time as another line's edge
 }
 
-/// Undoes the exchange of lines 2 and 3 that as_120_degrees() makes.
+/// Reverses the exchange of lines 2 and 3 by as_120_degrees().
 constexpr std::uint8_t line_of(HallArrangement arrangement, std::uint8_t line) {
   return arrangement == HallArrangement::degrees_60 && line > 1 ? static_cast<std::uint8_t>(5 - line) : line;
 }
 
-/// Processes one line's edge to a neighbouring sector. With a steadily running rotor no edge occurs within
-/// 3/4 of a sector after the last edge, and the rotor does not reverse within a sector. Such an edge shows
-/// that its line is broken.
+/// Processes one line's edge to a neighbouring sector. At steady speed the next edge occurs later than 3/4 of
+/// a sector's time, and the rotor does not reverse within a sector's time. Any other edge shows that its line
+/// is broken.
 constexpr void take_edge(const HallConfig& config, HallState& state, std::uint8_t code, std::int8_t passed,
                          SectorTime time) {
   const bool turned = state.direction == -passed;

@@ -2,17 +2,17 @@
 // Computes speed, angle within the sector and position from the times of Hall edges.
 //
 //   w = +-k (pi/3)/p timer_Hz/(ticks over the last k edges)
-//   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     the next edge has not occurred yet
+//   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     because the next edge has not occurred yet
 //   fraction = ticks since the last edge/mean ticks of a sector, at most 1
 //
 // w: mechanical speed, p: pole pairs. Times are readings of a free-running 32-bit counter that may wrap
 // (extend a 16-bit capture register by the number of its overflows). The first edge, a reversal and a
-// time-out restart the history with speed 0, because a single edge gives no speed.
+// time-out restart the history with speed 0, because a speed needs two edges.
 //
-// A speed over k edges is k/2 sectors old at an edge, and one sector more before the next edge: on average
-// (k + 1)/2 sectors, or (k + 1)/2 (pi/3)/(p w). The probes' placement errors cancel over k = 6, one
-// electrical turn. At low speed, however, this delay makes a speed loop unstable. With a window, the speed is
-// measured over `edges` edges if they occurred within the window, else over one edge.
+// A speed over k edges has an age of k/2 sectors at an edge, and of k/2 + 1 sectors before the next edge. Its
+// mean delay is (k + 1)/2 sectors, or (k + 1)/2 (pi/3)/(p w). The probes' placement errors cancel over k = 6,
+// one electrical turn. At low speed, however, this delay makes a speed loop unstable. With a window, the
+// speed is measured over `edges` edges if they occurred within the window, else over one edge.
 #pragma once
 #include <cstdint>
 
@@ -22,7 +22,7 @@
 
 namespace sixstep::control {
 
-/// The default measures no speed.
+/// Default: the speed is always 0.
 template <class Scalar>
 struct HallSpeedConfig {
   TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: product of speed and ticks of one sector
@@ -30,13 +30,13 @@ struct HallSpeedConfig {
                                     ///< 2^32 minus one control period
   std::uint8_t edges = 1;           ///< k, edges over which the speed is measured, 1..6
   std::uint32_t window_ticks = 0;   ///< k = 1 if `edges` edges took longer than this; 0: k is always `edges`
-  std::uint32_t grain_ticks = 1;    ///< resolution of an edge's time: 1 by capture, by polling the ticks of a
-                                    ///< control period
+  std::uint32_t grain_ticks = 1;    ///< resolution of an edge's time: 1 with capture; with polling, the timer
+                                    ///< ticks of a control period
   bool operator==(const HallSpeedConfig&) const = default;
 };
 
 struct HallSpeedState {
-  std::uint32_t times[7]{};   ///< times of the last edges, the latest first
+  std::uint32_t times[7]{};   ///< times of the last edges, newest first
   std::uint8_t known = 0;     ///< number of valid entries of `times`, all in one direction
   std::int8_t direction = 0;  ///< direction of the last edge
 };
@@ -47,7 +47,7 @@ constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known)
   return intervals < most ? intervals : most;
 }
 
-/// Number of sectors over which the speed is measured now; 0: the speed is not known yet.
+/// Number of sectors over which the speed is measured now; 0: no speed is available yet.
 template <class Scalar>
 constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                           const HallSpeedState& state) {
@@ -67,8 +67,8 @@ constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::in
   if (state.known < 7) ++state.known;
 }
 
-/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per timeout_ticks, because only
-/// this call clears the history.
+/// Speed at counter reading `now`, mechanical rad/s. Call hall_speed() at least once per timeout_ticks,
+/// because only this call detects standstill.
 template <class Scalar>
 constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedState& state, std::uint32_t now) {
   using T = ScalarTraits<Scalar>;
@@ -83,7 +83,7 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   if (k == 0) return Scalar{};
   const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
   Scalar w = T::per_ticks(T::times(config.sector_rad_s_ticks, k), ticks == 0 ? 1 : ticks);
-  // The bound can be below the measured speed only after the mean time of a sector has passed.
+  // Only after the mean time of a sector can the bound be below the measured speed.
   if (since > ticks / k) {
     const Scalar bound = T::per_ticks(config.sector_rad_s_ticks, since);
     if (bound < w) w = bound;
@@ -96,21 +96,20 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
   return later <= earlier + earlier / 4 && later >= earlier - earlier / 4;
 }
 
-/// Compares the time since the last edge with the last sectors' times. The result is known from the fifth
-/// edge in one direction on, if each of the last sectors' times differs by at most a quarter from the time
-/// before.
+/// Compares the time since the last edge with the times of the last sectors. The result is `unknown` before
+/// five edges in one direction, or if successive sector times differ by more than a quarter.
 ///
-/// From then on, a rotor that starts from rest at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24)
-/// has no edge that is `soon`. A rotor that slows down at a constant torque has no edge that is `twice`, and
-/// no two sectors that are `within`. A sector T shorter than eight grains g is `unknown`: from eight grains
-/// on (T - g)/(T + g) of a steady rotor is at least 3/4.
+/// A rotor that starts from rest at a constant torque (sector times 1, 0.41, 0.32, 0.27, 0.24) has no edge
+/// that is `soon`. A rotor that slows down at a constant torque has no edge that is `twice`, and no two
+/// sectors that are `within`. If a sector's time T is less than eight grains g, the result is `unknown`. For
+/// T >= 8 g, the ratio (T - g)/(T + g) of two measured times at steady speed is at least 3/4.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
   std::uint32_t sector[3]{};
   for (int n = 0; n < 3; ++n) {
     sector[n] = static_cast<std::uint32_t>(state.times[n] - state.times[n + 1]);
-    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2.5 times this time would not fit
+    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2.5 times this time would overflow
   }
   const std::uint32_t last = sector[0];
   if (last / 8 < grain) return SectorTime::unknown;
@@ -121,7 +120,7 @@ constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grai
   return twice ? SectorTime::twice : SectorTime::unknown;
 }
 
-/// Distance since the last edge in the direction of rotation, 0..1 sector; 1/2 while no speed is known.
+/// Distance since the last edge in the direction of rotation, 0..1 sector; 1/2 while no speed is available.
 template <class Scalar>
 constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
                                  std::uint32_t now) {
@@ -132,7 +131,7 @@ constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const Ha
   return T::fraction(static_cast<std::uint32_t>(now - state.times[0]), ticks / k);
 }
 
-/// Position by counted edges. With the default the position stays at 0.
+/// Position by counted edges. Default: the position is always 0.
 template <class Scalar>
 struct HallPositionConfig {
   Gain<Scalar> per_sector{};    ///< position per counted sector: 60/p degrees mechanical; fixed: raw units

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the current between two levels. The switch turns on below |i_ref| - h and off above |i_ref| + h.
-// It does not change in between, and starts on (model.md 4).
+// Controls the current between two levels. The switch turns on below |i_ref| - h and off above |i_ref| + h,
+// with the reference i_ref and half the band h. Between the levels it does not change. It is initially on
+// (model.md 4).
 #pragma once
 
 #include "sixstep/control/bridge_command.hpp"
 
 namespace sixstep::control {
 
-/// Events: the board's comparators switch without sampling. Otherwise hysteresis_step() compares once per
-/// control tick.
+/// Two kinds: with `watch` set, the board's comparators switch without sampling. With Watch::none,
+/// hysteresis_step() compares once per control tick.
 template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
@@ -22,8 +23,8 @@ struct HysteresisState {
   bool on = true;
 };
 
-/// The sampled form. `current` and `reference`, A, are positive in the direction of the reference. Returns
-/// true for on.
+/// One control tick with a sampled current. `current` and `reference`, A, are positive in the direction of
+/// the reference. Returns true if the switch is on.
 template <class Scalar>
 constexpr bool hysteresis_step(const HysteresisConfig<Scalar>& config, HysteresisState<Scalar>& state,
                                Scalar current, Scalar reference) {

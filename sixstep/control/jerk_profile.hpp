@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes a jerk-limited profile: a position setpoint within limits of speed, acceleration and jerk that
-// stops exactly on its target. The target may change at any tick. The profile also gives speed and
+// stops exactly on its target. The target may change at any tick. The profile also computes speed and
 // acceleration for feed-forward.
 //
 // The profile is the mean of a trapezoidal speed over the last M strides. The mean's acceleration has ramps
@@ -8,31 +8,35 @@
 // al., Trajectory planning and feedforward design, 2005). a[n] is the trapezoid's change of speed in stride
 // n:
 //
-//   v = 1/M sum of the trapezoid's speeds       |v| and |change of v| keep the trapezoid's limits
-//   change of acceleration = (a[n] - a[n-M])/M  is at most a/M if a has no two signs within M strides
+//   v = 1/M sum of the trapezoid's speeds       |v| and |change of v| are within the trapezoid's limits
+//   change of acceleration = (a[n] - a[n-M])/M  is at most a/M if a[n] does not change sign within M strides
 //
 // Before its acceleration changes sign, the trapezoid keeps its speed for M strides. The time does not
 // increase, because with limited jerk the acceleration passes through 0 anyway. Each stride uses the fastest
 // speed v from which the profile still stops on the target. It first keeps v for c strides: c = M if the
 // trapezoid gains speed, c = 0 if it loses speed (profile.hpp, with c strides more). R is the remaining
-// distance:
+// distance, and a the acceleration limit:
 //
-// A move over a distance d takes d/v + v/a + a/j (j: jerk limit) if it is long enough to reach its speed and
-// acceleration limits; no profile is faster. A shorter move takes a little longer than the fastest profile.
-// If the target is nearer than the stopping distance, the profile passes it and returns.
+//   c v + v + (v - a) + .. = R,   v = (R + a m (m + 1)/2)/(m + 1 + c),
+//   m: largest integer with a m (2 c + m + 1)/2 <= R
 //
-// A stride is one control tick, or so many ticks that M is at most 64. Then 64 stored numbers suffice for any
-// jerk. Between two strides the setpoint is the cubic B-spline of the means: position, speed and acceleration
-// are continuous. The spline's derivatives are B-splines of the differences; each limit therefore holds at
-// every instant. The spline lags by three strides.
+// The time of a move over a distance d is d/v + v/a + a/j (j: jerk limit) if the move is long enough to reach
+// its speed and acceleration limits. No profile is faster. The time of a shorter move is slightly above that
+// of the fastest profile. If the target is nearer than the stopping distance, the profile passes it and
+// returns.
 //
-// Speeds and distances are integer counts. One stride at full speed is 2^26 counts. Sums are exact, nothing
-// drifts, and the final position is exactly the target's number. A new target moves the setpoint at once by
-// at most half a count, 2^-27 of a stride at full speed. From rest, a distance of at most M counts takes one
-// stride. A distance beyond 2^28 strides at full speed is covered in parts.
+// A stride has one control tick, or as many ticks as necessary for M <= 64. Then 64 stored numbers suffice
+// for any jerk. Between two strides the setpoint is the cubic B-spline of the means: position, speed and
+// acceleration are continuous. The spline's derivatives are B-splines of the differences; each limit is
+// therefore valid at every instant. The spline lags by three strides.
 //
-// The profile is for float and double only: a fixed-point position in degrees cannot hold the increment of
-// one tick.
+// Speeds and distances are integer counts. One stride at full speed is 2^26 counts. Sums are exact and cannot
+// drift, and the final position is exactly the target. A new target moves the setpoint at once by at most
+// half a count, 2^-27 of a stride at full speed. From rest, a distance of at most M counts needs one stride.
+// A distance beyond 2^28 strides at full speed is covered in parts.
+//
+// The profile is for float and double only: a fixed-point position in degrees cannot represent the increment
+// of one tick.
 #pragma once
 #include <cstdint>
 
@@ -48,7 +52,7 @@ inline constexpr std::int64_t jerk_profile_farthest = std::int64_t{1} << 54;  //
 
 inline constexpr double jerk_profile_longest = 64.0 * 65535;  ///< largest number of ticks in M strides
 
-/// Configuration; jerk_profile() computes it. A part is 1/M of a count. The default never moves.
+/// Configuration; jerk_profile() computes it. A part is 1/M of a count. Default: the position never changes.
 template <class Scalar>
 struct JerkProfileConfig {
   Scalar counts_per_deg{};
@@ -71,11 +75,12 @@ template <class Scalar>
 struct JerkProfileState {
   ProfiledMotion<Scalar> now{};
   Scalar target_deg{};      ///< the target that the strides use
-  std::int64_t way{};       ///< distance that the trapezoid has still to go, counts
-  std::int64_t rest{};      ///< distance that the mean has still to go, parts
-  std::int64_t mean[3]{};   ///< last speeds of the mean, parts per stride, the newest first
+  std::int64_t way{};       ///< remaining distance of the trapezoid, counts
+  std::int64_t rest{};      ///< remaining distance of the mean, parts
+  std::int64_t mean[3]{};   ///< last speeds of the mean, parts per stride, newest first
   std::int32_t velocity{};  ///< the trapezoid's speed, counts per stride
-  std::int32_t begun{};     ///< speed before the begin; it replaces cells that are not filled yet
+  std::int32_t begun{};     ///< speed before the begin, counts per stride; used in place of cells that are
+                            ///< not filled yet
   std::int32_t cell[jerk_profile_cells]{};
   /// Polynomial of this stride: remaining distance in parts, speed, acceleration, change of acceleration.
   Scalar spline[4]{};
@@ -93,8 +98,8 @@ struct JerkProfileLimits {
                              ///< strides
 };
 
-/// Computes a configuration in double, at compile time or on a host. A limit that is not above 0 gives the
-/// default.
+/// Computes a configuration in double, at compile time or on a host. If a limit is not above 0, the result is
+/// the default configuration.
 template <class Scalar = double>
 constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits, double period_s) {
   constexpr double degrees = 57.295779513082320877;
@@ -122,8 +127,8 @@ constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits
 
 namespace detail {
 
-/// Converts an integer to Scalar in two halves. Cores with single precision convert 32 bits in one
-/// instruction; 64 bits would need a library.
+/// Converts an integer to Scalar in two halves. Cores with a single-precision unit convert 32 bits in one
+/// instruction; 64 bits would need a library function.
 template <class Scalar>
 constexpr Scalar scalar_of(std::int64_t n) {
   constexpr Scalar half = Scalar(4294967296.0);
@@ -147,8 +152,8 @@ constexpr std::int64_t counts_of(Scalar x) {
   return below ? -n : n;
 }
 
-/// n/d rounded down, for n >= 0 and a quotient below 2^27. Computed digit by digit, because cores need a
-/// library to divide 64 bits.
+/// n/d rounded down, for n >= 0 and a quotient below 2^27. Computed bit by bit, because small cores need a
+/// library function for a 64-bit division.
 constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   std::int32_t q = 0;
   for (std::int8_t bit = 26; bit >= 0; --bit) {
@@ -159,7 +164,7 @@ constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   return q;
 }
 
-/// The fastest v for which c strides at v and the braking after them need at most the distance R.
+/// The fastest v for which c strides at v and the braking afterwards need at most the distance R.
 constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64_t c) {
   const auto way = [a, c](std::int64_t m) { return m * a * (2 * c + m + 1) / 2; };
   std::int64_t low = 0, high = jerk_profile_speed / static_cast<std::int32_t>(a) + 1;
@@ -172,8 +177,8 @@ constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64
   return v < jerk_profile_speed ? v : jerk_profile_speed;
 }
 
-/// The trapezoid's next speed towards a target at distance R. `gains`, `loses`: it may gain or lose speed
-/// without changing the acceleration's sign too early.
+/// The trapezoid's next speed towards a target at distance R. `gains`, `loses`: true if the speed may
+/// increase or decrease now; the acceleration must not change its sign within M strides.
 constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_t a, std::int32_t cells,
                                   bool gains, bool loses) {
   const std::int32_t gained = fastest_within(R, a, cells);
@@ -186,8 +191,8 @@ constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_
 template <class Scalar>
 constexpr void trapezoid_stride(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state) {
   const bool back = state.way < 0;
-  // A distance up to `least` is covered in one stride: the acceleration is then negligible, and R/(M + 1)
-  // would not be a whole count.
+  // A distance up to `least` is covered in one stride. The acceleration is then negligible, and the speed
+  // R/(M + 1) would round to 0 counts.
   const std::int64_t least = config.cells < config.acceleration ? config.cells : config.acceleration;
   if (state.velocity == 0 && state.waits == 0 && state.way <= least && state.way >= -least) {
     state.velocity = static_cast<std::int32_t>(state.way);
@@ -220,7 +225,7 @@ constexpr void mean_stride(const JerkProfileConfig<Scalar>& config, JerkProfileS
   state.rest -= state.mean[0];
 }
 
-/// The B-spline's piece for this stride, as a polynomial of the elapsed fraction of the stride.
+/// The B-spline's segment for this stride, as a polynomial of the elapsed fraction of the stride.
 template <class Scalar>
 constexpr void spline_stride(JerkProfileState<Scalar>& state) {
   const std::int64_t *S = state.mean, six_times = 6 * (state.rest + S[0]) + 5 * S[1] + S[2];
@@ -230,7 +235,7 @@ constexpr void spline_stride(JerkProfileState<Scalar>& state) {
   state.spline[3] = scalar_of<Scalar>(S[0] - 2 * S[1] + S[2]);
 }
 
-/// Adds the change of the target to the remaining distances, in counts, once for each new target.
+/// Adds the change of the target to the remaining distances, once for each new target.
 template <class Scalar>
 constexpr void take_target(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state,
                            Scalar target_deg) {
@@ -249,7 +254,7 @@ constexpr void take_target(const JerkProfileConfig<Scalar>& config, JerkProfileS
 
 }  // namespace detail
 
-/// Begins at a position, degrees, and a speed, rad/s, without acceleration.
+/// Starts the profile at a position, degrees, and a speed, rad/s, without acceleration.
 template <class Scalar>
 constexpr void begin_profile(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state,
                              Scalar position_deg, Scalar speed_rad_s) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the commands of the bridge's legs, one per leg, for a timer's channels (model.md 11). They are the
-// second kind of controller output; the first kind is a pair and one duty for six-step (bridge_command.hpp).
-// BridgeCommand does not depend on this header, so that a six-step chip stores and copies no more than it
-// needs. as_legs() converts a pair to three commands.
+// Defines the commands of the bridge's legs, one per leg, for a timer's channels (model.md 11). A controller
+// outputs either three leg commands, or for six-step a pair and one duty (bridge_command.hpp). BridgeCommand
+// does not contain leg commands, so that a six-step chip stores and copies no more than it needs. as_legs()
+// converts a pair to three commands.
 #pragma once
 #include <cstdint>
 
@@ -18,7 +18,8 @@ enum class LegState : std::uint8_t { off, low, high, pwm };
 enum class PwmSwitches : std::uint8_t {
   complementary,  ///< pulse: the upper switch; rest: the lower switch; each after the dead time
   upper,          ///< pulse: the upper switch; rest: none
-  lower,          ///< pulse: the lower switch; rest: none, like a channel with only its complementary output
+  lower,          ///< pulse: the lower switch; rest: none, like a timer channel of which only the
+                  ///< complementary output is enabled
   lower_first     ///< pulse: the lower switch; rest: the upper switch; each after the dead time
 };
 
@@ -26,7 +27,7 @@ template <class Scalar>
 struct LegCommand {
   LegState state = LegState::off;
   PwmSwitches switches = PwmSwitches::complementary;
-  Scalar duty{};  ///< 0..1, the pulse's length over the PWM period; used only in state pwm
+  Scalar duty{};  ///< 0..1, pulse length divided by PWM period; used only in state pwm
   bool operator==(const LegCommand&) const = default;
 };
 
@@ -84,14 +85,15 @@ constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, 
   return {LegState::low, PwmSwitches::complementary, Scalar{}};
 }
 
-/// Command of the leg that has left the pair, while its switch still feeds its decaying current.
+/// Command of the leg that has left the pair, while one of its switches still feeds the decaying current.
 template <class Scalar>
 constexpr LegCommand<Scalar> overlapping_leg(Scalar overlap) {
   const bool upper = Scalar{} < overlap;
   return {LegState::pwm, upper ? PwmSwitches::upper : PwmSwitches::lower, upper ? overlap : -overlap};
 }
 
-/// A six-step command as three leg commands. If comparators are armed there is no duty, and all legs are off.
+/// A six-step command as three leg commands. With armed comparators the command has no duty, and all legs are
+/// off.
 template <class Scalar>
 constexpr LegCommands<Scalar> as_legs(const BridgeCommand<Scalar>& command) {
   LegCommands<Scalar> legs{};

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits the current reference, and turns all gates off where a smaller reference does not help.
+// Limits the current reference, and turns all gates off where a smaller reference is not sufficient.
 //
-// The window of allowed current references. Each limit narrows it:
+// Each limit reduces the window of allowed current references i (K, g: slopes, w: speed, U_s: bus voltage):
 //
 //   current       |i| <= limit
 //   torque        |i| <= T_limit/K_t                                (model.md 1: T_e = K_t i_m)
 //   speed         i <= K (w_limit - w) forward, i >= -K (w_limit + w) backward, both at least 0 A
 //   regeneration  braking current <= g (U_limit - U_s), at least 0 A
 //
-// Regeneration: while the motor brakes, i w < 0, the bridge returns current to the bus. If the supply cannot
+// Regeneration: while the motor brakes (i w < 0), the bridge returns current to the bus. If the supply cannot
 // absorb this current, it charges the bus capacitor C: C dU/dt <= |i|. With |i| <= g (U_limit - U) the
 // distance from U to U_limit decays at most as fast as exp(-g t/C), if a tick is short compared with C/g.
 //
-// A reference of 0 is not enough, for two reasons. First, a loop that controls the sampled valley of a
+// A reference of 0 is not sufficient, for two reasons. First, a loop that controls the sampled valley of a
 // chopped current to 0 has a mean above 0. Second, reversed pulses that begin and end between two samples are
 // not measured. Beyond a limit all gates are therefore off until the next sample, for any chopping and
 // current loop:
@@ -21,9 +21,9 @@
 //   speed         |w| above the limit, and the reference does not brake
 //   regeneration  U_s above the limit, and the reference does not drive
 //
-// With all gates off a current only falls, if the bus is above the back-EMF. Current, speed and bus voltage
-// therefore exceed a limit by at most their change in one control period (design/loops/limit_bounds.hpp).
-// Faults (faults.hpp) are the second protection.
+// With all gates off the currents fall, as long as the bus voltage is above the back-EMF. Current, speed and
+// bus voltage therefore exceed a limit by at most their change in one control period
+// (design/loops/limit_bounds.hpp). Faults (faults.hpp) are the second protection.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -31,13 +31,12 @@
 
 namespace sixstep::control {
 
-/// With the defaults no current is allowed. The limits of speed and regeneration are off until their flags
-/// are set.
+/// Default: no current is allowed. The limits of speed and regeneration are off until their flags are set.
 template <class Scalar>
 struct LimitsConfig {
-  Scalar current_A{};  ///< A; the lesser of torque limit/K_t and the thermal limit; fixed: below 4/5 of 1.0
+  Scalar current_A{};  ///< A; the lesser of torque limit/K_t and the thermal limit; in fixed point below 0.8
   bool limits_speed = false;
-  Scalar speed_rad_s{};        ///< largest |w| that the drive's own torque may reach
+  Scalar speed_rad_s{};        ///< largest |w| to which the drive may accelerate
   Gain<Scalar> A_per_rad_s{};  ///< K: full current is allowed up to current_A/K below the speed limit
   bool limits_regeneration = false;
   Scalar bus_V{};          ///< U_limit, largest bus voltage
@@ -90,7 +89,7 @@ constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<
   return magnitude(m.i_a_A) > most || magnitude(m.i_b_A) > most || magnitude(m.i_c_A) > most;
 }
 
-/// True if speed or bus voltage is beyond its limit and the current `reference_A` does not reduce it.
+/// True if speed or bus voltage exceeds its limit and the current `reference_A` does not reduce this excess.
 template <class Scalar>
 constexpr bool must_coast(const LimitsConfig<Scalar>& config, Scalar reference_A, Scalar speed_rad_s,
                           Scalar bus_V) {

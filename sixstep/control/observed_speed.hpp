@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the speed with an observer that estimates speed and load; the controller feeds back both. The
-// observer's model of one sample is in fractions of the torque limit. The torque t follows the output u with
-// a lag. A constant load l, which is not measured, acts against it. w is the speed:
+// Controls the speed with an observer that estimates speed and load; the controller feeds back these two
+// estimates. The observer's model uses torques as fractions of the torque limit. The torque t follows the
+// output u with a lag. An unmeasured constant load l acts against t. w is the speed; a, b, c are constants of
+// ObservedSpeedConfig:
 //
 //   t[n] = c t[n-1] + (1 - c) u[n],   w[n+1] = a w[n] + b (t[n] - l)
 //
 // The measured speed y corrects the observer's prediction by the error e, in current form (Franklin, Powell
-// and Workman, Digital Control of Dynamic Systems, 8.2.2). The output u is the torque u_r that holds the
-// setpoint r, plus a part proportional to the difference of the speeds:
+// and Workman, Digital Control of Dynamic Systems, 8.2.2). The output u is the torque u_r for a constant
+// speed r, the setpoint, plus a part proportional to the speed difference:
 //   e = y - w[n|n-1],   w[n|n] = w[n|n-1] + L_w e,   l[n] = l[n-1] - L_l e
 //   u_r = l + f r,      u = u_r + K (r - w[n|n] + g (u_r - t[n-1]))
 //
-// g is the speed that the delayed torque will still add: w + g t behaves as if there were no lag
-// (design/loops/speed_laws.hpp). The estimated load replaces an integral: at rest y = r for any load. The
-// observer uses the limited u, so that its estimates do not wind up.
+// g is the speed that the delayed torque will still add per unit of torque: w + g t behaves as if there were
+// no lag (design/loops/speed_laws.hpp). The estimated load replaces an integral: at rest y = r for any load.
+// The observer uses the limited u, so that its estimates do not wind up.
 //
 // With c = f = g = 0 and a = 1 the law is linear active disturbance rejection (Gao, Scaling and
 // bandwidth-parameterization based controller tuning, ACC 2003; current form: Miklosovic, Radke and Gao, ACC
-// 2006), with b_0 = b/T and z_2 = -b_0 l. Then l also contains friction and every other effect that the model
-// neglects.
+// 2006), with b_0 = b/T and z_2 = -b_0 l. In this case l also contains friction and all other effects that
+// the model neglects.
 //
 // This law exists in floating point only: its scaling in fixed point is not proved.
 #pragma once
@@ -26,12 +27,12 @@
 
 namespace sixstep::control {
 
-/// With the defaults the output is 0.
+/// Default: the output is 0.
 template <class Scalar>
 struct ObservedSpeedConfig {
-  Scalar a{};    ///< fraction of the speed that remains after a sample
-  Scalar b{};    ///< rad/s that full torque adds in a sample
-  Scalar c{};    ///< fraction of the old torque that remains after a sample
+  Scalar a{};    ///< fraction of the speed that remains after one control period
+  Scalar b{};    ///< rad/s that full torque adds in one control period
+  Scalar c{};    ///< fraction of the old torque that remains after one control period
   Scalar L_w{};  ///< correction of the speed per rad/s of error
   Scalar L_l{};  ///< correction of the load per rad/s of error
   Scalar K{};    ///< output per rad/s

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the motor current with one shunt in the DC link. The shunt carries the sum of the currents of the
-// legs connected high (model.md 3): in the on-time the source phase's current, in the off-time no current or
-// the returned current. A sample is therefore used only if it was taken in the on-time, after the amplifier
-// settled.
+// legs that are connected to the positive rail (model.md 3). In the on-time this is the source phase's
+// current, in the off-time no current or the returned current. A sample is therefore used only if it was
+// taken in the on-time, after the amplifier settled.
 //
-// During a commutation one phase keeps its current i_k, a second current rises, and the third decays through
-// a diode:
+// During a commutation one phase continues to conduct its current i_k. The second phase's current rises, and
+// the third phase's current decays through a diode:
 //   sink changes    the old sink's current returns to the upper rail. The shunt shows i_k minus the returned
 //                   current, which equals the rising current.
 //   source changes  the old source conducts through a lower diode. The shunt shows the new source's current,
 //                   which is the rising current.
-// In both cases the shunt shows the rising current i_in, and i_m = (i_k + i_in)/2; i_k is near its last
-// value. This block uses this estimate until the rising current has reached i_k, or for a configured number
-// of samples.
+// In both cases the shunt shows the rising current i_in, and i_m = (i_k + i_in)/2. This block uses the last
+// value of i_k, because i_k changes little. It uses this estimate until i_in has reached i_k, or for a
+// configured number of samples.
 //
 // If the on-time is too short, no sample is used. The last value then decays by a configured factor per tick.
 #pragma once
@@ -24,34 +24,37 @@
 
 namespace sixstep::control {
 
-/// With the default every sample is rejected, and the current reads 0.
+/// Default: every sample is rejected, and the current is 0.
 template <class Scalar>
 struct OneShuntConfig {
   Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; a sample is used only
                                          ///< above this duty
   std::uint8_t commutation_samples = 0;  ///< largest number of samples of a commutation that are corrected
-  Scalar fade{};  ///< factor on the last value per tick without a sample: exp(-T_s R/L); 1 holds the value
+  Scalar fade{};  ///< factor on the last value per tick without a sample: exp(-T_s R/L); with 1 the value
+                  ///< stays constant
   bool operator==(const OneShuntConfig&) const = default;
 };
 
 template <class Scalar>
 struct OneShuntState {
   Scalar driven_A{};             ///< estimate of the current, positive in the direction of the command
-  Scalar kept_A{};               ///< current of the phase that conducts throughout the commutation
+  Scalar kept_A{};               ///< i_k, current of the phase that conducts before, during and after the
+                                 ///< commutation
   std::uint8_t commutating = 0;  ///< number of remaining samples of the commutation
   std::uint8_t hidden = 255;     ///< ticks since the last sample that was used, at most 255
   bool reversed = false;
 };
 
-/// Call it before the next sample, if a Hall edge has changed the pair while command and sign did not change.
+/// Call it before the next sample if a Hall edge has changed the pair, but the sign of the command has not
+/// changed.
 template <class Scalar>
 constexpr void one_shunt_commutation(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state) {
   state.kept_A = state.driven_A;
   state.commutating = config.commutation_samples;
 }
 
-/// Processes one sample under a command of this |duty| and sign. Returns i_m, A, positive for positive
-/// torque.
+/// Processes one sample. `duty` and `reversed` are magnitude and sign of the command at the sample. Returns
+/// i_m, A, positive for positive torque.
 template <class Scalar>
 constexpr Scalar one_shunt_step(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state,
                                 bool reversed, Scalar duty, Scalar sample_A) {

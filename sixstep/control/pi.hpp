@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Discrete PI in the velocity form of the thesis (6.8): F_R(z) = (d1 z + d0)/(z - 1).
+// Discrete PI controller in velocity form, with the transfer function (d1 z + d0)/(z - 1).
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// With the defaults the output is 0, so that a forgotten gain is harmless.
+/// Default: the output is 0, so that a forgotten gain causes no motion.
 template <class Scalar>
 struct PiConfig {
   Gain<Scalar> d1{};  ///< output per input: the proportional gain K
   Gain<Scalar> d0{};  ///< d0 = K_i - d1, K_i the integral gain per sample
-  Scalar limit{};     ///< |u| never exceeds this
+  Scalar limit{};     ///< largest |u|
   bool operator==(const PiConfig&) const = default;
 };
 
@@ -32,7 +32,7 @@ constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
-/// Adds an error without limit and without the integral part: u[n] = u[n-1] + d1 (e[n] - e[n-1]). Used for a
+/// One tick without the integral part and without the limit: u[n] = u[n-1] + d1 (e[n] - e[n-1]). It is for a
 /// loop whose output is not applied.
 template <class Scalar>
 constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
@@ -52,8 +52,8 @@ struct PiConfig<Fixed<Storage, FractionBits>> {
   Scalar limit{};
 };
 
-/// The sum has guard bits: it adds increments below a signal's last bit. In Q15 an increment must reach 2^-13
-/// of the last bit: an error of 1 bit is integrated if K_i >= 2^-13 (2^-29 in 32 bits). design/scaling checks
+/// The sum u has guard bits for increments below a signal's last bit. In Q15 the least increment is 2^-13 of
+/// the last bit: an error of 1 bit is integrated if K_i >= 2^-13 (2^-29 in 32 bits). design/scaling checks
 /// this.
 template <class Storage, int FractionBits>
 struct PiState<Fixed<Storage, FractionBits>> {
@@ -62,7 +62,8 @@ struct PiState<Fixed<Storage, FractionBits>> {
   Scalar e{};
 };
 
-/// The fixed-point version. An increment saturates at 16 times the signal's range, far beyond any limit.
+/// The fixed-point version. An increment saturates at 16 times the signal's range, which is far beyond any
+/// limit.
 template <class Storage, int FractionBits>
 constexpr Fixed<Storage, FractionBits> pi_step(const PiConfig<Fixed<Storage, FractionBits>>& config,
                                                PiState<Fixed<Storage, FractionBits>>& state,

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes a trapezoidal profile: a position setpoint within limits of speed and acceleration that stops
 // exactly on its target, in discrete time and without a square root. The velocity v is the distance per tick,
-// the acceleration a the change of v per tick. Let v = (m + r) a, with m an integer and 0 <= r < 1. Braking
+// the acceleration a the change of v per tick. Let v = (m + r) a, with an integer m and 0 <= r < 1. Braking
 // by a in each tick until rest needs the distance
 //
 //   v + (v - a) + .. + r a = (m + 1)(v - m a/2)
 //
-// The fastest v that can still stop within the distance R therefore has the largest m with a m (m + 1)/2 <=
-// R: v = R/(m + 1) + m a/2 = (R + a m (m + 1)/2)/(m + 1). Each tick sets this v, but changes v by at most a
-// and limits it. The profile accelerates, cruises and brakes, and its last step ends on the target. It is at
-// least as fast as the continuous profile with the same limits. If the target is nearer than the stopping
-// distance, the profile passes it and returns.
+// From the fastest v, the profile can still stop within the distance R. This v has the largest m with a m (m
+// + 1)/2 <= R: v = (R + a m (m + 1)/2)/(m + 1). Each tick sets this v, but changes v by at most a and limits
+// v to the speed limit. The profile accelerates, moves at constant speed and brakes. Its last step ends on
+// the target. It is at least as fast as the continuous profile with the same limits. If the target is nearer
+// than the stopping distance, the profile passes it and returns.
 //
 // In fixed point v and a are whole raw steps per tick: use enough bits (32), or a slower tick.
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace sixstep::control {
 
-/// The default never moves.
+/// Default: the position never changes.
 template <class Scalar>
 struct ProfileConfig {
   Scalar speed{};         ///< largest |v|, distance per tick
@@ -36,8 +36,8 @@ struct ProfileState {
 
 namespace detail {
 
-/// Largest m with a m (m + 1)/2 <= R, by bisection in at most 31 rounds. The search ends at the m that the
-/// speed limit needs: as m a <= fastest + a, the integer product fits into W.
+/// Largest m with a m (m + 1)/2 <= R, by bisection in at most 31 rounds. The search ends at the m of the
+/// speed limit. Because m a <= fastest + a, the integer product fits into W.
 template <class W>
 constexpr std::int32_t braking_ticks(W R, W a, W fastest) {
   constexpr std::int32_t most = std::int32_t{1} << 30;

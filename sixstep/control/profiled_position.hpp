@@ -9,8 +9,8 @@
 // position gain. y is the speed controller's output: a fraction of the full torque, or a duty. J', B' and c'
 // are the shaft's inertia, friction and Coulomb torque, each divided by the full torque. If y is a duty, they
 // are multiplied by R/(K_t U) instead, and K_t/U is added to B' for the back-EMF (Ellis, Control System
-// Design Guide, 2012, 8). The speed controller compensates unknown torques, such as a load. Only PI laws
-// receive the feed-forward: the observers of other laws would estimate it as a load.
+// Design Guide, 2012, 8). The speed controller compensates unknown torques, such as a load. Only PI laws use
+// the feed-forward: the observers of other laws would estimate it as a load.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -18,7 +18,7 @@
 
 namespace sixstep::control {
 
-/// The default adds nothing.
+/// Default: no feed-forward.
 template <class Scalar>
 struct MotionFeedForwardConfig {
   bool on = false;
@@ -35,10 +35,10 @@ constexpr Scalar torque_ahead(const MotionFeedForwardConfig<Scalar>& config,
   return config.per_rad_s2 * motion.acceleration_rad_s2 + config.per_rad_s * v + coulomb;
 }
 
-/// A drive contains the profile if SIXSTEP_POSITION_PROFILE is defined before the first header. sixstep's own
-/// build defines it, and so does an exported header whose drive has a profile. A drive without the profile
-/// needs 2 KB less flash and, in `float`, 352 bytes less RAM. All translation units of one program must agree
-/// on the definition.
+/// A drive contains the profile if SIXSTEP_POSITION_PROFILE is defined before the first header. The build of
+/// sixstep defines this macro. An exported header defines it if the exported drive has a profile. A drive
+/// without the profile needs 2 KB less flash and, in `float`, 352 bytes less RAM. All translation units of
+/// one program must agree on the definition.
 #ifdef SIXSTEP_POSITION_PROFILE
 inline constexpr bool position_profile_is_there = true;
 #else
@@ -71,7 +71,7 @@ struct ProfiledPositionState<Fixed<Storage, FractionBits>, true> {};
 template <class Scalar>
 struct ProfiledPositionState<Scalar, false> {};
 
-/// Position reference in the last tick, for telemetry.
+/// Position reference of the last tick, for telemetry.
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledReference {
   bool profiled = false;  ///< false: the setpoint is the reference
@@ -84,8 +84,8 @@ struct ProfiledReference<Scalar, false> {};
 
 namespace detail {
 
-/// The setpoint of this tick, degrees. `shaped`: the mode whose setpoint was shaped in the tick before. After
-/// another mode the profile begins at the shaft's position and speed.
+/// The setpoint of this tick, degrees. `shaped`: the mode of the previous tick. After another mode the
+/// profile starts at the shaft's position and speed.
 template <class Scalar>
 constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
                                    ProfiledPositionState<Scalar>& state, Mode shaped, Scalar setpoint,
@@ -95,7 +95,8 @@ constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
   return jerk_profile_step(config.profile, state.profile, setpoint).position_deg;
 }
 
-/// u_PI + ahead, within low..high. At a limit of this window the sum is exactly that limit.
+/// Output of the PI plus `ahead`, limited to low..high. A limited sum is exactly the limit, without a
+/// rounding error.
 template <class Scalar>
 constexpr Scalar pi_beside(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar ahead,
                            Scalar low, Scalar high) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The complete drive of a product: registers are its input, a bridge command is its output. In addition to
-// drive.hpp it converts ADC counts, decodes the Hall pins, measures speed and position from the Hall edges,
-// monitors faults and runs the state machine. Firmware calls protected_step() once per control tick and
-// protected_on_hall() in the Hall interrupt.
+// The complete drive of a product: the input are register values, the output is a bridge command. In addition
+// to drive.hpp it converts ADC counts, decodes the Hall pins, measures speed and position from the Hall
+// edges, monitors faults and runs the state machine. Firmware calls protected_step() once per control tick
+// and protected_on_hall() in the Hall interrupt.
 #pragma once
 #include <cstdint>
 
@@ -19,9 +19,9 @@ namespace sixstep::control {
 
 enum class CurrentSensing : std::uint8_t { phases, one_shunt };
 
-/// Alignment before the run: a fixed pair pulls the rotor, to prove that phases and Hall probes are wired as
-/// configured. The pair of sector s pulls the rotor to the angle where the pair's torque is 0: 90 degrees
-/// after the middle of s, on the edge between sectors s + 1 and s + 2. By default there is no alignment.
+/// Alignment before the run: a fixed pair pulls the rotor, to check the wiring of phases and Hall probes. The
+/// pair of sector s pulls the rotor to the angle where the pair's torque is 0. This angle is 90 degrees after
+/// the middle of s, on the edge between sectors s + 1 and s + 2. Default: no alignment.
 template <class Scalar>
 struct AlignConfig {
   Scalar current_A{};
@@ -31,7 +31,7 @@ struct AlignConfig {
   bool operator==(const AlignConfig&) const = default;
 };
 
-/// With the defaults the bridge is off.
+/// Default: the bridge is off.
 template <class Scalar>
 struct ProtectedConfig {
   DriveConfig<Scalar> drive{};
@@ -39,18 +39,19 @@ struct ProtectedConfig {
   CurrentSensing sensing = CurrentSensing::phases;
   AdcConfig<Scalar> current_adc[3]{};  ///< converters of phases a, b, c; with one shunt only the first is
                                        ///< used
-  AdcConfig<Scalar> bus_adc{};         ///< the offset of the bus converter is not measured
+  AdcConfig<Scalar> bus_adc{};         ///< converter of the bus voltage; its offset is not measured
   OneShuntConfig<Scalar> shunt{};
-  HallConfig hall{};  ///< if stable_samples is above 1, the tick evaluates edges, not the interrupt
+  HallConfig hall{};  ///< if stable_samples is above 1, edges are evaluated in the tick, not in the interrupt
   HallSpeedConfig<Scalar> speed{};
   HallPositionConfig<Scalar> position{};
   AdvanceConfig<Scalar> advance{};
   FaultConfig<Scalar> faults{};
   AlignConfig<Scalar> align{};
   Scalar brake_current_A{};  ///< current against the rotation while braking; 0: the drive coasts instead
-  /// |w| up to which braking short-circuits the windings: choose it below brake_current_A R_tt/K_t. 0: never.
+  /// Speed |w| up to which braking short-circuits the windings; 0: never. Choose it below brake_current_A
+  /// R_tt/K_t, with the terminal resistance R_tt and the torque constant K_t.
   Scalar short_below_rad_s{};
-  Scalar standing_rad_s{};  ///< |w| up to which the rotor counts as standing, and braking ends
+  Scalar standing_rad_s{};  ///< speed |w| up to which the rotor counts as at rest, and braking ends
   bool operator==(const ProtectedConfig&) const = default;
 };
 
@@ -73,7 +74,7 @@ struct ProtectedState {
   FaultState faults{};
   FaultEvents events{};  ///< events since the last tick
   ActivityState activity{};
-  std::uint8_t pair_of = 0;  ///< code whose pair carried the current at the last sample
+  std::uint8_t pair_of = 0;  ///< Hall code whose pair carried the current at the last sample
   bool calibrated = false;
   std::uint32_t align_ticks = 0, align_settled = 0;
 };
@@ -84,8 +85,8 @@ struct ProtectedTelemetry {
   Telemetry<Scalar> drive{};
   Measurement<Scalar> measured{};
   Activity activity = Activity::off;
-  std::uint16_t faults = 0;       ///< latched, bits of Fault
-  std::uint16_t first_fault = 0;  ///< bits of Fault: the reason why the drive stopped
+  std::uint16_t faults = 0;       ///< latched faults, bits of Fault
+  std::uint16_t first_fault = 0;  ///< faults that stopped the drive, bits of Fault
   std::uint8_t hall_line = 0;     ///< 1..3: the faulty Hall line; 0: unknown
 };
 
@@ -148,8 +149,8 @@ constexpr void calibrate(const ProtectedConfig<Scalar>& config, ProtectedState<S
   state.calibrated = done;
 }
 
-/// True when the rotor has stayed for settled_ticks in the sectors to which the pair pulls it. A rotor that
-/// does not arrive in time is a fault.
+/// True when the rotor has stayed for settled_ticks in the sectors to which the pair pulls it. If the rotor
+/// is not there after align.ticks, a fault is set.
 template <class Scalar>
 constexpr bool aligned(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state) {
   const AlignConfig<Scalar>& align = config.align;
@@ -201,7 +202,7 @@ constexpr const BridgeCommand<Scalar>& brake(const ProtectedConfig<Scalar>& conf
                                              ProtectedState<Scalar>& state, const Measurement<Scalar>& m,
                                              Telemetry<Scalar>& telemetry) {
   const Scalar slow = config.short_below_rad_s;
-  telemetry = {};  // discards the values of the loops that ran before
+  telemetry = {};  // discards the values of the loops of the previous activity
   if (slow > Scalar{} && magnitude(m.speed_rad_s) <= slow) {
     step_in(Mode::duty, config.drive, state.drive, m, Setpoint<Scalar>{}, telemetry);
     state.drive.command.duty = Scalar{};
@@ -242,7 +243,7 @@ constexpr const BridgeCommand<Scalar>& act(const ProtectedConfig<Scalar>& config
 
 }  // namespace detail
 
-/// One control tick. Any fault turns the bridge off in the same tick and stays latched until it is cleared.
+/// One control tick. Any fault turns the bridge off in the same tick and is latched until it is cleared.
 /// Returns a reference into `state`, valid until the next call.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& protected_step(const ProtectedConfig<Scalar>& config,
@@ -262,9 +263,9 @@ constexpr const BridgeCommand<Scalar>& protected_step(const ProtectedConfig<Scal
   return detail::act(config, state, activity, m, setpoint.value, telemetry.drive);
 }
 
-/// The Hall interrupt: changes the running bridge to the new pair. `pins`: levels after the edge. `captured`:
-/// the counter's reading at the edge. An invalid code or a jump turns the bridge off at once; the next tick
-/// reports the fault.
+/// The Hall interrupt: the bridge changes to the new pair while the drive runs or brakes. `pins`: levels
+/// after the edge. `captured`: the counter's reading at the edge. An invalid code or a jump turns the bridge
+/// off at once; the next tick reports the fault.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& protected_on_hall(const ProtectedConfig<Scalar>& config,
                                                          ProtectedState<Scalar>& state, std::uint8_t pins,

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects which of the pair's two switches the duty chops while the other switch is on: the patterns of
-// six-step's unipolar PWM. A pattern's name describes a switch in the 120 degrees for which it carries
-// current: H_PWM-L_ON, H_ON-L_PWM, PWM-ON, ON-PWM, and PWM-ON-PWM (Wei, Hu and Zhang, A novel PWM scheme to
-// eliminate the diode freewheeling of the inactive phase in BLDC motor, IEEE PESC 2004).
+// Selects which of the pair's two switches the duty chops while the other switch is on. These are the
+// patterns of unipolar PWM in six-step operation. A pattern's name describes a switch in the 120 degrees for
+// which it carries current: H_PWM-L_ON, H_ON-L_PWM, PWM-ON, ON-PWM, and PWM-ON-PWM (Wei, Hu and Zhang, A
+// novel PWM scheme to eliminate the diode freewheeling of the inactive phase in BLDC motor, IEEE PESC 2004).
 //
-// One leg of a pair was already in the pair before and stays; the other leg has just entered. PWM-ON chops
-// the entering leg, ON-PWM the staying leg. PWM-ON-PWM chops the entering leg until the middle of the sector,
-// then the staying leg.
+// After a commutation, one leg of the pair was in the previous pair too (the staying leg). The other leg is
+// the entering leg. PWM-ON chops the entering leg, ON-PWM the staying leg. PWM-ON-PWM chops the entering leg
+// until the middle of the sector, then the staying leg.
 //
-// Purpose: the free phase's terminal has the star point's voltage plus the free phase's back-EMF. In the
-// off-time of the upper switch the star point is at the lower rail, and a back-EMF below zero drives a
-// current through the free leg's lower diode. In the off-time of the lower switch the star point is at the
-// upper rail, and a back-EMF above zero drives a current through the upper diode.
+// The pattern determines the current in the free phase. The free terminal's voltage is the star point's
+// voltage plus the free phase's back-EMF. In the off-time of the upper switch the star point is at the lower
+// rail, and a back-EMF below zero drives a current through the free leg's lower diode. In the off-time of the
+// lower switch the star point is at the upper rail, and a back-EMF above zero drives a current through the
+// upper diode.
 //
 // The back-EMF of the free phase crosses zero in the middle of the sector. Chopping the entering leg causes
-// no current before this instant, chopping the staying leg causes none after it. With PWM-ON-PWM the free
-// phase of a driving motor therefore conducts in no off-time. The last three patterns distribute the losses
-// equally over all six switches.
+// no current before this instant. Chopping the staying leg causes no current after this instant. With
+// PWM-ON-PWM the free phase of a driving motor therefore never conducts in an off-time. The last three
+// patterns distribute the losses equally over all six switches.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -30,8 +31,8 @@ inline constexpr std::uint8_t pwm_patterns = 5;
 template <class Scalar>
 struct PwmPatternConfig {
   PwmPattern pattern = PwmPattern::upper;
-  Gain<Scalar> half_sector_per_rad_s{};  ///< 6 p T/pi: fraction of 30 electrical degrees per tick T and
-                                         ///< mechanical rad/s
+  Gain<Scalar> half_sector_per_rad_s{};  ///< 6 p T/pi: fraction of 30 electrical degrees per tick and
+                                         ///< mechanical rad/s, with pole pairs p and tick period T
   bool operator==(const PwmPatternConfig&) const = default;
 };
 
@@ -41,8 +42,8 @@ struct PwmPatternState {
   Accumulator<Scalar> passed{};  ///< distance since the sector's begin, in half sectors, at most 1
 };
 
-/// Switch to chop. Call it after every commutation and command. Before the first commutation the rotor is
-/// assumed to have turned in the command's direction.
+/// The switch to chop. Call it after every commutation and command. Before the first commutation, the
+/// function assumes that the rotor turned in the command's direction.
 template <class Scalar>
 constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
                                        std::uint8_t sector, Pair pair) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces the configuration while the drive runs, between two ticks: gains, limits, chopping, mode.
 //
-//   same mode     All states stay. A PI in velocity form continues from its last output and its last error:
-//                 with the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], which is 0 at zero
-//                 error. The positional form keeps its integral; its output changes by the change of K times
-//                 the error. An observer and a sliding surface continue from their states.
-//   other law     The speed loop's new law begins at the output of the old law at zero error. At zero error
-//                 the output does not change (in a positional form only if its setpoint is not weighted).
-//   other mode    A loop of both modes keeps its state. A loop of the new mode only begins at rest, with
-//                 output 0. A setpoint that slews or has a profile starts at the measurement
-//                 (drive_extras.hpp). The bridge keeps the last command until the next tick.
+//   same mode     All states are kept. A PI in velocity form continues from its last output and its last
+//                 error: with the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], which is 0 at
+//                 zero error. The positional form keeps its integral; its output changes by the change of K
+//                 times the error. An observer and a sliding surface continue from their states.
+//   other law     The new law of the speed loop starts with the old law's output at zero error. At zero error
+//                 the output does not change. In the positional form this holds only if the setpoint is not
+//                 weighted.
+//   other mode    A loop that both modes use keeps its state. A loop that only the new mode uses starts with
+//                 output 0. A slewed or profiled setpoint starts at the measurement (drive_extras.hpp). The
+//                 bridge keeps the last command until the next tick.
 //   other limits  A position profile with other limits continues from its position and speed, without
 //                 acceleration.
 #pragma once
@@ -29,7 +30,7 @@ constexpr bool runs_current_loop(const DriveConfig<Scalar>& config) {
          (runs_speed_loop(config) && config.speed_control == SpeedControl::cascade);
 }
 
-/// Resets the loops that did not run in the mode before.
+/// Resets the loops that the mode of `config` does not use.
 template <class Scalar>
 constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   if (!runs_current_loop(config)) {
@@ -107,7 +108,7 @@ constexpr void retune(DriveConfig<Scalar>& config, DriveState<Scalar>& state,
   config = next;
 }
 
-/// Replaces thresholds, limits and the inner drive. Loops in use by braking or alignment keep their states.
+/// Replaces thresholds, limits and the inner drive. Loops that braking or alignment uses keep their states.
 template <class Scalar>
 constexpr void retune(ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                       const ProtectedConfig<Scalar>& next) {

@@ -2,12 +2,13 @@
 // Computes square roots without a library, and two functions that use them:
 //
 //   vector_length   sqrt(a^2 + b^2)
-//   circle_rest     sqrt(r^2 - x^2): the other component of a vector of length r; 0 if |x| is above r
+//   circle_rest     sqrt(r^2 - x^2): second component of a vector of length r with the first component x; 0
+//                   if |x| is above r
 //
-// Floating point uses Newton's y <- (y + x/y)/2 from above, which falls until it has converged. It needs only
-// + - * /; every core therefore computes the same bits, exact to one or two digits. Fixed point computes the
-// integer part of the root of an integer, bit by bit. It is exact to a digit, and the result of circle_rest
-// is never outside of the circle.
+// Floating point uses Newton's iteration y <- (y + x/y)/2, which starts above the root and falls until it
+// converges. It needs only + - * /. Every core therefore computes the same bits, with an error of at most two
+// last digits. Fixed point computes the integer part of the root of an integer, bit by bit, with an error
+// below one digit. The result of circle_rest is never outside of the circle.
 #pragma once
 #include <cstdint>
 
@@ -57,13 +58,15 @@ constexpr Fixed<Storage, FractionBits> vector_length(Fixed<Storage, FractionBits
     const auto size = static_cast<UnsignedWide>(detail::absolute(raw));
     return static_cast<UnsignedWide>(size * size);
   };
-  // In the 16-bit formats the sum of two squares of 2^30 is 2^31, which fits into an unsigned number.
+  // In the 16-bit formats a square is at most 2^30. The sum of two squares is at most 2^31, which fits into
+  // an unsigned number.
   const UnsignedWide length = whole_root(static_cast<UnsignedWide>(square(a.raw) + square(b.raw)));
   constexpr auto end = static_cast<UnsignedWide>(detail::greatest<Storage>);
   return Fixed<Storage, FractionBits>::from_raw(static_cast<Storage>(length < end ? length : end));
 }
 
-/// The component beside x of a vector of length `radius`; 0 if |x| is above the radius or the radius below 0.
+/// Second component of a vector of length `radius` with the first component x. 0 if |x| is above the radius,
+/// or the radius is below 0.
 template <class Scalar>
 constexpr Scalar circle_rest(Scalar radius, Scalar x) {
   const Scalar size = magnitude(x);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arithmetic that the control blocks require of their number type. The blocks are templates over one Scalar,
-// which is the type of signals. Four quantities do not fit into a fixed-point signal and have their own
-// types:
+// which is the type of signals. Four quantities do not fit into a fixed-point signal and have separate types:
 //
 //   Gain         output per input; may exceed the range of a signal
 //   Divisor      a constant that divides a signal once per tick; a chip multiplies by its reciprocal
 //   Accumulator  a sum over many ticks, whose increments may be far below a signal's last bit
-//   TickRatio    a signal times timer counts, to be divided by timer counts
+//   TickRatio    product of a signal and timer counts, for a division by timer counts
 //
 // For float and double all these types are the Scalar itself, and every function below returns the same bits
 // as the plain expression. fixed.hpp defines types and functions for fixed point.
@@ -35,7 +34,7 @@ struct ScalarTraits {
   using Divisor = Scalar;
   using Accumulator = Scalar;
   using TickRatio = Scalar;
-  using Wide = Scalar;  ///< holds a difference of two signals, and a signal times a small integer
+  using Wide = Scalar;  ///< range for a difference of two signals, and for a signal times a small integer
 
   static constexpr Scalar half_difference(Scalar a, Scalar b) { return (a - b) * Scalar(0.5); }
   static constexpr Scalar product(Scalar x, Gain gain) { return x * gain; }
@@ -48,7 +47,7 @@ struct ScalarTraits {
   static constexpr Scalar per_ticks(TickRatio ratio, std::uint32_t ticks) {
     return ratio / static_cast<Scalar>(ticks);
   }
-  /// part/whole, at most 1; whole = 0 gives 1.
+  /// part/whole, at most 1; 1 for whole = 0.
   static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
     return part >= whole ? Scalar(1) : static_cast<Scalar>(part) / static_cast<Scalar>(whole);
   }
@@ -70,8 +69,8 @@ using TickRatio = typename ScalarTraits<Scalar>::TickRatio;
 template <class Scalar>
 using Wide = typename ScalarTraits<Scalar>::Wide;
 
-/// The largest duty, fraction or flag: 1, or the largest number below 1 if the format cannot hold 1 (Q15,
-/// Q31).
+/// The largest duty, fraction or flag: 1, or the largest number below 1 if the format does not contain 1
+/// (Q15, Q31).
 template <class Scalar>
 inline constexpr Scalar one = Scalar(1);
 

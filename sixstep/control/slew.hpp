@@ -8,7 +8,7 @@
 
 namespace sixstep::control {
 
-/// With the default the output never changes.
+/// Default: the output never changes.
 template <class Scalar>
 struct SlewConfig {
   Accumulator<Scalar> step{};  ///< largest change per tick; in fixed point it may be less than the signal's

@@ -5,17 +5,17 @@
 //
 //   m[n+1] = m[n] + q (r - y),   s = m - y,   u = (q/b) (r - y) + R sat(s/P)
 //
-// m is the speed of a drive without load: each sample reduces its error to the fraction 1 - q. r is the
-// setpoint, y the measured speed. m begins at the measured speed: the drive is on the surface s = 0 from the
-// first sample on. b is the speed that full torque adds in a sample, and l the load as a fraction of full
-// torque. Inside the limit
+// r is the setpoint, y the measured speed. m is the speed of an ideal drive without load. Each sample reduces
+// the error r - m of this drive to the fraction 1 - q. m begins at the measured speed, so that the drive is
+// on the surface s = 0 from the first sample on. R and P are constants of SlidingSpeedConfig. b is the speed
+// that full torque adds in a sample, and l the load as a fraction of full torque. Inside the limit
 //
 //   |s| > P   s changes by b (R - l) per sample: s reaches the layer from s_0 after (|s_0| - P)/(b (R - l))
 //             samples
-//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: s ends at P l/R, where R sat(s/P) equals the load, and y = r
+//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: s settles at P l/R: R sat(s/P) equals the load, and y = r
 //
-// At a limit m changes so that u is exactly the limit, as far as the layer allows. Outside of the layer m
-// does not move further away from the speed, and therefore does not wind up.
+// At a limit of u, m changes so that u is exactly the limit, as far as the layer allows. Outside of the layer
+// the distance of m from the speed does not increase, so that m does not wind up.
 //
 // This law exists in floating point only: its scaling in fixed point is not proved.
 #pragma once
@@ -23,12 +23,12 @@
 
 namespace sixstep::control {
 
-/// With the defaults the output is 0.
+/// Default: the output is 0.
 template <class Scalar>
 struct SlidingSpeedConfig {
-  Scalar q{};      ///< fraction of the error that a sample removes
+  Scalar q{};      ///< fraction by which each sample reduces the error
   Scalar f{};      ///< q/b, output per rad/s
-  Scalar reach{};  ///< R, the largest load that the law can balance, as a fraction of the torque limit
+  Scalar reach{};  ///< R, the largest load that the law compensates, as a fraction of the torque limit
   Scalar layer{};  ///< P, half the width of the boundary layer, rad/s
   bool operator==(const SlidingSpeedConfig&) const = default;
 };

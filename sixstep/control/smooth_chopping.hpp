@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the chopping so that the current is smooth through d = 0. With ideal soft chopping no current flows
-// at d -> 0+, and d -> 0- is a full short-circuit brake (model.md 4b): for a loop that crosses zero at speed,
-// the voltage jumps by 2 K_e w, the current by 2 K_e w/R_tt. Complementary chopping applies d U_s at both
-// signs, without a jump. But it always switches both transistors of a leg, with dead time and switching loss,
-// and at light load the current reverses.
+// Selects the chopping so that the current has no jump at the duty d = 0. With ideal soft chopping no current
+// flows at d -> 0+, and d -> 0- is a full short-circuit brake (model.md 4b). If d changes its sign at the
+// speed w, the voltage jumps by the back-EMF 2 K_e w, and the current by 2 K_e w/R_tt (R_tt: terminal
+// resistance). Complementary chopping applies d U_s at both signs, without a jump. It has two disadvantages.
+// It always switches both transistors of a leg, with dead time and switching loss. At light load the current
+// reverses.
 //
 // While the driven current flows in the direction of the command during the whole period, both choppings form
-// the same circuit (the lower diode conducts in place of the lower switch). The chopping is therefore soft if
-// s i_m is above `soft_above_A`, complementary if it is below `complementary_below_A`, and unchanged between
-// the two. Choose the lower level above half of the current's peak-to-peak ripple, U_s T_s/(4 L_tt)/2 at d =
-// 1/2: then the change of chopping does not cause a jump.
+// the same circuit: the lower diode conducts in place of the lower switch. s is the sign of the command. The
+// chopping is therefore soft if s i_m is above `soft_above_A`, and complementary if s i_m is below
+// `complementary_below_A`. Between the two levels it does not change. Choose the lower level above half of
+// the current's peak-to-peak ripple, which is at most U_s T_s/(4 L_tt) (at d = 1/2). The change of chopping
+// then causes no jump.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 
 namespace sixstep::control {
 
-/// With the default the chopping is complementary while no current flows, and soft with any current.
+/// Default: the chopping is complementary without a driven current, and soft with any driven current.
 template <class Scalar>
 struct SmoothChoppingConfig {
   Scalar soft_above_A{};

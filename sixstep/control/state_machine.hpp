@@ -3,8 +3,8 @@
 // the transitions; protected_drive.hpp performs the actions of each state.
 //
 //   off --start--> calibrate --offsets measured--> align --rotor in place--> run
-//   run --stop--> brake --standing--> off;  brake --start--> run;  calibrate, align --stop--> off
-//   any --fault--> fault --clear, causes gone--> off
+//   run --stop--> brake --at rest--> off;  brake --start--> run;  calibrate, align --stop--> off
+//   any --fault--> fault --clear, no cause present--> off
 //
 // Offsets are measured once, and again after a fault. The alignment is optional.
 #pragma once
@@ -14,8 +14,8 @@ namespace sixstep::control {
 
 enum class Activity : std::uint8_t { off, calibrate, align, run, brake, fault };
 
-/// Requests of the user, as levels. Only `clear` acts at its change from false to true: a button that stays
-/// pressed does not restart a faulty drive repeatedly.
+/// Requests of the user. `run` acts as a level. `clear` acts only when it changes from false to true, so that
+/// a button that stays pressed does not restart a faulty drive repeatedly.
 struct Request {
   bool run = false;
   bool clear = false;
@@ -23,16 +23,17 @@ struct Request {
 
 struct ActivityInput {
   Request request{};
-  bool calibrated = false;  ///< offsets are known
+  bool calibrated = false;  ///< true: the offsets are measured
   bool aligned = false;     ///< true: the rotor has reached its alignment, or there is no alignment
-  bool standing = false;    ///< the rotor is slow enough to end the braking
-  bool faulty = false;      ///< a fault is latched
+  bool standing = false;    ///< true: the rotor is slow enough to end the braking
+  bool faulty = false;      ///< true: a fault is latched
 };
 
 struct ActivityState {
   Activity activity = Activity::off;
   bool clear_was = false;
-  bool run_released = true;  ///< true: `run` was false since the last fault; only then it starts the drive
+  bool run_released = true;  ///< true: since the last fault `run` was false; only then may `run` start the
+                             ///< drive
 };
 
 /// True if faults must be cleared now. Call it before activity_step, and pass activity_step the remaining
@@ -55,7 +56,7 @@ constexpr Activity after(Activity activity, bool run, const ActivityInput& in) {
     case Activity::brake:
       return run ? Activity::run : in.standing ? Activity::off : Activity::brake;
     case Activity::fault:
-      return Activity::off;  // reached only if no fault is latched
+      return Activity::off;  // this state is left only if no fault is latched
   }
   return Activity::off;
 }

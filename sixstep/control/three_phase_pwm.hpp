@@ -5,9 +5,10 @@
 //   sine-triangle   v_0 = 0                      undistorted up to a phase voltage of U_s/2
 //   space vector    v_0 = -(max v + min v)/2     undistorted up to U_s/sqrt 3, the maximum
 //
-// v_k: phase voltages, U_s: bus. v_0 shifts all three pole voltages alike, which does not change the phase
-// voltages. With pulses in the middle of the period, the second v_0 gives symmetric space-vector modulation:
-// both zero vectors have the same duration. In fixed point, voltages and bus have the same base.
+// v_k: phase voltages, U_s: bus voltage, d_k: duties. v_0 shifts all three pole voltages alike, which does
+// not change the phase voltages. With pulses in the middle of the period, v_0 = -(max v + min v)/2 results in
+// symmetric space-vector modulation: both zero vectors have the same duration. In fixed point, v_k and U_s
+// have the same base.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/leg_command.hpp"
@@ -26,7 +27,7 @@ constexpr LegCommand<Scalar> voltage_leg(Scalar v, Scalar bus_V) {
 
 }  // namespace detail
 
-/// v_k - (max v + min v)/2, computed as the mean of the distances from max v and min v, which fits every
+/// v_k - (max v + min v)/2. It is computed as the mean of v_k - max v and v_k - min v, which fits every
 /// format.
 template <class Scalar>
 constexpr Abc<Scalar> centred(const Abc<Scalar>& v) {
@@ -38,7 +39,7 @@ constexpr Abc<Scalar> centred(const Abc<Scalar>& v) {
   return {from_the_middle(v.a), from_the_middle(v.b), from_the_middle(v.c)};
 }
 
-/// Sine-triangle modulation of phase voltages against the star point, V. Each leg is computed independently.
+/// Sine-triangle modulation of the phase voltages, V. Each leg is computed independently.
 template <class Scalar>
 constexpr LegCommands<Scalar> sine_triangle(const Abc<Scalar>& voltage_V, Scalar bus_V) {
   return {.enabled = true,

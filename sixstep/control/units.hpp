@@ -3,7 +3,7 @@
 // base is the SI value of a signal's 1.0, in A, V, rad/s or degrees; in floating point every base is 1.
 // design/scaling/product_scaling.hpp computes the same quotients. A converter or threshold written in
 // firmware therefore has the bits for which the scaling is proved. (On the AVR, where double has 32 bits, the
-// last of 16 bits may round in the other direction; an exported drive consists of integers.)
+// last of 16 bits may differ. An exported drive has no such difference, because it consists of integers.)
 //
 // All functions are consteval, so that a chip never divides by a base. A value outside of the format's range
 // does not compile ("does_not_fit").
@@ -16,10 +16,10 @@ namespace sixstep::control {
 
 namespace detail {
 
-void does_not_fit();  // not constexpr and nowhere defined: a call is a compile error
+void does_not_fit();  // not constexpr and never defined: a call is a compile error
 
 template <class Scalar>
-struct FormatEnds {  // range of floating point: no SI number reaches its ends
+struct FormatEnds {  // range of floating point, which no number in SI units exceeds
   static constexpr double digit = 1.0;
   static constexpr bool holds(double) { return true; }
   static constexpr bool holds_gain(double) { return true; }
@@ -60,7 +60,8 @@ struct Units {
   /// format.
   consteval Scalar plain(double x) const { return signal(x); }
 
-  /// AdcConfig::per_eighth of a converter with x A per count; volts_per_count() returns it for x V per count.
+  /// AdcConfig::per_eighth of a converter with x A per count. volts_per_count(): of a converter with x V per
+  /// count.
   consteval Gain<Scalar> amperes_per_count(double x) const { return per_eighth(x, current_A); }
   consteval Gain<Scalar> volts_per_count(double x) const { return per_eighth(x, voltage_V); }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks each run against the laws of every run (model.md 5): the energy balances close, the currents sum to
-// zero, and no diode conducts backwards. The audit integrates the polynomials of the segments themselves, so
-// that its residuals are rounding errors only.
+// Checks the laws that every run obeys (model.md 5):
+// - the energy balances are exact,
+// - the sum of the phase currents is zero,
+// - no diode conducts backwards.
+// The audit integrates the polynomials of the segments, so that its residuals are only rounding errors.
 #pragma once
 #include <algorithm>
 
@@ -9,21 +11,23 @@
 
 namespace sixstep::plant {
 
-/// Energies over a run, J. A residual is the error of its balance divided by `scale`.
+/// Energies over a run, J. A residual is the error of an energy balance divided by `scale`.
 struct EnergyBook {
-  double supplied = 0.0;  ///< integral U_s i_dc dt, into the bridge
+  double supplied = 0.0;  ///< integral U_s i_dc dt, from the bus into the bridge
   double copper = 0.0;
   double devices = 0.0;
   double magnetic = 0.0;  ///< change of (1/2) L_s (i_a^2 + i_b^2 + i_c^2)
   double air_gap = 0.0;   ///< integral T_e w dt
   double friction = 0.0;
-  double iron = 0.0;  ///< iron losses, a part of friction; only study/measure/iron_gauge.hpp computes them
+  double iron = 0.0;  ///< iron losses, a part of `friction`; only study/measure/iron_gauge.hpp computes this
+                      ///< member
   double load = 0.0;
   double kinetic = 0.0;  ///< change of (1/2) J w^2
   double brake_resistor =
-      0.0;  ///< heat of the resistor across the bus; not in the balances, which begin at the bridge
+      0.0;  ///< heat of the brake resistor at the bus; not part of the balances, because these begin at the
+            ///< bridge
   double moved = 0.0;  ///< sum of |U_s i_dc|, |T_e w|, |T_load w| and |T_cogging w|, integrated per segment
-  double scale = 0.0;  ///< the larger of `moved` and the stored energy; unit of the residuals
+  double scale = 0.0;  ///< the larger of `moved` and the stored energy; the residuals are relative to it
   double electrical_residual = 0.0;
   double mechanical_residual = 0.0;
 };
@@ -45,14 +49,14 @@ class Audit {
   const Laws& laws() const { return laws_; }
 
  private:
-  /// Currents, A, in the order of the legs' law, and speed, rad/s, at an instant. The stored energies are
-  /// computed from the first and the last Point only, at the end.
+  /// Currents, A, in the order of the legs' law, and speed, rad/s, at an instant. energy() computes the
+  /// stored energies from the first and the last Point.
   struct Point {
     PerLeg<Real> i{};
     Real w = 0;
   };
   using Pair = series::Pair<Real>;
-  /// Two sums side by side, each with its rounding remainder.
+  /// Two sums that are computed in parallel, each with its rounding error.
   struct TwoSums {
     Pair value{}, low{};
     void add(Real first, Real second) { series::add_compensated(value, low, Pair{first, second}); }
@@ -69,7 +73,8 @@ class Audit {
 
   bool begun_ = false;
   Real inv_L_ = 1, inv_J_ = 1;
-  Real noise_ = 0;  ///< J; energy of a current and a speed at noise level: no smaller energy can be balanced
+  Real noise_ = 0;  ///< J; energy of a current and a speed at noise level: the least meaningful scale of a
+                    ///< balance
   Point start_, end_;
   TwoSums supplied_copper_, devices_air_gap_, friction_load_;
   Real moved_ = 0;
@@ -127,9 +132,9 @@ inline void Audit<Real>::take(const Plant<Real>& plant, const SegmentEnergy<Real
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
-  // A clamp that closes on a turning shaft takes its kinetic energy, even if the clamp opens at the same
-  // instant. Standstill also sets a speed within noise to zero; the kinetic energy of such a speed is not
-  // counted.
+  // A clamp that closes on a turning shaft absorbs the shaft's kinetic energy, even if the clamp opens at the
+  // same instant. Standstill also sets a speed within noise to zero; the kinetic energy of such a speed is
+  // not counted.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
   // mutant: stopped && end_.w != 0 => false
   if (stopped && end_.w != 0) friction_load_.add(kinetic_energy(end_), Real(0));
@@ -148,7 +153,7 @@ EnergyBook Audit<Real>::energy() const {
   const Real magnetic_start = magnetic_energy(start_), magnetic_end = magnetic_energy(end_);
   const Real kinetic_start = kinetic_energy(start_), kinetic_end = kinetic_energy(end_);
   const Real magnetic = magnetic_end - magnetic_start, kinetic = kinetic_end - kinetic_start;
-  // A coasting motor moves no energy through bridge or load; its stored energy is the scale then.
+  // A coasting motor transfers no energy to bridge or load. The scale is then the stored energy.
   const Real scale =
       std::max({moved_, magnetic_start + kinetic_start, magnetic_end + kinetic_end, noise_, Real(1e-300)});
   const Real supplied = supplied_copper_.value[0], copper = supplied_copper_.value[1];

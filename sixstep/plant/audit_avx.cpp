@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiles the audit's integrals for AVX, four numbers per instruction. With GCC the whole file is compiled
-// for AVX, because GCC splits the wide vectors of a function with its own target attribute before it inlines.
-// Code shared with other files is inlined here or has another name here (series/nodes.hpp).
+// for AVX: in a function with a target attribute, GCC splits wide vectors before it inlines. Code that other
+// files also use is inlined in this file, or has another name in this file (series/nodes.hpp).
 // tests/plant/avx_alone.cmake checks that this file exports no function that the linker could use for other
-// files. Other compilers use two numbers per instruction here too.
+// files. Other compilers use two numbers per instruction in this file too.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC target("avx")
 #define SIXSTEP_FOUR_LANES

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of the back-EMF's shape: f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector. The products of
-// speed with phi0 and phi1 serve all three phases. x is the angle since the sector's start, electrical rad.
+// Tables of the back-EMF's shape: f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector. x is the angle
+// since the sector's start, electrical rad. The products of speed with phi0 and phi1 are the same for all
+// three phases. alpha_k and beta_k are constants of phase k in a piece.
 //   trapezoid of any flat width: (phi0, phi1) = (1, x), up to three pieces per sector
 //   sine:                        (phi0, phi1) = (cos x, sin x), one piece
 #pragma once
@@ -19,7 +20,7 @@ struct EmfPiece {
   PerLeg<Real> alpha_above{}, beta_above{};  ///< alpha and beta minus the mean of the other two legs' values
 };
 
-/// Multiplies a shape of peak 1 by K_e (V s, or N m/A), so that alpha and beta give a machine's back-EMF per
+/// Multiplies a shape of peak 1 by K_e (V s, or N m/A), so that alpha phi0 + beta phi1 is the back-EMF per
 /// speed.
 template <class Real>
 constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
@@ -44,7 +45,8 @@ using EmfTable = std::array<EmfSector<Real>, 6>;
 
 namespace detail {
 
-/// Angle from the centre of phase k's top to the sector's start, degrees in (-180, 180]: 60 s - 60 - 120 k.
+/// Angle from the centre of phase k's flat top to the start of sector s, degrees in (-180, 180]: 60 s - 60 -
+/// 120 k.
 constexpr int centre_distance_deg(int sector, int k) {
   int d = (60 * sector - 60 - 120 * k) % 360;
   if (d <= -180) d += 360;
@@ -52,9 +54,9 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps, with the angle phi from the
-/// centre of the top and the flat width w, both in degrees (model.md 1). f is linear over one piece, whose
-/// middle is `middle_deg` after the sector's start.
+/// alpha and beta of a trapezoid f in one piece (model.md 1). f is 1 on the top, -1 on the bottom, and (90 -
+/// |phi|)/(90 - w/2) on the ramps. phi is the angle from the centre of the top, w the flat width, both in
+/// degrees. The middle of the piece is `middle_deg` after the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Circuit law of the three-leg bridge on a star winding as pure functions (model.md 2): the connection of
-// each leg, its pole voltage against the negative rail, and the star point's voltage. settle.hpp decides the
-// connections that gates and currents do not determine.
+// Circuit equations of the three-leg bridge with a star winding (model.md 2): connection of each leg, pole
+// voltages, and star point's voltage. settle.hpp determines the connections that do not follow from gates and
+// currents.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace sixstep::plant {
 
-/// How a phase's terminal is connected. A leg has exactly one of these connections at any time.
+/// Connection of a phase's terminal. A leg has exactly one connection at any time.
 enum class Connection : std::uint8_t { floating, high_switch, low_switch, high_diode, low_diode };
 
 /// The connections of legs a, b, c.
@@ -26,16 +26,17 @@ constexpr bool is_floating(Connection c) { return c == Connection::floating; }
 constexpr bool is_high(Connection c) { return c == Connection::high_switch || c == Connection::high_diode; }
 constexpr bool is_diode(Connection c) { return c == Connection::high_diode || c == Connection::low_diode; }
 
-/// |S|: how many legs are connected.
+/// |S|: number of connected legs.
 constexpr int connected_count(const Legs& legs) {
   return int{!is_floating(legs[0])} + int{!is_floating(legs[1])} + int{!is_floating(legs[2])};
 }
 
-/// Table of model.md 2 for a MOSFET leg. A gated channel carries both directions of current, and its diode
-/// none. Without a gate, the current's sign selects the diode. A current of at most `noise` leaves the leg
-/// floating, and settle() decides from the voltages whether the leg stays so. Both gates on is a
-/// shoot-through and has no connection: call shoots_through() first. The function branches because the
-/// processor predicts branches: a segment's series can begin before the currents' signs are computed.
+/// Table of model.md 2 for a MOSFET leg. A channel that is switched on conducts both directions of current,
+/// and its diode conducts no current. Without a gate, the current's sign selects the diode. With a current of
+/// at most `noise` the leg is floating, unless settle() finds from the voltages that a diode conducts. Both
+/// gates on are a shoot-through, which has no connection: call shoots_through() first. The function uses
+/// branches, because the processor predicts them and can begin a segment's series before the signs of the
+/// currents are computed.
 template <class Real>
 constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, Real noise = 0) {
   if (gate_high) return Connection::high_switch;
@@ -44,8 +45,8 @@ constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, 
   return current < -noise ? Connection::high_diode : Connection::floating;
 }
 
-/// v for a leg on its low diode, -v for a leg on its high diode: a current that the diode can carry is
-/// positive.
+/// v for a leg on its low diode, -v for a leg on its high diode: for a current v, the result is positive if
+/// the diode can conduct it.
 template <class Real>
 constexpr Real along_diode(Connection diode, Real v) {
   return diode == Connection::low_diode ? v : -v;
@@ -62,7 +63,7 @@ struct PoleTerms {
 /// Pole terms of a connection (model.md 2):
 ///   high switch: U_s - R_on i       low switch: -R_on i
 ///   high diode:  U_s + V_f - r_d i  low diode:  -V_f - r_d i
-/// A floating leg has no law of its own: all terms are zero.
+/// The equations do not determine the pole voltage of a floating leg from its devices: all terms are zero.
 template <class Real>
 constexpr PoleTerms<Real> pole_terms(Connection c, const Devices& devices) {
   const Real R_on = Real(devices.R_on_ohm), V_f = Real(devices.V_f_V), r_d = Real(devices.r_d_ohm);
@@ -99,9 +100,10 @@ constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
   return terms.bus_share * U_s + terms.offset_V - terms.r_ohm * i;
 }
 
-/// Star point's voltage, V against the negative rail (model.md (5)): u_n = (1/|S|) sum_{k in S} (u_k - e_k),
-/// S the connected legs. With |S| = 0 the voltage is undefined. The function then centres the terminals
-/// between the rails, so that a floating terminal lies beyond a rail exactly if max e - min e > U_s + 2 V_f.
+/// Star point's voltage, V against the negative rail (model.md (5)): u_n = (1/|S|) sum_{k in S} (u_k - e_k).
+/// S is the set of connected legs, u_k a pole voltage, e_k a back-EMF. With |S| = 0 the voltage is undefined.
+/// The function then centres the terminals between the rails, so that a floating terminal lies beyond a rail
+/// exactly if max e - min e > U_s + 2 V_f.
 template <class Real>
 constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real U_s, const PerLeg<Real>& i,
                             const PerLeg<Real>& e) {
@@ -118,7 +120,8 @@ constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real
   return (U_s - highest - lowest) / Real(2);
 }
 
-/// All three pole voltages: of connected legs by their devices, of floating legs u_n + e_k (model.md 2).
+/// All three pole voltages (model.md 2). The devices determine the voltage of a connected leg. The voltage of
+/// a floating leg is u_n + e_k.
 template <class Real>
 constexpr PerLeg<Real> pole_voltages(const Legs& legs, const PoleTable<Real>& poles, Real U_s,
                                      const PerLeg<Real>& i, const PerLeg<Real>& e) {

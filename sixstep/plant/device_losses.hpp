@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Losses of each of the six switches and six diodes (model.md 8): conduction losses from the segment's
-// series, and switching energies, which affect only temperatures and efficiency. The plant of either kernel
-// supplies them segment by segment.
+// series, and switching energies, which affect only temperatures and efficiency. Both kernels add the losses
+// segment by segment.
 //
-// A switch that takes over a current from the other switch's diode loses E_on, and that diode loses E_rr. A
-// switch that turns off a current loses E_off. Nothing is lost without current, or where the current flows in
-// the direction of the switch's own diode: a channel that carries this current counts as the diode, because
-// the diode carries the current in any pause between the two switches.
+// If a switch takes over the current of the opposite switch's diode, the switch loses E_on and the diode
+// loses E_rr. A switch that turns off a current loses E_off. Two cases cause no switching loss: zero current,
+// and a current in the direction of the switch's antiparallel diode. A channel that conducts such a current
+// counts as the diode, because the diode conducts it in each pause between the two switches.
 #pragma once
 #include <array>
 
@@ -15,7 +15,7 @@
 namespace sixstep::plant {
 
 /// Switching energies: J per volt of the bus and ampere of the current (_J_VA), and J per volt of the bus
-/// alone (_J_V).
+/// (_J_V).
 struct SwitchingLaw {
   double on_J_VA = 0.0, off_J_VA = 0.0, recovery_J_VA = 0.0, on_J_V = 0.0;
   bool any() const { return on_J_VA > 0 || off_J_VA > 0 || recovery_J_VA > 0 || on_J_V > 0; }
@@ -34,7 +34,8 @@ struct DeviceEnergy {
   }
 };
 
-/// Devices of one leg: upper T1, T3, T5; lower T2, T4, T6.
+/// Devices of one leg: the upper switch (T1, T3 or T5) and the lower switch (T2, T4 or T6), each with its
+/// diode.
 struct LegDevices {
   DeviceEnergy upper{}, lower{};
 };
@@ -44,8 +45,8 @@ class DeviceLosses {
  public:
   explicit DeviceLosses(const SwitchingLaw& law = {}) : law_(law) {}
 
-  /// Begins a segment: each leg whose connection has changed since the last segment has switched current i at
-  /// bus voltage U. With `counts` false no energy is counted; the connections are only stored.
+  /// Begins a segment, and adds the switching energy of each leg whose connection has changed since the last
+  /// segment, at current i and bus voltage U. With `counts` false the connections are only stored.
   template <class Real>
   void begin(const Legs& legs, const PerLeg<Real>& i, Real U, bool counts = true) {
     if (known_ && counts)
@@ -55,7 +56,7 @@ class DeviceLosses {
     legs_ = legs;
     known_ = true;
   }
-  /// Adds the energy, J, that leg k lost in its device over a segment.
+  /// Adds the energy, J, that the conducting device of leg k lost in a segment.
   void conducted(std::size_t k, Connection by, double energy) {
     LegDevices& leg = energies_[k];
     if (is_floating(by)) return;
@@ -72,8 +73,8 @@ class DeviceLosses {
   void clear() { energies_ = {}; }
 
  private:
-  /// Counts a change of connection. The transistor of the upper switch carries a positive current, the
-  /// transistor of the lower switch a negative current.
+  /// Adds the energy of a change of connection. A positive current flows through the transistor of the upper
+  /// switch, a negative current through the transistor of the lower switch.
   void switched(Connection before, Connection after, double i, double U, LegDevices& leg) const {
     if (i == 0.0) return;
     const bool from_high = is_high(before), to_high = is_high(after), positive = i > 0;

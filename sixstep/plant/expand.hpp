@@ -12,17 +12,18 @@ namespace sixstep::plant {
 
 namespace detail {
 
-/// Bound of the number of halvings. Each halving divides the last two terms by at least 2^15, so that any
-/// finite excess ends before the bound.
+/// Bound of the number of halvings. Each halving divides the last two terms by at least 2^15, so that for
+/// finite terms the loop ends before the bound.
 inline constexpr int most_halvings = 2000;
 
-/// Halves the segment until its last two terms are below rounding level. Halving is exact in binary
-/// arithmetic.
+/// Halves the segment until the last two terms of its series are below rounding level. Halving is exact in
+/// binary arithmetic.
 template <class Real>
 void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   int halvings = 0;
   const int n = out.degree;
-  // An infinite term stays infinite: the length then becomes 0, and the run stops for lack of progress.
+  // An infinite term is still infinite after a halving: the length then becomes 0, and the run stops because
+  // the time does not advance.
   for (Real a = excess_last, b = excess_before; (a > 1 || b > 1) && halvings < most_halvings; ++halvings) {
     for (int j = 0; j < n; ++j) a /= 2;
     // mutant: n - 1 => n
@@ -38,9 +39,9 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   out.h *= half;
 }
 
-/// Increments of currents, speed and angle from the segment's start to the fraction s. The four series that
-/// always change are summed in one pass. Even and odd powers are summed separately, so that each addition
-/// waits for fewer others.
+/// Increments of currents, speed and angle from the segment's start to the fraction s. The loop sums the four
+/// series of these quantities. It sums even and odd powers separately, which shortens the chain of dependent
+/// additions.
 template <class Real>
 Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, Real s) {
   const std::array<const Real*, 4> c{y.i[law.leg[0]].data(), y.i[law.leg[1]].data(), y.w.data(), y.x.data()};
@@ -62,13 +63,14 @@ Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, 
   return {sum[0], sum[1], sum[2], sum[3]};
 }
 
-/// Size of the last two terms relative to the rounding level of their states; 1 means exactly at that level.
+/// Size of the last two terms relative to the rounding level of their states: a size of 1 is the rounding
+/// level.
 template <class Real>
 struct Convergence {
   Real amp_limit, speed_limit, volt_limit;
   Real before = 0, last = 0;
-  /// True at rest and without current. Torque and current may then alternate so that only the terms 1, 4, 7,
-  /// 10 are nonzero: a zero term does not show that the series has converged, and all orders are computed.
+  /// True at rest and without current. Then possibly only the terms 1, 4, 7, 10 are nonzero, so that a zero
+  /// term does not show convergence. All orders are computed.
   bool from_nothing;
 
   Convergence(const Constants<Real>& c, const Expansion<Real>& y)
@@ -77,8 +79,8 @@ struct Convergence {
         volt_limit(c.volt_limit),
         from_nothing(y.w[0] == 0 && y.i[0][0] == 0 && y.i[1][0] == 0) {}
 
-  /// The terms of the sine's shape count too: without current they alone decide how exactly a floating
-  /// terminal's voltage is computed.
+  /// For a sinusoidal back-EMF the terms of its shape count too: without current only they determine the
+  /// error of a floating terminal's voltage.
   template <bool sine, bool bus>
   void look(const SeriesBuilder<Real>& y, int n, Real currents, Real speed) {
     before = last;
@@ -86,10 +88,10 @@ struct Convergence {
     if constexpr (bus) last += abs(y.bus[n]) * volt_limit;
     if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * terms_per_scale<Real>;
   }
-  /// For a linear system y' = A y, term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps h
-  /// |A| <= 1/2: after a term of 8 rounding levels, all later terms together are below one level. One small
-  /// term may be a zero by symmetry. A small term shows convergence only if the term before it was small too
-  /// (`before`).
+  /// For a linear system y' = A y, term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() limits
+  /// h |A| to 1/2. After a term of 8 rounding levels, the sum of all later terms is therefore below one
+  /// level. A single term may be zero by symmetry. A small term therefore shows convergence only if the
+  /// previous term (`before`) was small too.
   // mutant: !from_nothing => true
   bool reached() const { return last < 8 && before < 4096 && !from_nothing; }
 };
@@ -118,7 +120,7 @@ struct Recurrence {
     currents.start(out, y);
   }
 
-  /// Increments over the whole segment. The first terms are the largest and are therefore added last.
+  /// Increments over the whole segment. The first terms are added last, because they are the largest.
   void add_up(Expansion<Real>& out) const {
     // mutant: y.later_i => Real(0)
     out.end = {y.i[1] + y.later_i, y.i_2[1] + y.later_i_2, y.w[1] + y.later_w, y.x[1] + y.later_x};
@@ -136,7 +138,9 @@ struct Recurrence {
       y.later_w += y.w[n + 1];
       y.later_x += y.x[n + 1];
     }
-    if constexpr (n < 4) return false;  // nearly every segment needs more terms, and each check costs time
+    if constexpr (n < 4)
+      return false;  // nearly every segment needs more terms; the check would only cost
+                     // time
     convergence.template look<Currents::sine_shape, bus>(y, n + 1, size, size_w);
     if (n < 5 || !convergence.reached()) return false;
     out.degree = n + 1;
@@ -148,7 +152,7 @@ struct Recurrence {
     out.w[n + 1] = y.w[n + 1];
     out.x[n + 1] = y.x[n + 1];
     out.torque[n] = y.torque[n];
-    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // terms after the first stay zero for a stiff bus
+    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // for a stiff bus the terms after the first are zero
     if constexpr (Currents::sine_shape) {
       out.phi0[n + 1] = y.phi0[n + 1];
       out.phi1[n + 1] = y.phi1[n + 1];
@@ -156,7 +160,8 @@ struct Recurrence {
   }
 };
 
-/// Computes order by order until the last two terms are below rounding, or the highest degree is reached.
+/// Computes the terms order by order, until the last two terms are below rounding level or the highest degree
+/// is reached.
 template <bool bus, class Currents, class Shape, class Real>
 [[gnu::always_inline]] inline void recurrence_with(const Constants<Real>& c, const Mode& mode,
                                                    const LegsLaw<Real>& law, const Shape& shape,
@@ -179,9 +184,9 @@ template <bool bus, class Currents, class Shape, class Real>
   out.end = increments(out, law, Real(1));
 }
 
-/// Processors for which a recurrence is compiled: any, or x86-64 with AVX, whose three-operand instructions
-/// save a fifth of the moves. Both builds do the same operations in the same order, so that their results
-/// have the same bits.
+/// Processors for which a recurrence is compiled: any processor, or x86-64 with AVX. The three-operand
+/// instructions of AVX save a fifth of the move instructions. Both builds execute the same operations in the
+/// same order, so that the results have the same bits.
 enum class Build : std::uint8_t { any, avx };
 
 template <Build build, bool bus, class Currents, class Shape, class Real>
@@ -236,8 +241,8 @@ void expand_sine(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y)
   expand_shape<true, Build::any>(c, mode, y);
 }
 
-// Compiling the unrolled code takes most of the time to compile a plant. For double it is therefore compiled
-// once, in expand.cpp, which also chooses the build.
+// The unrolled code needs most of the compile time of a plant. For double it is therefore compiled once, in
+// expand.cpp. expand.cpp also selects the build at run time.
 void expand_trapezoid(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
 void expand_sine(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
 extern template void expand_shape<false, Build::any>(const Constants<double>&, const Mode&,
@@ -255,7 +260,7 @@ extern template void expand_shape<true, Build::avx>(const Constants<double>&, co
 
 }  // namespace detail
 
-/// Expands the state in the given mode over `wanted`, s, or over less where full accuracy requires it.
+/// Expands the state in the given mode over the time `wanted`, s, or over less if the accuracy requires it.
 template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted,
             Expansion<Real>& y) {
@@ -274,8 +279,8 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
   }
 }
 
-/// The length, s, that one series can cover: `wanted`, but at most half of the fastest time constant. Nearly
-/// all segments are short enough and need no division.
+/// The length, s, for which one series suffices: `wanted`, but at most half of the fastest time constant.
+/// Nearly all segments are short enough, and the function needs no division.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& state, Real wanted) {
   const Real rate = c.steady_rate + c.pole_pairs * detail::abs(state.w);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guards of a mode: each guard stays >= 0 as long as the present mode holds. A guard is a polynomial of the
-// same series as the dynamics, with the rounding level below which its coefficients have no meaning. The
-// guards' order decides ties: current zero, standstill, sector edge, then rails and the rest (model.md 4b).
+// Guards of a mode: all guards are >= 0 as long as the present mode is valid. A guard is a polynomial
+// computed from the series of the segment. It has a rounding level, below which its coefficients have no
+// meaning. If several guards reach zero at the same instant, their order decides: current zero, standstill,
+// sector edge, rails, then all others (model.md 4b).
 #pragma once
 #include "sixstep/plant/expand.hpp"
 #include "sixstep/plant/pole.hpp"
@@ -9,14 +10,14 @@
 
 namespace sixstep::plant {
 
-/// Guard identities; k is the leg. The rig's own guards begin at `first_free`.
+/// Numbers of the guards; j and k are legs. The guards of the rig have numbers from `first_free` on.
 namespace guard {
 inline constexpr int current_zero = 0;  // + k
 inline constexpr int standstill = 3;
 inline constexpr int edge_ahead = 4;
 inline constexpr int edge_behind = 5;
-inline constexpr int low_rail = 6;        // + k; leg k's terminal reaches its low diode
-inline constexpr int high_rail = 9;       // + k; leg k's terminal reaches its high diode
+inline constexpr int low_rail = 6;        // + k; the low diode of leg k begins to conduct
+inline constexpr int high_rail = 9;       // + k; the high diode of leg k begins to conduct
 inline constexpr int floating_star = 12;  // + 3 j + k: e_j - e_k reaches U_s + 2 V_f
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
@@ -24,17 +25,18 @@ inline constexpr int source = 23;
 inline constexpr int brake = 24;       // this and the following guards: general kernel only
 inline constexpr int load_turns = 25;  // the load's speed changes its sign
 inline constexpr int gear_turns = 26;  // the torque through a lossy gear changes its sign
-inline constexpr int faster = 27;      // the load's speed passes a point of its torque's table upwards
+inline constexpr int faster = 27;      // the load's speed rises above the present piece of the torque table
 inline constexpr int slower = 28;
-inline constexpr int fuller = 29;  // the charge passes a point of its voltage's table upwards
+inline constexpr int fuller = 29;  // the charge rises above the present piece of the voltage table
 inline constexpr int emptier = 30;
 inline constexpr int pulse = 31;      // the mains' next pulse begins
-inline constexpr int saturated = 32;  // + 1: the current along the magnet's axis reaches the model's bound
+inline constexpr int saturated = 32;  // and saturated + 1: the current along the magnet's axis leaves the
+                                      // range of the model
 inline constexpr int first_free = 34;
 }  // namespace guard
 
-/// Rounding noise of a value: 64 eps x natural scale (architecture.md, pitfall 6), times `slack`, which
-/// settling raises if rounding made every mode inconsistent.
+/// Rounding noise of a value: 64 eps times its scale (architecture.md, pitfall 6) times `slack`. Settling
+/// raises `slack` above 1 if rounding errors make every mode inconsistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {
   constexpr Real eps =
@@ -44,9 +46,9 @@ constexpr Real noise_of(Real scale, Real slack) {
 
 namespace detail {
 
-/// Factor on the noise. A value that is nonzero at the start has a sign, because snap() set all values within
-/// the plain noise to zero. Only a value that starts at zero gets `slack`; otherwise a slow rotor would be
-/// neither moving nor at rest.
+/// Factor on the noise of a guard. snap() has set all values at noise level to zero, so that a nonzero
+/// initial value has a definite sign. Its factor is 1; otherwise a slow rotor would be neither moving nor at
+/// rest. For a value that starts at zero the factor is `slack`.
 template <class Real>
 Real doubt(const series::Coefficients<Real>& c, Real slack) {
   return c[0] != 0 ? Real(1) : slack;
@@ -61,8 +63,8 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
   return out;
 }
 
-/// Visits the guards of a terminal near a rail. Few segments need these guards: the function is not inlined,
-/// so that the code of the other segments stays short.
+/// Visits the guards of a terminal near a rail. Few segments need these guards. The function is not inlined,
+/// so that the code for the other segments is short.
 template <class Real, class Visit>
 [[gnu::noinline]] void near_rail(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y,
                                  int k, bool low, bool high, Real noise, Visit&& visit) {
@@ -90,7 +92,8 @@ template <class Real, class Visit>
   if (low || high) near_rail(c, law, y, k, low, high, noise, visit);
 }
 
-/// No leg is connected: conduction starts when max e - min e > U_s + 2 V_f.
+/// Guards if no leg is connected: conduction starts when max e - min e > U_s + 2 V_f, with back-EMFs e, bus
+/// voltage U_s and diode drop V_f.
 template <class Real, class Visit>
 void floating_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
                           const Expansion<Real>& y, Real noise, Visit&& visit) {
@@ -124,7 +127,8 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
   else if (mode.motion == Motion::backward)
     visit(guard::standstill, affine(y.w, y.degree, Real(-1), Real(0)), y.degree, speed_noise);
   else if (mode.motion == Motion::stuck) {
-    const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest: no B w, and dry as breakaway
+    const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest B w is zero, and the breakaway
+                                                                    // torque replaces dry friction
     // mutant: c.breakaway + load => c.breakaway - load
     visit(guard::breakaway_forward, affine(y.torque, y.degree, Real(-1), c.breakaway + load), y.degree,
           torque_noise);
@@ -133,7 +137,7 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
   }
 }
 
-/// Guard of a leg whose current selects its diode: the current keeps its direction.
+/// Guard of a leg that conducts by a diode: >= 0 while the current has the diode's direction.
 template <class Real, class Visit>
 [[gnu::always_inline]] inline void diode_guard(Connection diode, const Expansion<Real>& y, int k, Real noise,
                                                Visit&& visit) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hall probes with their mounting errors (model.md 10). Edge n, between sectors n - 1 and n, lies at
 //
-//   60 deg n + offset + own[n mod N],   N = 6 per electrical turn, or 6 p per mechanical turn (magnets differ)
+//   60 deg n + offset + own[n mod N],   N = 6 (one electrical turn), or 6 p (one turn, if the magnets differ)
 //
-// and appears h/2 later in the direction of motion, h the hysteresis. The sector at the start of the run
-// follows from the edges without hysteresis.
+// and appears h/2 later in the direction of motion, with the hysteresis h. own[] are the errors of single
+// edges, p the pole pairs. At the start of a run the shown sector is determined without hysteresis.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,12 +14,13 @@
 
 namespace sixstep::plant {
 
-/// Electrical degrees. Neighbouring edges must not overlap, including hysteresis.
+/// Placement of the edges, electrical degrees. Neighbouring edges including their hysteresis must not
+/// overlap.
 struct HallPlacement {
   double offset_deg = 0.0;        ///< offset of all edges
   double hysteresis_deg = 0.0;    ///< distance between an edge's positions in the two directions
-  std::vector<double> own_deg{};  ///< further offset of each edge, the edge at 0 degrees first; 0, 6 or 6 p
-                                  ///< values
+  std::vector<double> own_deg{};  ///< additional offset of each edge, beginning with the edge at 0 degrees;
+                                  ///< 0, 6 or 6 p values
 
   bool as_sectors() const { return offset_deg == 0.0 && hysteresis_deg == 0.0 && own_deg.empty(); }
 };
@@ -34,8 +35,8 @@ class HallProbes {
       : half_(rad(placement.hysteresis_deg) / 2) {
     for (const double own : placement.own_deg) edge_.push_back(rad(placement.offset_deg + own));
     if (edge_.empty()) edge_.push_back(rad(placement.offset_deg));
-    // A rotor that reverses on an edge must leave the range of rounding in which the edge was located: the
-    // least hysteresis.
+    // Least hysteresis: a rotor that reverses on an edge must exceed the rounding error with which the edge
+    // was located.
     const Real least = 4 * noise_of(Real(base::sector_rad), Real(1));
     if (half_ < least) half_ = least;
     shown_ = at.sector;
@@ -43,11 +44,11 @@ class HallProbes {
     while (edge(shown_ + 1, at.sector) <= at.x) ++shown_;
   }
 
-  /// Sector according to the probes, counted over all turns as State::sector is.
+  /// Sector that the probes show, counted over all turns like State::sector.
   std::int64_t shown() const { return shown_; }
 
-  /// Calls visit(ProbeEdge, series, degree, noise) for each edge: the series falls through zero where the
-  /// edge appears. `sector` is the rotor's sector.
+  /// Calls visit(ProbeEdge, series, degree, noise) for the edge ahead and the edge behind. The series falls
+  /// through zero when the edge appears. `sector` is the rotor's sector.
   template <class Visit>
   void guards(const Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     const Real noise = noise_of(Real(base::sector_rad), Real(1));
@@ -68,7 +69,7 @@ class HallProbes {
     return static_cast<Real>(n - sector) * Real(base::sector_rad) + edge_[which];
   }
 
-  std::vector<Real> edge_;  ///< position of each edge minus its 60 deg n
+  std::vector<Real> edge_;  ///< position of edge n minus 60 deg n
   Real half_;
   std::int64_t shown_ = 0;
 };

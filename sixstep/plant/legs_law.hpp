@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A LegsLaw gives, for one set of connections, the slopes of the currents and the star point's voltage. It is
-// the electrical half of model.md 1 and 2 without the back-EMF, multiplied out once per plant.
+// A LegsLaw contains the coefficients for the slopes of the currents and for the star point's voltage, for
+// one set of connections. These are the electrical equations of model.md 1 and 2 without the back-EMF. The
+// coefficients are computed once per plant.
 #pragma once
 #include "sixstep/plant/circuit.hpp"
 
@@ -8,22 +9,24 @@ namespace sixstep::plant {
 
 template <class Real>
 struct LegsLaw {
-  /// A quantity as a sum over its causes. i and i_2 are the currents of the first and second connected leg.
+  /// A quantity as a weighted sum of U_s, 1, i and i_2. i and i_2 are the currents of the first and second
+  /// connected leg.
   struct Terms {
-    Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< coefficients of U_s, 1, i and i_2
+    Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< weights of U_s, 1, i and i_2
   };
-  std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating legs
+  std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< first the connected legs in order, then the floating legs
   std::uint8_t connected = 0;
   std::uint8_t floating = 0, diodes = 0;  ///< as masks: bit k is leg k
   PerLeg<PoleTerms<Real>> pole{};         ///< pole terms in the order of `leg`; zero for a floating leg
-  PerLeg<Real> along{};  ///< in the order of `leg`: sign that makes a diode's current positive; 0: no diode
-  Terms slope, slope_2;  ///< di/dt of the first current and, where three legs are connected, of the second
-  Terms star;            ///< u_n + mean of e over the connected legs, for one or two connected legs
-  Real emf_rate = 0;     ///< factor of the back-EMF: di/dt = -emf_rate (e_leg - e_other) with two legs,
-                         ///< -emf_rate (e_leg - mean of e) with three
+  PerLeg<Real> along{};  ///< in the order of `leg`: sign of a current that the leg's diode conducts; 0: no
+                         ///< diode conducts
+  Terms slope, slope_2;  ///< di/dt of i and, if three legs are connected, of i_2
+  Terms star;            ///< u_n plus the mean of e over the connected legs, for one or two connected legs
+  Real emf_rate = 0;     ///< factor of the back-EMF in di/dt: -emf_rate (e_j - e_k) with two legs j, k,
+                         ///< -emf_rate (e_k - mean of e) with three legs
 };
 
-/// One law per set of connections, by legs_index().
+/// One law per set of connections, indexed by legs_index().
 template <class Real>
 using LegsLaws = std::array<LegsLaw<Real>, 125>;
 
@@ -34,7 +37,7 @@ constexpr std::size_t legs_index(const Legs& legs) {
 
 namespace detail {
 
-/// Two legs j, k share one current: 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k).
+/// Law of two connected legs j, k, whose currents are i and -i: 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k).
 template <class Real>
 void pair_law(const PoleTerms<Real>& a, const PoleTerms<Real>& b, Real R, Real inv_L, LegsLaw<Real>& law) {
   law.emf_rate = inv_L / 2;
@@ -48,7 +51,8 @@ void pair_law(const PoleTerms<Real>& a, const PoleTerms<Real>& b, Real R, Real i
               .i = (b.r_ohm - a.r_ohm) / 2};
 }
 
-/// Three legs: L di_k/dt = v_k - mean of v, with v_k = u_k - R i_k - e_k. The third current is eliminated.
+/// Law of three connected legs: L di_k/dt = v_k - mean of v, with v_k = u_k - R i_k - e_k. The third current
+/// is eliminated.
 template <class Real>
 void three_leg_law(const PerLeg<PoleTerms<Real>>& terms, Real R, Real inv_L, LegsLaw<Real>& law) {
   constexpr Real third = Real(1.0L / 3);

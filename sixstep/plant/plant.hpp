@@ -30,7 +30,7 @@ class Plant {
   Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
         const Start& start);
 
-  /// Returns false, and changes nothing, for a shoot-through: both switches of a leg on.
+  /// Sets the gates. Returns false, without a change, if both switches of a leg would be on (shoot-through).
   bool set_gates(const Gates& gates) {
     if (shoots_through(gates)) return false;
     if (gates == gates_) return true;
@@ -42,13 +42,14 @@ class Plant {
     constants_.load = static_cast<Real>(torque_Nm);
     stale_ = true;
   }
-  // Other changes that a scenario may make (plant_changes.hpp).
+  // Other changes by a scenario (plant_changes.hpp).
   void set_locked(bool locked);
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
 
-  /// Settles the mode if gates, load or state have changed since the last call, and expands. Returns the
-  /// length covered, s; a negative value means that no mode is consistent.
+  /// Settles the mode if gates, load or state have changed since the last call, then expands the state over
+  /// `wanted`, s, or less. Returns the length of the expansion, s; a negative value means that no mode is
+  /// consistent.
   double expand(double wanted);
   template <class Visit>
   void guards(Visit&& visit) const {
@@ -93,7 +94,8 @@ class Plant {
   Real slack_ = 1;
   std::int64_t diodes_started_ = 0;
   bool stale_ = true;
-  bool doubted_ = false;  ///< the last located event made no progress: settle by series only
+  bool doubted_ = false;  ///< true: the last located event did not advance the time, and settle() must check
+                          ///< by the series only
   int last_event_ = -1;
 };
 
@@ -134,8 +136,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
-  // The run starts on an edge with a rotor that turns backwards. The edge is passed here, because a located
-  // event comes before the first tick (model.md 4b).
+  // If the run starts on an edge with a rotor that turns backwards, the edge is passed now. A located event
+  // would come before the first tick (model.md 4b).
   // mutant: on_edge && state_.w < 0 => false
   if (on_edge && state_.w < 0) pass_edge(false);
 }
@@ -154,7 +156,8 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   return true;
 }
 
-/// Settles the state after snap() by enumeration. While no mode is consistent, the noise is widened.
+/// Calls snap(), then settles the mode by enumeration. As long as no mode is consistent, the noise level is
+/// raised.
 template <class Real>
 bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   snap();
@@ -206,7 +209,8 @@ template <class Real>
 Snapshot<Real> Plant<Real>::at(Real s) const {
   using series::evaluate;
   Snapshot<Real> now;
-  // One pass for the five series that always change; at the segment's start, s = 0, there is nothing to sum.
+  // One loop for the five series that always change. At s = 0, the segment's start, only their first terms
+  // count.
   Real a = 0, b = 0, c = 0, w = 0, x = 0;
   for (int j = s != 0 ? y_.degree : 0; j >= 1; --j) {
     a = (a + y_.i[0][j]) * s;
@@ -231,7 +235,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   return now;
 }
 
-// Defined once, in snapshot.cpp, because sources that are compiled for size use it too.
+// Defined once, in snapshot.cpp, because source files that are compiled for size use this function too.
 extern template Snapshot<double> Plant<double>::at(double) const;
 
 }  // namespace sixstep::plant

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes to a running plant: the clamp on its shaft, its source, and the noise scales that follow from them.
-// Part of plant.hpp.
+// Member functions of plant.hpp that change the shaft's clamp, the source, and the noise scales during a run.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 
@@ -24,8 +23,8 @@ void Plant<Real>::set_steady_rate() {
   c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
 }
 
-/// A clamp that closes stops the shaft at once and takes its kinetic energy. A shaft that a clamp releases
-/// starts from rest.
+/// A clamp that closes stops the shaft at once and absorbs its kinetic energy. After the clamp opens, the
+/// shaft starts from rest.
 template <class Real>
 void Plant<Real>::set_locked(bool locked) {
   constants_.locked = locked;
@@ -36,8 +35,8 @@ void Plant<Real>::set_locked(bool locked) {
   stale_ = true;
 }
 
-/// Sets the source's voltage, V; a stiff bus follows at once. The noise level may only rise, because values
-/// that were rounded at a higher voltage keep their error.
+/// Sets the source's voltage, V; a stiff bus follows at once. The noise level never falls, because values
+/// that were rounded at a higher voltage keep their rounding error.
 template <class Real>
 void Plant<Real>::set_source_voltage(double V_0_V) {
   Constants<Real>& c = constants_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applies a located event to the state, and sets values within rounding of zero to zero before the mode is
-// settled. Part of plant.hpp.
+// Member functions of plant.hpp that apply a located event to the state, and that set values at noise level
+// to zero before the mode is settled.
 #pragma once
 #include <utility>
 
@@ -8,14 +8,14 @@
 
 namespace sixstep::plant {
 
-/// Sets to zero the currents within rounding of zero in legs without gate, and the speed within rounding of
-/// rest where friction may hold the rotor. The mode is then decided by settle(), not by a rounding error.
+/// Sets currents at noise level to zero, in legs whose gates are off. Also sets a speed at noise level to
+/// zero if dry friction may stop the rotor. settle() then determines the mode, not a rounding error.
 template <class Real>
 void Plant<Real>::snap() {
   // mutant: constants_.amp_noise => 1000 * constants_.amp_noise
   const Real amp_noise = constants_.amp_noise;
-  // Balancing changes the other currents and may bring one below the noise. Of 1.1, 1.2 and -2.3 with 1.2 as
-  // noise, all three become zero.
+  // balance() changes the other currents and may reduce one of them below the noise. Example with the noise
+  // 1.2: the currents 1.1, 1.2 and -2.3 all become zero.
   for (bool snapped = true; snapped;) {
     snapped = false;
     for (unsigned k = 0; k < 3; ++k) {
@@ -47,8 +47,8 @@ bool Plant<Real>::apply(int id) {
     return leaves;
   }
   if (id < guard::standstill) {
-    // Two legs share one current and reach zero together. When one of three currents reaches zero, the other
-    // two legs share one current.
+    // With two connected legs, both currents reach zero together. If one of three currents reaches zero, the
+    // other two currents are opposite.
     state_.i[id] = state_.i_low[id] = 0;
     if (connected_count(mode_.legs) == 2) state_.i = state_.i_low = {};
     detail::balance(state_);

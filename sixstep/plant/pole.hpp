@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltage of a floating terminal, u_n + e_k (model.md 2), over a segment. Few segments bring a terminal near
-// a rail: the voltage's series is computed only if a cheap bound does not exclude a crossing.
+// Voltage of a floating terminal, u_n + e_k (model.md 2), over a segment. In few segments a terminal is near
+// a rail. The series of the voltage is therefore computed only if a cheap bound does not exclude a crossing.
 #pragma once
 #include "sixstep/plant/recurrences.hpp"
 #include "sixstep/series/first_root.hpp"
 
 namespace sixstep::plant {
 
-/// Voltage of a floating terminal as a sum over the other series. If no leg is connected, the voltage is e_k.
+/// Coefficients of a floating terminal's voltage as a sum of the other series. If no leg is connected, the
+/// voltage is e_k.
 template <class Real>
 struct PoleLaw {
   Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< coefficients of U_s, 1, i of `leg`, w phi0 and w phi1
   int leg = 0;
 };
 
-/// u_n is the mean of u_s - e_s over the connected legs s. Zero, one or two legs are connected; two connected
-/// legs share one current.
+/// Coefficients for the floating leg k, with zero, one or two connected legs. The star point's voltage u_n is
+/// the mean of u_s - e_s over the connected legs s.
 template <class Real>
 [[gnu::always_inline]] inline PoleLaw<Real> pole_law(const EmfPiece<Real>& p, const LegsLaw<Real>& law,
                                                      unsigned k) {
@@ -31,7 +32,8 @@ template <class Real>
           .leg = j};
 }
 
-/// Voltage of the floating terminal in one state, V; phi0 and phi1 as in back_emf.hpp.
+/// Voltage, V, of the floating terminal at bus voltage `bus`, currents i and speed w. phi0 and phi1 are the
+/// shape functions of back_emf.hpp.
 template <class Real>
 [[gnu::always_inline]] inline Real free_voltage(const PoleLaw<Real>& law, Real bus, const PerLeg<Real>& i,
                                                 Real w, Real phi0, Real phi1) {
@@ -39,7 +41,7 @@ template <class Real>
 }
 
 /// Bounds of a floating terminal's voltage, computed without its series: value and slope at the segment's
-/// start, and a bound of the sum of all later terms. `bus_rest` is the same bound for U_s.
+/// start, and a bound of the sum of all later terms. `bus_rest` is the bound of the later terms of U_s.
 template <class Real>
 struct PoleOutline {
   Real start = 0, slope = 0, rest = 0;
@@ -54,7 +56,8 @@ template <class Real>
   const Real phi0 = c.sine ? y.phi0[0] : Real(1), phi1 = c.sine ? y.phi1[0] : x;
   PoleOutline<Real> out;
   out.start = free_voltage(law, y.bus[0], {y.i[0][0], y.i[1][0], y.i[2][0]}, w, phi0, phi1);
-  if (c.sine) {  // bound of |w phi - (w phi)(0)| by the product rule; phi0 and phi1 change by no more than x
+  if (c.sine) {  // bound of |w phi - (w phi)(0)| by the product rule; phi0 and phi1 change at most as much as
+                 // x
     // mutant: (abs(w) + reach_w) * reach_x + reach_w => reach_w
     out.rest = (abs(law.w0) + abs(law.w1)) * ((abs(w) + reach_w) * reach_x + reach_w);
   } else {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the Taylor recurrence for the currents, one struct per number of connected legs (model.md 1
-// and 2).
+// Structs that compute one order of the Taylor recurrence for the currents, one struct per number of
+// connected legs (model.md 1 and 2).
 #pragma once
 #include "sixstep/plant/series_builder.hpp"
 
 namespace sixstep::plant::detail {
 
-/// Fewer than two legs are connected, so that no current flows. The rotor coasts, and guards watch the
+/// Fewer than two legs are connected, so that no current flows. The rotor coasts, and guards check the
 /// floating terminals.
 template <bool sine, class Real>
 struct NoCurrent {
@@ -29,9 +29,9 @@ struct NoCurrent {
   void reach(const SeriesBuilder<Real>&, PerLeg<Real>& of) const { of = {}; }
 };
 
-/// Two legs share one current, so that one recurrence suffices. Each order needs the order before, and the
-/// length of that chain decides the time: coefficients are multiplied out beforehand, and the newest terms
-/// enter last.
+/// Two connected legs have currents i and -i, so that one recurrence suffices. Each order depends on the
+/// previous order, and the length of this chain determines the computing time. Therefore coefficients are
+/// multiplied beforehand, and the newest terms are added last.
 template <bool sine, class Real>
 struct PairLaw {
   int j, k, floating;
@@ -62,7 +62,8 @@ struct PairLaw {
     out.i[k][n] = -y.i[n];
     out.i[floating][n] = 0;
   }
-  /// Adds term n to the series' reach and sum; returns the term's size, summed over all legs.
+  /// Adds term n to the reach and to the sum of the series. Returns the size of the term, summed over all
+  /// legs.
   Real reached(SeriesBuilder<Real>& y, int n) const {
     const Real size = abs(y.i[n]);
     y.reach_i += size;
@@ -112,10 +113,10 @@ struct OneCurrent {
   }
 };
 
-/// Both connected phases are on their flat tops, and the torques are linear in the speed. Current and speed
-/// are then a linear system without products, (i, w)' = M (i, w) + const. M^2 gives terms two orders ahead,
-/// so that even and odd terms are two independent chains. A bus that changes uses the single chain of
-/// PairLaw.
+/// Both connected phases are on their flat tops, and the torques are linear in the speed. Current i and speed
+/// w are then a linear system, (i, w)' = M (i, w) + const. With M^2 each term follows from the term two
+/// orders before, so that even and odd terms are two independent chains. If the bus voltage changes, the
+/// single chain of PairLaw is used.
 template <class Real>
 struct FlatPair {
   static constexpr bool sine_shape = false;
@@ -125,7 +126,7 @@ struct FlatPair {
   FlatPair(const Rotor<Real>& rotor, const Constants<Real>&, const LegsLaw<Real>& law,
            const ShapeLine<false, Real>& f)
       : pair(law, f) {
-    // Only the rotor terms that multiply i and w enter M; the constant terms enter at order 1.
+    // M contains only the rotor terms that multiply i and w. The constant terms are part of order 1.
     [[maybe_unused]] const auto& [inv_J, pole_pairs, steady, per_speed] = rotor;
     const Real a = pair.slope.i, b = pair.from_w0;
     // mutant: -per_speed * inv_J => Real(0)
@@ -159,8 +160,8 @@ struct FlatPair {
   }
 };
 
-/// All three legs are connected: two recurrences, and the third current is minus the sum of the two currents.
-/// Coefficients are multiplied out as in PairLaw, with i_c eliminated.
+/// All three legs are connected. Two recurrences compute i_a and i_b; i_c is -(i_a + i_b). Coefficients are
+/// multiplied beforehand as in PairLaw.
 template <bool sine, class Real>
 struct TwoCurrents {
   static constexpr bool sine_shape = sine;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output voltages of a resolver with p_r pole pairs (model.md 10), at an instant t, for the shaft's angle
-// theta and the excitation's angular frequency w_x. Both have additional noise:
+// Output voltages of a resolver with p_r pole pairs (model.md 10), for the shaft's angle theta, the
+// excitation's angular frequency w_x and the time t. The rig adds noise to both voltages:
 //
 //   V_1 = k V_R sin(w_x t + d_1) cos(p_r theta)
 //   V_2 = k (1 + a) V_R sin(w_x t + d_2) sin(p_r theta + q)
@@ -37,11 +37,12 @@ double resolver_angle_rad(const Resolver& r, const ShaftAngle<Real>& at) {
 
 /// Faults of a resolver during a run.
 struct ResolverFaults {
-  std::uint8_t broken = 0;  ///< bit 0: the cosine winding gives no signal; bit 1: the sine winding
-  double excitation = 1.0;  ///< relative to full excitation
+  std::uint8_t broken = 0;  ///< bit 0: the cosine winding has no signal; bit 1: the sine winding has no
+                            ///< signal
+  double excitation = 1.0;  ///< amplitude of the excitation, relative to the intact excitation
 
-  /// Signals of both windings under the faults, in the unit of `whole` and `noise`. Noise does not depend on
-  /// the excitation, but a broken winding has no noise.
+  /// Signals of both windings with the faults, from the signals `whole` without faults and `noise`, all in
+  /// the same unit. The noise does not depend on the excitation. A broken winding has no noise.
   std::array<double, 2> leave(const std::array<double, 2>& whole, const std::array<double, 2>& noise) const {
     return {(broken & 1) != 0 ? 0.0 : excitation * whole[0] + noise[0],
             (broken & 2) != 0 ? 0.0 : excitation * whole[1] + noise[1]};
@@ -56,8 +57,8 @@ std::array<double, 2> resolver_envelope(const Resolver& r, const ShaftAngle<Real
   return {base::cos(angle), (1 + r.imbalance) * base::sin(angle + r.quadrature_rad)};
 }
 
-/// V_1 and V_2, V, without noise. Whole cycles of the excitation are removed, so that only the fraction of a
-/// cycle enters a sine.
+/// V_1 and V_2, V, without noise. Whole cycles of the excitation are removed before the sine is computed, for
+/// accuracy at a large t.
 template <class Real>
 std::array<double, 2> resolver_V(const Resolver& r, const ShaftAngle<Real>& at, std::int64_t t_ps) {
   const double angle = detail::resolver_angle_rad(r, at);

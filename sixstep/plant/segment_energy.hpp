@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrates the energies of bridge, winding and shaft over one segment from the segment's own series: the
-// terms of the energy balance (model.md 5). Terms that are zero are not computed.
+// Integrates the energies of bridge, winding and shaft over one segment, using the segment's series. These
+// energies are the terms of the energy balance (model.md 5). Terms that are zero are not computed.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/series/quadrature.hpp"
 
 namespace sixstep::plant {
 
-/// Energies over one segment, J. Friction is in two parts, `viscous` and `dry`. `travel` is the angle that
-/// the shaft turned, rad. `load_viscous` is the part of `viscous` that acts at the load's side.
+/// Energies over one segment, J. Friction has two parts, `viscous` and `dry`. `load_viscous` is the part of
+/// `viscous` at the load's side. `travel` is the rotation of the shaft, rad.
 template <class Real>
 struct SegmentEnergy {
   Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0,
@@ -25,28 +25,29 @@ struct Moving {
   series::Nodes<points, Real> i_1{}, i_2{}, w{}, torque{};
 };
 
-/// Integrals in units of the segment's length: squares and currents of the connected legs in the law's order,
-/// speed and its square, and air-gap power.
+/// Integrals in units of the segment's length. `square` and `charge`: squared currents and currents of the
+/// connected legs, in the order of LegsLaw. `turn`: speed; `turn_square`: squared speed; `air_gap`: air-gap
+/// power.
 template <class Real>
 struct Integrals {
   PerLeg<Real> square{}, charge{};
   Real turn = 0, turn_square = 0, air_gap = 0;
 };
 
-/// Which terms exist in a segment. Where a member is a constant for the compiler, the code of absent terms is
-/// left out.
+/// Says which terms exist in a segment. If a member is a compile-time constant, the compiler removes the code
+/// of absent terms.
 template <class Real>
 struct Moves {
-  unsigned connected;  ///< legs
+  unsigned connected;  ///< number of connected legs
   bool turning;
-  bool steady;        ///< the torque is proportional to the first leg's current
+  bool steady;        ///< true: the torque is proportional to the first leg's current
   Real torque_per_A;  ///< N m per ampere of the first connected leg, if `steady`
 
   [[gnu::always_inline]] bool conducts() const { return connected >= 2; }
 };
 
-/// i_c = -(i_a + i_b), or i_b = -i_a for two connected legs, so that one or two series suffice. Four sums at
-/// once cost little more than two.
+/// One or two series of currents suffice: with three connected legs i_c = -(i_a + i_b), with two i_b = -i_a.
+/// Four sums computed at once need little more time than two.
 template <int points, class Real>
 [[gnu::always_inline]] inline Integrals<Real> integrals(const Moves<Real>& moves,
                                                         const Moving<points, Real>& at) {
@@ -74,7 +75,8 @@ template <int points, class Real>
   return out;
 }
 
-/// Energies that follow from the currents: copper, devices and supply. `dt` is the length in seconds.
+/// Computes the energies that depend on the currents: copper, devices and supply. `dt`: length of the
+/// interval, s.
 template <int points, class Real>
 [[gnu::always_inline]] inline void electrical_energy(const Constants<Real>& c, const LegsLaw<Real>& law,
                                                      const Expansion<Real>& y, Real dt,
@@ -99,7 +101,7 @@ template <int points, class Real>
   out.supplied = dt * series::weighted_sum<points>(series::values_at<points>(y.bus, y.degree, s), dc);
 }
 
-/// Energies that follow from the rotation, and the air-gap energy.
+/// Computes the energies that depend on the rotation, and the air-gap energy.
 template <class Real>
 [[gnu::always_inline]] inline void shaft_energy(const Constants<Real>& c, const Mode& mode, Real dt,
                                                 const Integrals<Real>& of, SegmentEnergy<Real>& out) {
@@ -112,7 +114,7 @@ template <class Real>
   out.air_gap = dt * of.air_gap;
 }
 
-/// Values at all nodes in one pass; only the series that `moves` needs.
+/// Values at all nodes, of the series that are needed for `moves`.
 template <int points, class Real>
 [[gnu::always_inline]] inline Moving<points, Real> moving_at(const LegsLaw<Real>& law,
                                                              const Moves<Real>& moves,
@@ -147,8 +149,8 @@ template <int points, class Real>
   return out;
 }
 
-/// Torque per ampere of the first leg, N m/A, if two legs share one current and their back-EMF per speed is
-/// constant; else 0.
+/// Torque per ampere of the first leg, N m/A, if two legs are connected and the difference of their back-EMFs
+/// per speed is constant; else 0.
 template <class Real>
 [[gnu::always_inline]] inline Real steady_torque_per_A(const Constants<Real>& c, const Mode& mode,
                                                        const LegsLaw<Real>& law) {
@@ -160,7 +162,7 @@ template <class Real>
 }
 
 /// Energies of a segment. In nearly all segments the rotor turns, with two legs on their flat tops or with
-/// three connected legs: each of these two cases has code without further branches.
+/// three connected legs: for each of these two cases the compiler makes code without further branches.
 template <class Real>
 [[gnu::always_inline]] inline SegmentEnergy<Real> segment_energy_here(const Plant<Real>& plant, Real to) {
   const Constants<Real>& c = plant.constants();
@@ -184,14 +186,14 @@ template <class Real>
 
 }  // namespace detail
 
-/// Energies of the present segment, J, from its start to `to`, a fraction 0 to 1. Each integral is exact to
-/// about 2^-53 of its natural scale (series/quadrature.hpp).
+/// Energies of the present segment, J, from its start to the fraction `to`, 0 to 1. The error of each
+/// integral is about 2^-53 of its scale (series/quadrature.hpp).
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return detail::segment_energy_here(plant, to);
 }
 /// The version for double is compiled once, for any processor. The audit's version for processors with AVX
-/// has the same results to the bit (plant/audit_avx.cpp).
+/// returns the same bits (plant/audit_avx.cpp).
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
 
 }  // namespace sixstep::plant

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the series of one segment: the parts that all conduction modes share. These are rotor, bus and shape
-// of the back-EMF (model.md 1).
+// The parts of a segment's series that all conduction modes use: rotor, bus and shape of the back-EMF
+// (model.md 1).
 #pragma once
 #include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::detail {
 
-// The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
-// included (model.md 12: an unrolled kernel takes a quarter of the time of a kernel with loops).
+// The order n of a term is a template argument: the whole recurrence is unrolled, with the products of short
+// series. An unrolled kernel needs a quarter of the time of a kernel with loops (model.md 12).
 
-/// The series of a segment while the recurrence adds terms. The recurrence holds them in a local variable, so
-/// that the newest terms stay in registers and no store delays them. Series that a law does not use are not
-/// computed.
+/// The series of a segment while the recurrence adds terms. This object is a local variable of the
+/// recurrence, so that the newest terms stay in registers and no store delays them. Series that a conduction
+/// mode does not use are not computed.
 template <class Real>
 struct SeriesBuilder {
   Real h;
@@ -19,8 +19,8 @@ struct SeriesBuilder {
   Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms after the first
   series::Coefficients<Real> w, x, torque, bus;
   series::Coefficients<Real> i,
-      i_2;  ///< currents of the first and, where three legs are connected, second leg
-  series::Coefficients<Real> phi0, phi1;  ///< sine only
+      i_2;  ///< current of the first leg; with three connected legs also of the second leg
+  series::Coefficients<Real> phi0, phi1;  ///< cos x and sin x; used only for a sinusoidal back-EMF
 };
 
 /// The rotor's part of the recurrence, the same for every conduction mode.
@@ -28,7 +28,7 @@ template <class Real>
 struct Rotor {
   Real inv_J;  ///< zero for a rotor at rest
   Real pole_pairs;
-  Real steady, per_speed;  ///< torque against the rotation: constant part, and part per speed
+  Real steady, per_speed;  ///< torque against the rotation: constant part, N m, and part per speed, N m s
 
   Rotor(const Constants<Real>& c, Motion motion)
       // mutant: turns(motion) => motion != Motion::locked
@@ -47,7 +47,7 @@ struct Rotor {
   }
 };
 
-/// Term n of w phi0 and w phi1 for a sine; also computes term n + 1 of cos x and sin x.
+/// Computes term n of w cos x and w sin x, and term n + 1 of cos x and sin x, for a sinusoidal back-EMF.
 template <int n, class Real>
 inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f, Real& w0, Real& w1) {
   w0 = series::product_term<n>(y.w, y.phi0);
@@ -57,9 +57,9 @@ inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real
   y.phi1[n + 1] = f * rotor.pole_pairs * w0;
 }
 
-/// Back-EMF of a leg per speed: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. The
-/// trapezoid is written relative to its present value, so that the newest terms are multiplied only by
-/// constants. This avoids the longest chain of dependent operations.
+/// Back-EMF of a leg per speed: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine.
+/// x(0) is the angle at the segment's start. In this form the newest terms are multiplied only by constants,
+/// which shortens the longest chain of dependent operations.
 template <bool sine, class Real>
 struct ShapeLine {
   PerLeg<Real> now, rise;
@@ -69,8 +69,8 @@ struct ShapeLine {
   }
 };
 
-/// Law of U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds. i_dc is a combination of the
-/// connected legs' currents.
+/// Equation of the bus voltage U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc. If the source does not feed, the
+/// first term is 0. The bridge's current i_dc is a sum of currents of connected legs.
 template <class Real>
 struct BusLaw {
   Real inv_C, feed, V_0, dc_i, dc_i_2;

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: Apache-2.0
-// settle() finds the consistent mode. Switches and nonzero currents determine most connections. Three things
-// are enumerated: legs without gate and current, the rotor at rest, and the bus at the source's voltage.
-// Exactly one combination is right. If rounding makes several combinations look right, settle() takes the
-// combination with most legs off (model.md 2, 4b). Values at the instant decide first; the series decide only
-// ties.
+// SPDX-License-Identifier: Apache-2.0 settle() finds the consistent mode. Switches and nonzero currents
+// determine most connections. settle() tries all combinations of three undetermined parts: legs without gate
+// and current, the rotor at rest, and the bus at the source's voltage. Exactly one combination is consistent.
+// If several appear consistent because of rounding, settle() selects the combination with most legs off
+// (model.md 2, 4b). It checks the values at the instant first, and the series only for ties.
 #pragma once
 #include <span>
 
@@ -36,8 +35,8 @@ PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode
   return e;
 }
 
-/// Electromagnetic torque, N m: K_e sum f_k i_k, the limit of sum e_k i_k/w, exact also at standstill
-/// (model.md (3)).
+/// Electromagnetic torque, N m: K_e sum f_k i_k (model.md (3)). It is computed as the back-EMF e at the speed
+/// 1, so that it is exact at standstill too.
 template <class Real>
 Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   State<Real> unit = s;
@@ -46,8 +45,8 @@ Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   return f[0] * s.i[0] + f[1] * s.i[1] + f[2] * s.i[2];
 }
 
-/// Checks the legs by the values at the instant: floating legs are within the rails, and the voltage of a
-/// diode that has just switched on drives its current in the diode's direction.
+/// Checks the legs by the values at the instant. The voltages of floating legs must be within the rails. In a
+/// leg whose diode begins to conduct, the voltage must drive a current in the diode's direction.
 template <class Real>
 Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLeg<Real>& e, const Mode& m,
                      Real slack) {
@@ -74,8 +73,8 @@ Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mod
                                                                   // c.breakaway replaces `dry`
   const Real noise = c.torque_noise * slack, excess = torque(c, s, m) - load;
   if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
-  // If the breakaway torque is above the sliding friction, there is a range in which only a stuck rotor is
-  // consistent: to slip, a rotor must overcome the breakaway torque.
+  // To start, a rotor must overcome the breakaway torque. If this torque is above the sliding friction, a
+  // rotor between the two values is consistent only at rest.
   const Real push = m.motion == Motion::forward ? excess : -excess;
   return judge(push - c.breakaway, noise);
 }
@@ -87,7 +86,7 @@ Judgement judge_source(const Constants<Real>& c, const State<Real>& s, const Mod
   return judge(m.source_feeds ? -above : above, noise);
 }
 
-/// Checks the series in lexicographic order: no guard of the mode may fall at the segment's start.
+/// Checks the leading term of each guard: no guard of the mode may become negative at the segment's start.
 template <class Real>
 bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Real>& y, Real slack) {
   bool ok = true;
@@ -98,8 +97,8 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// All combinations in which up to three undecided legs float or conduct by a diode; combinations with fewest
-/// legs on come first. There is one table per number of undecided legs.
+/// A combination of up to three undetermined legs that float or conduct by a diode. The tables contain all
+/// combinations for one, two and three such legs, with the fewest conducting legs first.
 struct Combination {
   std::array<Connection, 3> leg{};
   std::uint8_t on = 0;
@@ -136,14 +135,15 @@ constexpr std::span<const Combination> combinations_of(int legs) {
 
 }  // namespace detail
 
-/// Input of settle(): gates, the state after snap(), and whether values at the instant may decide alone.
+/// Input of settle(). `state` must have been processed by snap().
 template <class Real>
 struct Question {
   const Constants<Real>& constants;
   const State<Real>& state;
   const Gates& gates;
-  Real h;            ///< length over which series are judged
-  bool series_only;  ///< after an event without progress: the values at the instant have decided wrongly once
+  Real h;            ///< length over which series are checked, s
+  bool series_only;  ///< true: after an event without progress, because the check of the values at the
+                     ///< instant was wrong
   Real slack = 1;
 };
 
@@ -164,7 +164,7 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
   return holds_in_series(q.constants, mode, scratch, q.slack);
 }
 
-/// Tries all combinations of the open legs, combinations with fewest legs on first.
+/// Tries all combinations of the open legs, with the fewest conducting legs first.
 template <class Real>
 bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned open, Mode& mode,
                      Expansion<Real>& scratch, bool& expanded) {
@@ -174,7 +174,7 @@ bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned 
     if (open >> k & 1) undecided[count++] = k;
   for (const Combination& tried : combinations_of(count)) {
     for (int u = 0; u < count; ++u) mode.legs[undecided[u]] = tried.leg[u];
-    if (tried.on == 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries no current
+    if (tried.on == 1 && connected_count(mode.legs) == 1) continue;  // a single leg conducts no current
     if (accepts(q, emf, mode, scratch, expanded)) return true;
   }
   return false;
@@ -203,7 +203,7 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch
 
 }  // namespace detail
 
-/// Finds the consistent mode and writes it to `mode`. `expanded` becomes true if `scratch` contains the
+/// Finds the consistent mode and writes it to `mode`. Sets `expanded` to true if `scratch` contains the
 /// mode's expansion over q.h. Returns false if no mode is consistent at this rounding level.
 template <class Real>
 bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {

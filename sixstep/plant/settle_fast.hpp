@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settles the mode where nothing has to be tried (model.md 2): gates and currents determine the connections,
-// and the open legs are clearly away from the rails. Nearly every event is of this kind; settle.hpp settles
-// the other events.
+// Settles the mode without trials (model.md 2), after nearly all events: gates and currents determine the
+// connections, and the voltages of open legs are clearly inside or outside the rails. settle.hpp handles the
+// other events.
 #pragma once
 #include "sixstep/plant/guards.hpp"
 
@@ -20,8 +20,8 @@ void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& 
   }
 }
 
-/// Writes the connections that gates and currents determine. Returns a mask of the open legs, whose
-/// connections they do not determine.
+/// Writes the connections that gates and currents determine. Returns a mask of the other legs, which are
+/// called open.
 template <class Real>
 unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
   unsigned open = 0;
@@ -32,9 +32,9 @@ unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& 
   return open;
 }
 
-/// One leg k is open while two others conduct: it floats if u_n + e_k is within the rails. Beyond a rail, leg
-/// k conducts by that rail's diode; L di_k/dt is then two thirds of the excess voltage. Returns false if the
-/// terminal is too close to a rail to decide.
+/// Settles leg k, which is open while the other two legs conduct. Leg k floats if its voltage u_n + e_k is
+/// within the rails. If the voltage is beyond a rail, leg k conducts by the diode to this rail; L di_k/dt is
+/// then two thirds of the excess voltage. Returns false if the voltage is too close to a rail.
 template <class Real>
 bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfPiece<Real>& piece, unsigned k,
                       Legs& legs) {
@@ -54,8 +54,9 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   return true;
 }
 
-/// Two legs are open while one switch is on: both float if both are clearly within the rails. Otherwise
-/// returns false, because a leg beyond a rail may make the second open leg conduct too.
+/// Settles two open legs while the third leg's switch is on. Returns true if both voltages are clearly within
+/// the rails, so that both legs float. Otherwise returns false, because a leg that conducts may cause the
+/// second open leg to conduct too.
 template <class Real>
 [[gnu::noinline]] bool two_legs_float(const Constants<Real>& c, const State<Real>& s, const Mode& m,
                                       unsigned open) {
@@ -75,9 +76,11 @@ template <class Real>
 
 }  // namespace detail
 
-/// Settles the most frequent cases without enumeration: gates and currents determine all connections; or one
-/// leg is open while the two others conduct; or two legs are open and clearly within the rails. Returns false
-/// in all other cases, and if a value is too close to zero or to a rail.
+/// Settles the most frequent cases without enumeration:
+/// - gates and currents determine all connections,
+/// - one leg is open while the other two legs conduct,
+/// - two legs are open, and their voltages are clearly within the rails.
+/// Returns false in all other cases, and if a value is too close to zero or to a rail.
 template <class Real>
 bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;
@@ -94,7 +97,7 @@ bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& ga
     // mutant: open == 7 || !detail::two_legs_float(c, s, mode, open) => open == 7
     if (open == 7 || !detail::two_legs_float(c, s, mode, open)) return false;
   } else if (open != 0) {
-    const unsigned k = open >> 1;  // number of the one open leg
+    const unsigned k = open >> 1;  // index of the open leg
     // mutant: s.i[k] != 0 => false
     if (s.i[k] != 0) return false;
     if (!detail::settle_third_leg(c, s, c.emf[mode.sector].piece[mode.piece], k, legs)) return false;

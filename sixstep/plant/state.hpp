@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// State of the plant: the continuous state with the rounding remainders of its running sums, and the discrete
+// State of the plant: continuous states, each with the rounding error of its running sum, and the discrete
 // mode.
 #pragma once
 #include <bitset>
@@ -17,12 +17,12 @@ struct Gates {
 
 inline bool shoots_through(const Gates& g) { return (g.high & g.low).any(); }
 
-/// Motion of the rotor. `free`: there is no dry friction, and the speed passes zero without an event.
+/// Motion of the rotor. `free`: without dry friction, so that the speed passes zero without an event.
 enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
 
 constexpr bool turns(Motion motion) { return motion != Motion::locked && motion != Motion::stuck; }
 
-/// v for a forward rotation, -v for a backward rotation; 0 where dry friction has no direction.
+/// v for a forward rotation, -v for a backward rotation, else 0 (no dry friction, or at rest).
 template <class Real>
 constexpr Real against(Motion motion, Real v) {
   // mutant: -v => v
@@ -37,7 +37,7 @@ constexpr Motion motion_at(Real speed) {
 
 template <class Real>
 struct State {
-  PerLeg<Real> i{}, i_low{};  ///< phase currents, A, and their rounding remainders
+  PerLeg<Real> i{}, i_low{};  ///< phase currents, A; members `*_low` are the rounding errors of the sums
   Real w = 0, w_low = 0;      ///< mechanical speed, rad/s
   std::int64_t sector = 0;    ///< electrical sectors since theta_e = 0, over all turns
   Real x = 0, x_low = 0;      ///< electrical angle since the sector's start, rad
@@ -47,7 +47,7 @@ struct State {
 struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
-  bool source_feeds = true;  ///< false while the bus is above a source that cannot sink
+  bool source_feeds = true;  ///< false while the bus voltage is above that of a source that cannot sink
   std::uint8_t sector = 0;   ///< 0..5 within the electrical turn
   std::uint8_t piece = 0;    ///< piece of the back-EMF within the sector
   bool operator==(const Mode&) const = default;

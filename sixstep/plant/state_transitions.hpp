@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes of a state at an instant, shared by both kernels: setting the rotor's angle, passing the edge of a
-// sector or of a piece of the back-EMF, balancing the currents after one has become zero, and the noise
-// scales.
+// Functions of both kernels that change a state at an instant. They set the rotor's angle, pass an edge of a
+// sector or piece of the back-EMF, balance the currents, and set the noise scales.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,8 +11,8 @@
 
 namespace sixstep::plant::detail {
 
-/// Call it after a current was set to zero. A single remaining current is then zero too; of two remaining
-/// currents the second is minus the first.
+/// Makes the sum of the currents zero after a current was set to zero. If one current remains, it becomes
+/// zero too. If two remain, the second becomes minus the first.
 template <class Real>
 void balance(State<Real>& state) {
   PerLeg<Real>& i = state.i;
@@ -31,7 +30,7 @@ void balance(State<Real>& state) {
 }
 
 /// Moves the rotor across the edge of its piece of the back-EMF; returns true if it leaves its sector.
-/// pieces(sector) gives a sector's pieces in order of x, count(sector) their number.
+/// pieces(sector) returns a sector's pieces in order of x, count(sector) their number.
 template <class Real, class Mode, class Pieces, class Count>
 bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Count&& count) {
   const int before = static_cast<int>(count(mode.sector));
@@ -52,8 +51,8 @@ bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Coun
   return leaves;
 }
 
-/// A rotor at rest on an edge would pass it endlessly at one instant if the bridge drives the rotor back from
-/// either side. clear_edge() moves the rotor inside the piece by the possible rounding error, so that time
+/// If the bridge drives a rotor back from both sides of an edge, the rotor would pass this edge endlessly at
+/// one instant. clear_edge() moves the rotor away from the edge by the possible rounding error, so that time
 /// proceeds.
 template <class Real>
 void clear_edge(State<Real>& state, bool ahead) {
@@ -61,8 +60,9 @@ void clear_edge(State<Real>& state, bool ahead) {
   state.x += ahead ? inside : -inside;
 }
 
-/// Sets the rotor to an electrical angle; returns true if that angle is the edge of a sector. The tolerance
-/// covers four roundings, because the angle may have been converted from degrees or radians of the shaft.
+/// Sets the rotor to an electrical angle. Returns true if this angle is the edge of a sector. The tolerance
+/// covers four rounding errors, because the angle may have been converted from degrees or radians of the
+/// shaft.
 template <class Real>
 bool set_rotor_angle(State<Real>& state, double electrical_rad) {
   const double edge = std::floor(electrical_rad / base::sector_rad + 0.5);
@@ -75,7 +75,7 @@ bool set_rotor_angle(State<Real>& state, double electrical_rad) {
   return on_edge;
 }
 
-/// Sets the scales that distinguish rounding noise from a signal, in the constants of either kernel.
+/// Sets the scales that distinguish rounding noise from a signal, in the constants of a kernel.
 template <class Real, class Constants>
 void set_scales(Constants& c, Real volt_scale, Real R, Real K_e) {
   c.volt_scale = volt_scale;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltages of the three terminals against the negative rail, including floating terminals: the inputs of the
-// board's dividers. If all legs float, the voltages are centred between the rails (circuit.hpp).
+// Voltages of the three terminals against the negative rail, including floating terminals: these are the
+// inputs of the board's dividers. If all legs float, the voltages are centred between the rails
+// (circuit.hpp).
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/plant/plant.hpp"
@@ -15,8 +16,9 @@ PerLeg<Real> terminal_voltages(const Plant<Real>& plant) {
   return pole_voltages(plant.mode().legs, plant.constants().poles, now.bus, now.i, e);
 }
 
-/// With saliency and harmonics the star point's voltage follows only from the series, so that a copy of the
-/// plant is expanded. The cost is acceptable because terminals are read once per control tick.
+/// With saliency and harmonics the star point's voltage can only be computed from the series. The function
+/// therefore expands a copy of the plant. The cost is acceptable, because terminals are read once per control
+/// tick.
 template <class Real>
 PerLeg<Real> terminal_voltages(const general::Plant<Real>& plant) {
   general::Plant<Real> now = plant;
@@ -30,8 +32,8 @@ using TerminalSeries = PerLeg<series::Coefficients<Real>>;
 
 namespace detail {
 
-/// Centres u[k] = e_k of an unconnected star between the rails. The highest and the lowest terminal are
-/// chosen at the middle of [0, s]. `dead` is the mask of broken wires.
+/// Centres the terminals u[k] = e_k between the rails if no leg is connected. The highest and the lowest
+/// terminal are determined in the middle of [0, s]. `dead`: mask of the legs with broken wires.
 template <class Real>
 void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned dead = 0) {
   PerLeg<Real> middle;
@@ -45,8 +47,8 @@ void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned 
 
 }  // namespace detail
 
-/// Terminal voltages as series, over the part s of the segment that was expanded last; after this part the
-/// connections may differ.
+/// Terminal voltages as series, valid for the fraction 0 to s of the segment that was expanded last. After
+/// this part the connections may differ.
 template <class Real>
 TerminalSeries<Real> terminal_series(const Plant<Real>& plant, Real s) {
   const Constants<Real>& c = plant.constants();

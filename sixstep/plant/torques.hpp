@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Torques that act on the rotor, each defined once (model.md (4)). The recurrences, the guards, the energy
-// balance and the figures of merit use them.
+// Definition of the torques on the rotor (model.md (4)), for recurrences, guards, energy balance and figures
+// of merit.
 #pragma once
 #include "sixstep/plant/expansion.hpp"
 
@@ -8,7 +8,7 @@ namespace sixstep::plant {
 
 /// J dw/dt = T_e - load - dry - per_speed w. Code that uses the torques binds all members, as in
 ///   const auto [load, dry, per_speed] = torques(c, motion);
-/// so that code that ignores an additional torque does not compile.
+/// This code does not compile if a member is added, so that no code can ignore an additional torque.
 template <class Real>
 struct Torques {
   Real load;       ///< T_load, N m
@@ -21,8 +21,8 @@ Torques<Real> torques(const Constants<Real>& c, Motion motion) {
   return {c.load, against(motion, c.coulomb), c.B};
 }
 
-/// True if the sum of the torques is linear in the speed, as FlatPair requires (recurrences.hpp). Each
-/// present torque is linear; for a new torque that is not linear this function must return false.
+/// True if the sum of the torques is linear in the speed, as FlatPair requires (recurrences.hpp). All present
+/// torques are linear. If a nonlinear torque is added, this function must return false.
 template <class Real>
 constexpr bool is_line_over_speed(const Torques<Real>& all) {
   [[maybe_unused]] const auto& [load, dry, per_speed] = all;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read access to the plant of either kernel, for observers. Most values exist in both kernels; for the others
-// the view has a pointer to the kernel's plant. There is one type View, so that figures and recorders are
-// compiled once.
+// Read access to the plant of the lean or the general kernel, for observers. Both kernels have most values.
+// For the values of only one kernel the view has a pointer to the plant. View is not a template, so that
+// figures and recorders are compiled once.
 #pragma once
 #include "sixstep/plant/general/segment_energy.hpp"
 #include "sixstep/plant/segment_energy.hpp"
@@ -51,7 +51,7 @@ class View {
   Common common_;
 
  public:
-  const Plant<double>* lean = nullptr;  ///< one of the two pointers is set, the other is null
+  const Plant<double>* lean = nullptr;  ///< exactly one of `lean` and `general` is not null
   const general::Plant<double>* general = nullptr;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts an analogue input: first an amplifier with offset, gain error and noise, then a converter of
-// `bits` bits over a range. The firmware converts the counts back (control/adc.hpp).
+// Simulates an analogue input: an amplifier with offset, gain error and noise, then a converter of `bits`
+// bits over a range. The firmware converts the counts back (control/adc.hpp).
 //
-//   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, limited to 0..2^bits - 1 both signs:
-//   lsb = 2 range/2^bits, zero = 2^(bits - 1)         one sign:  lsb = range/2^bits, zero = 0
+//   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, limited to 0..2^bits - 1
+//   both signs:  lsb = 2 range/2^bits, zero = 2^(bits - 1)
+//   one sign:    lsb = range/2^bits, zero = 0
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -26,8 +27,8 @@ struct AdcPath {
   }
 };
 
-/// Counts for an input x, in the unit of `range`. `place` identifies the input and the number of its random
-/// draw.
+/// Counts for an input x, in the unit of `range`. `place` identifies the random number: input and index of
+/// the draw.
 inline std::uint16_t converted(const AdcPath& path, double x, const base::RandomPlace& place) {
   double seen = (1.0 + path.gain_error) * x + path.offset;
   if (path.noise > 0) seen += path.noise * base::normal(place);

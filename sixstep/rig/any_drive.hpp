@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One interface for all firmwares. The rig is compiled once per kind of command (a pair, or three legs), and
 // not for each firmware in each arithmetic. All values in calls are in SI units or register counts. The rig
-// makes one call per control period and one per interrupt.
+// calls the firmware once per control period and once per interrupt.
 //
 //   Rig -> AnyDrive<Command> -> DriveInterface<Command> <- DriveOf<Firmware> (drive_of.hpp)
 #pragma once
@@ -20,16 +20,17 @@ namespace sixstep::rig {
 template <class Command>
 struct DriveAnswer {
   Command command{};
-  bool reversed = false;           ///< six-step: the command has a negative sign
-  bool moved_on = false;           ///< the tick found a commutation that was already due
-  bool holds_commutation = false;  ///< six-step: the command has the duty of a commutation
-  sim::Instant next_commutation = sim::Instant::never();  ///< instant of the compare match at which the timer
+  bool reversed = false;           ///< six-step, true: the command has a negative sign
+  bool moved_on = false;           ///< true: the tick found a commutation that was already due
+  bool holds_commutation = false;  ///< six-step, true: the command has the duty of a commutation
+                                   ///< (control/commutation_step.hpp)
+  sim::Instant next_commutation = sim::Instant::never();  ///< instant at which a compare match of the timer
                                                           ///< commutates
   control::Telemetry<double> told{};
   FieldTelemetry field{};  ///< values of a field-oriented drive; zeros for other drives
 };
 
-/// Properties of a firmware that change only when it is made or retuned.
+/// Properties of a firmware that change only when the firmware is retuned.
 struct DriveTraits {
   control::Mode mode = control::Mode::off;
   bool open_loop = false;
@@ -66,14 +67,14 @@ class DriveInterface {
   virtual void retune(const DriveConfig<Command>& config, double setpoint_unit) = 0;
   virtual Diagnosis diagnosis() const = 0;
   virtual bool fault_ends_run() const = 0;
-  virtual Registers* registers() = 0;     ///< null: the firmware has ideal measurements
+  virtual Registers* registers() = 0;     ///< null: the firmware receives ideal measurements
   virtual ShaftPorts* shaft_ports() = 0;  ///< null: the firmware has no shaft sensor
 
  protected:
   DriveInterface(const DriveInterface&) = default;
 };
 
-/// Configuration of any firmware; made() returns a drive with this configuration.
+/// Configuration of a firmware. made() returns a drive with this configuration.
 template <class Command>
 class DriveConfig {
  public:
@@ -86,7 +87,7 @@ class DriveConfig {
   virtual bool decodes_arrangement() const = 0;
 };
 
-/// The firmware as the rig uses it. A copy is an independent drive in the same state.
+/// A firmware behind the common interface, as a value. A copy is an independent drive in the same state.
 template <class CommandType>
 class AnyDrive {
  public:

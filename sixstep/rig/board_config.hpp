@@ -14,20 +14,22 @@ namespace sixstep::rig {
 
 struct BoardConfig {
   ModulatorConfig modulator;
-  bool commutate_at_sample = false;  ///< false: the drive commutates at the Hall edge itself
-  bool delayed = false;              ///< a command takes effect one period after its sample
-  bool sampled_in_middle = false;    ///< samples in the middle of a period; the command computed from a
-                                     ///< sample acts from the next period's start
+  bool commutate_at_sample = false;  ///< true: the drive commutates at a sample; false: at the Hall edge
+  bool delayed = false;              ///< true: a command takes effect one period after its sample
+  bool sampled_in_middle = false;    ///< true: samples are in the middle of a period; the resulting command
+                                     ///< acts from the next period's start
   Bases bases{};                     ///< bases of the controller's numbers
   SensorsConfig sensors{};
   FrontEndConfig front_end{};
-  /// Arrangement of the Hall probes. For a drive that decodes only probes 120 degrees apart, the board
+  /// Arrangement of the Hall probes. For a drive that can decode only probes 120 degrees apart, the board
   /// converts the codes.
   control::HallArrangement hall_arrangement = control::HallArrangement::degrees_120;
   WireOrder believed_lines = WireOrder::abc;  ///< probes that the drive assumes at pins H1, H2, H3
-  double believed_pole_pairs = 0.0;           ///< the motor's pole pairs in the drive; 0: the true ones
-  CorePort core{};                            ///< optional core that runs the drive in parallel to the host
-  ChipPort chip{};  ///< optional chip that runs its own firmware instead of the drive
+  double believed_pole_pairs = 0.0;           ///< the motor's pole pairs that the drive assumes; 0: the true
+                                              ///< number
+  CorePort core{};                            ///< optional core that executes the drive in parallel to the
+                                              ///< host
+  ChipPort chip{};  ///< optional chip that executes another firmware instead of the drive
 };
 
 /// Data that a firmware has before its first sample.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The free-running counter that captures Hall edges: counts(t) = floor(t f) for time t and frequency f,
-// computed in integers. In floating point, t f can be just below a count that is reached exactly; at 48 MHz
-// this happens for a twelfth of the counts.
+// computed in integers. In floating point, t f can be just below a count that is exactly reached; at 48 MHz
+// this error affects a twelfth of the counts.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace sixstep::rig {
 
 class CaptureClock {
  public:
-  /// `Hz`: 1 Hz to 1 GHz, fractions included. The loop makes f = numerator/2^n, which is exact for any
-  /// double.
+  /// `Hz`: 1 Hz to 1 GHz, not necessarily an integer. The loop finds f = numerator/2^n, which is exact for
+  /// any double.
   explicit CaptureClock(double Hz) {
     while (Hz != std::floor(Hz)) {
       Hz *= 2;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A foreign firmware as a drive: a chip runs it register by register in an emulator with its own clock
-// (chip_port.hpp). The board turns the chip on at t = 0, sets the chip's Hall pins and converter inputs, and
-// applies the gates that the chip sets.
+// Drive whose firmware runs on an emulated chip with a separate clock, register by register (chip_port.hpp).
+// The board turns the chip on at t = 0, sets the chip's Hall pins and converter inputs, and applies the gates
+// that the chip sets.
 //
 //               input at a sample                           a Hall edge   a fault            reports
 //   ChipDrive   counts at the converter's inputs: currents  its pins      handled by the     cycles of its interrupts
 //               of the legs, the setpoint's potentiometer                 firmware itself
 //
-// The plant cannot compute in advance when the chip acts, and the chip cannot compute when a Hall edge comes.
-// The chip therefore runs ahead of the plant over a time in which no edge is expected, and stops when it
-// acts. If an edge occurs in this time, the pins show the edge at the chip's next stop.
+// The plant cannot predict when the chip changes its gates, and the chip cannot predict when a Hall edge
+// occurs. The chip therefore runs ahead of the plant over a time in which no edge is expected. It stops when
+// it changes gates or samples. If an edge nevertheless occurs in this time, the pins show the edge at the
+// chip's next stop.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -49,10 +50,10 @@ class ChipDrive {
             patient_periods * static_cast<double>(board.modulator.period_ticks) / sim::ticks_per_second)),
         pins_(power_up.pins) {}
 
-  /// Instant of the chip's next stop, to which the plant must advance.
+  /// Instant of the chip's present stop. The plant must advance to this instant.
   const sim::Instant& next_stop() const { return stop_; }
   bool samples() const { return answer_.event == ChipEvent::sample; }
-  /// True at the sample of a current: this is the control sample, one per period.
+  /// True at the control sample: the sample of a current, once per period.
   bool samples_current() const { return samples() && answer_.channel < potentiometer_input; }
   bool lost() const { return trouble_ != CoreTrouble::none; }
   ChipGates gates() const { return {answer_.gates}; }
@@ -73,7 +74,7 @@ class ChipDrive {
                                control::positive_pair(control::sector_of_hall(instant.pins)));
     if (config_.mode == control::Mode::current) telemetry_.current_reference_A = setpoint;
   }
-  /// Runs the chip from this stop to the next stop, at most `quiet_s` seconds.
+  /// Runs the chip from this stop to its next stop, for at most `quiet_s` seconds.
   void go_on(double quiet_s) {
     const double cycles =
         std::clamp(quiet_s * static_cast<double>(port_.clock_Hz), least_cycles, most_cycles);
@@ -106,11 +107,11 @@ class ChipDrive {
   double latest_edge_s() const { return latest_edge_s_; }
 
  private:
-  /// Bounds of a step, cycles. Near a Hall edge, steps of half a microsecond (of an AVR at 16 MHz) suffice.
-  /// Far from an edge, steps of a tenth of a period keep the pins up to date.
+  /// Bounds of the time between stops, in cycles. At 16 MHz 8 cycles are half a microsecond, short enough
+  /// near a Hall edge. 400 cycles are a fraction of a PWM period, short enough far from an edge.
   static constexpr double least_cycles = 8, most_cycles = 400;
-  /// A chip without a sample for this time has stalled. The time is longer than the shortest watchdog time
-  /// plus the restart after the watchdog's reset.
+  /// A chip that does not sample for this time counts as stalled. The time is longer than the shortest
+  /// watchdog time plus the restart after the watchdog's reset.
   static constexpr double patient_periods = 50, least_patience_s = 30e-3;
 
   sim::Instant at_cycle(std::uint64_t cycle) const {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the plant and a chip that runs its own firmware register by register, with all its
-// interrupts. The plant lets the chip run for a number of cycles with given values at its pins. The chip
-// stops at the end of these cycles, when its gates change, or when its converter samples. The messages are
-// plain structs, the same on both sides of a pipe on one machine. Their transport is outside the library
-// (faces/loop/).
+// Messages between the plant and an emulated chip that executes a complete firmware, register by register
+// with all interrupts. The plant lets the chip run for a number of cycles with given values at its pins. The
+// chip stops at the end of these cycles, when its gates change, or when its converter samples. The messages
+// are plain structs that are equal on both sides of a pipe on one machine. faces/loop/ transports them.
 #pragma once
 #include <cstdint>
 
@@ -13,20 +12,20 @@ namespace sixstep::rig {
 
 constexpr int chip_inputs = 8;  ///< channels of the converter
 
-/// Command to continue. The pins change at the last cycle reached; the counts are read if the last answer was
-/// a sample.
+/// Command to continue. The pins change at the cycle of the last answer. The chip reads `counts` if the last
+/// answer was a sample.
 struct ChipRun {
   std::uint64_t until = 0;              ///< last cycle, counted since the reset
   std::uint16_t counts[chip_inputs]{};  ///< values at the converter's inputs, by channel
   std::uint32_t hall_pins = 0;          ///< H1 H2 H3 as bits 2, 1, 0
-  std::uint32_t asks_for_times = 0;     ///< nonzero: the chip does not run, and the answer is a ChipTimes
+  std::uint32_t asks_for_times = 0;     ///< not 0: the chip does not run, and the answer is a ChipTimes
 };
 
 enum class ChipEvent : std::uint32_t {
   ran,     ///< ran up to `until`
   gates,   ///< the gates changed
-  sample,  ///< the converter samples an input: the next ChipRun gives its counts
-  ended    ///< the chip met an invalid instruction, or stopped for good
+  sample,  ///< the converter samples an input; the next ChipRun contains the counts
+  ended    ///< the chip executed an invalid instruction, or stopped permanently
 };
 
 struct ChipAnswer {
@@ -34,17 +33,17 @@ struct ChipAnswer {
   ChipEvent event = ChipEvent::ran;
   std::uint32_t gates =
       0;  ///< present gates, bits 0..5: upper a, lower a, upper b, lower b, upper c, lower c (control/gates.hpp)
-  std::uint32_t channel = 0;  ///< sampled channel; 4 to 6: channel 0 to 2, a current, sampled outside the
-                              ///< control sample
+  std::uint32_t channel = 0;  ///< sampled channel; 4 to 6: a current, channel 0 to 2, that is not the control
+                              ///< sample
   std::uint32_t unused = 0;
 };
 
-/// Cycles that one interrupt takes, from its request to the instruction after its return.
+/// Duration of one interrupt in cycles, from its request to the instruction after its return.
 struct InterruptTimes {
   static constexpr int bins = 64;
   std::uint64_t count = 0, sum = 0;
   std::uint32_t least = 0, most = 0;
-  std::uint32_t bin_cycles = 0;  ///< width of each bin; the first bin begins at 0, the last bin also counts
+  std::uint32_t bin_cycles = 0;  ///< width of each bin; the first bin begins at 0; the last bin also contains
                                  ///< all larger values
   std::uint32_t bin[bins]{};
   std::uint32_t unused = 0;
@@ -62,13 +61,13 @@ struct ChipPort {
   void* chip = nullptr;
   CoreTrouble (*run)(void* chip, const ChipRun& run, ChipAnswer& answer) = nullptr;
   std::uint64_t clock_Hz = 0;  ///< frequency of the chip's cycles
-  bool converts = true;        ///< true: the chip's converter must sample once a period; a chip that does not
-                               ///< sample has stalled
+  bool converts = true;        ///< true: the chip's converter must sample once per period, otherwise the chip
+                               ///< counts as stalled
 
   explicit operator bool() const { return run != nullptr; }
 };
 
-/// First message of a chip. From it both sides check that they have the same structs.
+/// First message of a chip. The plant's side uses it to check that both sides use the same structs.
 struct ChipGreeting {
   std::uint32_t word = 0x73697863;  ///< "sixc"
   std::uint32_t run_bytes = sizeof(ChipRun), answer_bytes = sizeof(ChipAnswer),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a drive that identifies its motor and wiring (control/commissioning/). Then it drives the
-// motor in six-step with the table that it found, at the setpoint's duty:
+// Firmware that identifies motor and wiring (control/commissioning/). Afterwards it drives the motor in
+// six-step operation with the identified table, at the setpoint's duty:
 //
 //                        input of a tick                       a Hall edge         a fault
 //   CommissioningDrive   counts of currents and bus, pins      captured, noted     bridge off
 //
-// Its answer is always three legs, because the pair changes with the tick after an edge, not at the edge.
+// Its command is always for three legs, because the pair changes at the tick after an edge, not at the edge.
 #pragma once
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -19,7 +19,7 @@ class CommissioningDrive {
   using Command = control::LegCommands<Scalar>;
   using Config = control::CommissioningConfig;
   static constexpr bool fault_ends_run = false;
-  static constexpr bool decodes_arrangement = true;  ///< its input is the pins without any conversion
+  static constexpr bool decodes_arrangement = true;  ///< the board does not convert the code of the pins
 
   CommissioningDrive(const Config& config, const BoardConfig& board, const PowerUp&)
       : config_(config), registers_(board.sensors) {}
@@ -46,7 +46,7 @@ class CommissioningDrive {
   bool follows_setpoint_at_once() const { return false; }
   Diagnosis diagnosis() const { return {}; }
   Registers& registers() { return registers_; }
-  /// Results that the drive has found so far.
+  /// State of commissioning, with the results so far.
   const control::CommissioningState& found() const { return state_; }
 
  private:

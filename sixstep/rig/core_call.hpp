@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the plant and a core that runs the drive (lockstep_core.hpp): arguments of the drive's
-// entries, and the core's answers. They are plain structs of words and scalars. Their layout is the same in
-// all compilers for 32-bit cores and on a host with the same byte order. The core's program
+// Messages between the plant and a core that executes the drive (lockstep_core.hpp): arguments of the drive's
+// functions, and the core's answers. They are plain structs of words and scalars. Their layout is the same
+// with all compilers for 32-bit cores and on a host with the same byte order. The core's program
 // (faces/loop/core/) includes this file too.
 #pragma once
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace sixstep::rig {
 
-/// Entries of a drive: the functions that a board calls.
+/// Entries of a drive: its functions that a board calls.
 enum class CoreEntry : std::uint32_t {
   tick,
   hall,
-  start,      ///< product drive, once: `now` is the rotor's sector at the start
-  commutate,  ///< sensorless drive: compare match of its timer
+  start,      ///< product drive, called once: `now` is the rotor's sector at the start
+  commutate,  ///< sensorless drive: compare match of the timer
   capture     ///< sensorless drive: an edge of the comparators at the terminals
 };
 
@@ -36,8 +36,8 @@ struct LeanCall {
 template <class Scalar>
 struct ProductCall {
   CoreEntry entry = CoreEntry::tick;
-  std::uint32_t run = 0, clear = 0;  ///< control::Request
-  std::uint32_t now = 0;             ///< control::BoardInput, as words
+  std::uint32_t run = 0, clear = 0;  ///< members of control::Request
+  std::uint32_t now = 0;             ///< these members and the next: control::BoardInput, as words
   std::uint32_t current_counts[3]{}, bus_counts = 0, hall_pins = 0;
   control::Setpoint<Scalar> setpoint{};
 };
@@ -77,8 +77,8 @@ constexpr control::BoardInput input_of(const ProductCall<Scalar>& call) {
   return in;
 }
 
-/// A control::BridgeCommand with its enumerators as numbers, so that the answer of a faulty program is never
-/// an invalid enumerator.
+/// A control::BridgeCommand with its enumerators as numbers, so that a wrong answer of a faulty program is
+/// never an invalid enumerator.
 template <class Scalar>
 struct CoreAnswer {
   std::uint8_t enabled = 0, fault = 0, source = 0, sink = 0, chopping = 0, chopped = 0, watch = 0, unused = 0;
@@ -121,7 +121,7 @@ constexpr CoreLegs<Scalar> answer_of(const control::LegCommands<Scalar>& c) {
   return out;
 }
 
-/// First message of a core. From it both sides check that they have the same structs.
+/// First message of a core. The plant's side uses it to check that both sides use the same structs.
 struct CoreGreeting {
   std::uint32_t word = 0x73697873;  ///< "sixs"
   std::uint32_t call_bytes = 0, answer_bytes = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparators of each filtered terminal with a virtual star point or half the bus (model.md 4). Between two
-// events the filtered voltages are polynomials as the circuit's quantities are, so that a comparator's edge
-// is located like any event:
+// Comparators that compare each filtered terminal voltage with a virtual star point or with half the bus
+// (model.md 4). Between two events the filtered voltages are polynomials. A comparator's edge is therefore
+// located like any event:
 //
 //   dx/dt = (u - x)/tau:   x_(n+1) = (h/tau) (u_n - x_n)/(n + 1),   h <= tau/2
 //
@@ -17,13 +17,14 @@ namespace sixstep::rig {
 
 class Crossings {
  public:
-  /// Lines at the start of the run; a line whose voltage is exactly at its level is low.
+  /// Sets the lines at the start of the run. A line whose voltage is exactly at its threshold is low.
   Crossings(const FrontEndConfig& config, const FrontEndReading& at) : config_(config) {
     for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + config.divider_gain_error[k];
     for (std::size_t k = 0; k < 3; ++k)
       if (above(at, k) > 0) turn_over(k);
   }
-  /// The divider of a leg shows 0 V from now on. Lines that then contradict their levels change.
+  /// Breaks the divider of a leg: its voltage is 0 V from now on. Lines that contradict their thresholds then
+  /// change.
   void break_divider(std::size_t leg, const FrontEndReading& at) {
     gain_[leg] = 0.0;
     const double half = config_.comparators.hysteresis_V / 2;
@@ -32,15 +33,15 @@ class Crossings {
   }
 
   bool fitted() const { return config_.has_comparators(); }
-  /// Bound of a segment's length, s. In a longer segment, the 16 terms of the filter's series would not be
-  /// exact to rounding.
+  /// Bound of a segment's length, s. In a longer segment, the error of the filter's series of 16 terms would
+  /// exceed rounding.
   double longest_s() const { return config_.comparators.lag_s / 2; }
   /// Comparators' lines of legs a, b, c as bits 2, 1, 0, as in a Hall code.
   std::uint8_t lines() const { return lines_; }
   void turn_over(std::size_t leg) { lines_ ^= static_cast<std::uint8_t>(4U >> leg); }
 
-  /// Calls visit(leg, series, degree, noise) for each line; a series falls through zero where its line
-  /// changes. `of` must be expanded, and the plant not yet advanced over it.
+  /// Calls visit(leg, series, degree, noise) for each line. A series falls through zero when its line
+  /// changes. `of` must be expanded, and the plant must not have advanced over it yet.
   template <class Real, class Visit>
   void guards(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u,
               const FrontEndReading& now, Real volt_scale, Visit&& visit) const {
@@ -51,7 +52,8 @@ class Crossings {
     }
     const Coefficients<Real> bus = lagged(of, of.y.bus, now.comparator_bus_V);
     const Real noise = plant::noise_of(volt_scale, Real(1));
-    // After an edge the voltage must differ from the line's next level by more than rounding.
+    // After an edge, the voltage must differ from the threshold of the opposite edge by more than rounding
+    // errors.
     const Real half = std::max(Real(config_.comparators.hysteresis_V) / 2, 4 * noise);
     for (std::size_t k = 0; k < 3; ++k) {
       const Real sign = (lines_ & (4U >> k)) != 0 ? Real(1) : Real(-1);
@@ -64,7 +66,7 @@ class Crossings {
   }
 
  private:
-  /// Voltage of a terminal above its comparator's level, V, without hysteresis.
+  /// Filtered voltage of a terminal minus its comparator's threshold without hysteresis, V.
   double above(const FrontEndReading& at, std::size_t leg) const {
     plant::PerLeg<double> x{};
     for (std::size_t k = 0; k < 3; ++k) x[k] = gain_[k] * at.comparator_V[k];
@@ -95,7 +97,7 @@ class Crossings {
   std::uint8_t lines_ = 0;
 };
 
-/// Empty type for a firmware that captures no edges of comparators.
+/// Empty type for a firmware without comparators.
 struct NoCrossings {};
 
 }  // namespace sixstep::rig

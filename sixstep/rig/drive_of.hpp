@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adapts a firmware to the interface of any_drive.hpp: the firmware's numbers are converted to SI, and
-// functions that it lacks do nothing.
+// Adapts a firmware to the interface of any_drive.hpp. The firmware's numbers are converted to SI units.
+// Functions that the firmware does not have are empty.
 #pragma once
 #include "sixstep/rig/any_drive.hpp"
 #include "sixstep/rig/fault.hpp"
@@ -40,7 +40,7 @@ void tell_in_si(const control::Telemetry<Scalar>& of, const Bases& bases, contro
   }
 }
 
-/// A firmware's command in SI.
+/// Type of a firmware's command in SI units.
 template <class Firmware>
 using SiCommand = decltype(in_si(std::declval<const typename Firmware::Command&>(), Bases{}));
 

@@ -19,7 +19,7 @@ enum class Fault : std::uint8_t {
   core
 };
 
-/// Kind of the fault that a firmware found.
+/// Kind of the fault that a firmware has detected.
 inline Fault fault_of(const Diagnosis& found) {
   if (found.core != CoreTrouble::none) return Fault::core;
   if (found.shaft.lost()) return Fault::shaft_sensor;
@@ -28,7 +28,8 @@ inline Fault fault_of(const Diagnosis& found) {
   return found.own.what != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
 }
 
-/// True if a fault that the firmware found ends the run. Otherwise the drive turns off and the motor coasts.
+/// True if a fault that the firmware has detected ends the run. Otherwise the drive turns off and the motor
+/// coasts.
 template <class Firmware>
 bool ends_run([[maybe_unused]] const Firmware& firmware) {
   if constexpr (requires { firmware.ends_run_by_fault(); })

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a field-oriented drive (control/field/); compare firmware.hpp:
+// Firmware of a field-oriented drive (control/field/). The table's columns are as in firmware.hpp:
 //
 //                input of a tick                              a Hall edge    a fault         reports
 //   FieldDrive   ideal values, or those of [sensors], and     captured       ends the run    lost sensor
 //                the magnet's direction
 //
-// Its answer is always three legs. An ideal sensor gives cosine and sine of the magnet's direction exactly.
-// With an encoder, a resolver or Hall edges the drive computes both from the decoded angle, as on the chip
-// (field_direction.hpp).
+// Its command is always for three legs. With an ideal sensor the drive receives the exact cosine and sine of
+// the magnet's direction. With an encoder, a resolver or Hall edges the drive computes both from the decoded
+// angle, as on the chip (field_direction.hpp).
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/rig/field_telemetry.hpp"
@@ -88,9 +88,9 @@ class FieldDrive {
   void follow(const ShaftMotion<Real>& motion) {
     sensors_.follow(motion);
   }
-  /// The drive's state with currents and voltages of the last tick, in the rotor's frame.
+  /// State of the drive, with currents and voltages of the last tick in the rotor's frame.
   const control::FieldDriveState<Scalar>& state() const { return state_.field; }
-  /// Estimate of the magnet's angle for a drive without a rotor sensor.
+  /// State of the estimator of the magnet's angle, for a drive without a rotor position sensor.
   const control::EstimatorState<Scalar>& estimator() const { return state_.estimator; }
   FieldTelemetry field_held() const {
     const auto si = [](const control::Dq<Scalar>& x, double unit) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that a field-oriented drive holds from one sample to the next, in SI for any arithmetic. Figures of
-// merit and recorders read them.
+// Values of a field-oriented drive that are constant between two samples, in SI units for every arithmetic.
+// Figures of merit and recorders read these values.
 #pragma once
 #include "sixstep/control/frames.hpp"
 
@@ -12,7 +12,7 @@ struct FieldTelemetry {
   double angle_error_deg = 0.0;     ///< electrical: assumed angle of the magnet minus the true angle
 };
 
-/// Values of a field-oriented firmware; zeros for other firmwares.
+/// The values of a field-oriented firmware; zeros for other firmwares.
 template <class Firmware>
 FieldTelemetry field_held(const Firmware& firmware) {
   if constexpr (requires { firmware.field_held(); })

@@ -9,11 +9,12 @@
 //   ProductDrive  registers: counts, pins, counter   protected_on_hall     off, run continues   reason, line,
 //                                                                                               when
 //
-// LeanDrive and SensedDrive (lean_drive.hpp) run control/drive.hpp; ProductDrive (product_drive.hpp) runs
-// control/protected_drive.hpp, including offset calibration, Hall decoding, fault monitor and state machine.
+// LeanDrive and SensedDrive (lean_drive.hpp) execute control/drive.hpp. ProductDrive (product_drive.hpp)
+// executes control/protected_drive.hpp, with offset calibration, Hall decoding, fault monitor and state
+// machine.
 //
-// The type of a firmware's answer, its Command, determines the modulator (modulator.hpp). hall_interrupt()
-// and reversed() are for six-step only: a firmware that answers three legs does not need them.
+// The type of a firmware's command determines the modulator (modulator.hpp). hall_interrupt() and reversed()
+// are for six-step only. A firmware that commands three legs does not need these functions.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/sensorless/lock.hpp"
@@ -34,26 +35,27 @@ struct SampleInstant {
   std::uint64_t number = 0;  ///< index of the sample
   std::uint8_t pins = 0;
   bool reversed = false;  ///< sign of the six-step command in effect
-  double duty = 0.0;      ///< duty of the command in effect; the DC link's shunt is evaluated by it
+  double duty = 0.0;      ///< duty of the command in effect; needed to evaluate the shunt in the DC link
   const FrontEndReading* seen =
-      nullptr;  ///< values at the converters' inputs, if the board's front end lags; else null
+      nullptr;  ///< values at the converters' inputs; null if the board's front end has no lag
 };
 
-/// Findings of a firmware about a fault.
+/// What a firmware has found out about a fault.
 struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that turned the drive off
-  std::uint8_t hall_line = 0;  ///< 1..3: the line that caused an invalid code; 0: none, or unknown
-  sim::Instant at{};           ///< tick that latched the faults, or at which the rotor was last lost
-  int losses = 0;              ///< how often a sensorless drive lost the rotor, or failed to start it
+  std::uint8_t hall_line = 0;  ///< 1..3: the line that caused an invalid code; 0: no line, or unknown
+  sim::Instant at{};           ///< tick at which the faults were latched, or at which the rotor was last lost
+  int losses = 0;              ///< number of times that a sensorless drive lost the rotor or failed to start
+                               ///< it
   control::LockLoss lost = control::LockLoss::none;  ///< reason of the last loss
   bool gave_up = false;                              ///< true: the drive does not start again
-  int unseen = 0;                                    ///< how often pulses did not determine the rotor's angle
-  double north = 0.0;                                ///< last result of the pulses, relative to its noise
-  double certain = 0.0;                              ///< least sufficient result of the pulses, relative to
-                                                     ///< its noise
+  int unseen = 0;                                    ///< number of times that pulses did not determine the
+                                                     ///< rotor's angle
+  double north = 0.0;                                ///< last result of the pulses: signal divided by noise
+  double certain = 0.0;                              ///< least sufficient value of `north`
   ShaftFinding shaft{};                              ///< reason why an encoder or resolver counts as lost
-  OwnFinding own{};                                  ///< error in the answer of a user's controller
-  CoreTrouble core = CoreTrouble::none;              ///< trouble of a core in parallel to the host
+  OwnFinding own{};                                  ///< invalid answer of a user's controller
+  CoreTrouble core = CoreTrouble::none;              ///< failure of a core or chip
 };
 
 /// New configuration of a running chip (control/retune.hpp).
@@ -63,7 +65,7 @@ struct Tuning {
   double setpoint_unit = 1.0;  ///< base of the mode's setpoint
 };
 
-/// Measurements without any error.
+/// The plant's values as measurements without error, in the controller's numbers.
 template <class Scalar, class Real>
 control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instant, const Bases& u) {
   const plant::State<Real>& s = instant.state;
@@ -78,8 +80,8 @@ control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instan
           .hall = instant.pins};
 }
 
-/// True if the firmware's configuration has the arrangement of the Hall probes. Otherwise the board gives it
-/// codes of probes 120 degrees apart.
+/// True if the firmware's configuration contains the arrangement of the Hall probes. Otherwise the board
+/// converts the codes to those of probes 120 degrees apart.
 template <class Firmware>
 bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config) {
   if constexpr (requires { Firmware::reads_arrangement(config); })
@@ -88,7 +90,7 @@ bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config)
     return requires { requires Firmware::decodes_arrangement; };
 }
 
-/// Values at the inputs of converters and shunt, in SI.
+/// Values at the inputs of converters and shunt, in SI units.
 template <class Real>
 Sample sample_of(const SampleInstant<Real>& instant) {
   const plant::State<Real>& s = instant.state;

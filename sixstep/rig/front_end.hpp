@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The analogue front end between circuit and converters (model.md 4): current amplifiers with a bandwidth and
-// a delay, and dividers of bus and terminals with a capacitor. Each is a first-order lag. The lags are
-// integrated exactly over every segment, so that a sample contains the effect of all switching before it. A
-// board without lags costs one branch per segment.
+// a delay, and dividers of bus and terminals with a capacitor. Each amplifier and each divider is a
+// first-order lag. The lags are integrated exactly over every segment, so that a sample contains the effect
+// of all earlier switching. For a board without lags, this file needs one branch per segment.
 #pragma once
 #include <limits>
 
@@ -25,7 +25,7 @@ struct FrontEndSegment {
 
 class FrontEnd {
  public:
-  /// Before the run the front end has settled to these voltages, V, without current.
+  /// The initial state has settled to these voltages, V, without current.
   FrontEnd(const FrontEndConfig& config, double bus_V, const plant::PerLeg<double>& terminal_V)
       : config_(config),
         reading_{.terminal_V = terminal_V,
@@ -58,8 +58,8 @@ class FrontEnd {
       reading_.comparator_bus_V = comparator_bus_.value;
     }
   }
-  /// Integrates the series of the terminals, which are ordered by phases. Call it if voltages or comparators
-  /// lag.
+  /// Integrates the series u of the terminals, in the order of the phases. Call it if the dividers lag or the
+  /// board has comparators.
   template <class Real>
   void follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u);
 
@@ -99,8 +99,8 @@ class FrontEnd {
   FrontEndReading reading_{};
 };
 
-/// With a delay, the converters get the value that the amplifiers had one delay before the sample. If that
-/// instant is a jump, they get the value before the jump.
+/// With a delay, the converters receive the amplifiers' outputs at one delay before the sample. If the
+/// outputs jump at this instant, the converters receive the values before the jump.
 template <class Real>
 void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
   const series::Coefficients<Real> link = dc_link(of);

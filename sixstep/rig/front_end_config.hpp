@@ -7,11 +7,11 @@
 
 namespace sixstep::rig {
 
-/// Reference of the comparators: the mean of all three filtered terminals, as three equal resistors give it,
-/// or half the bus through a low-pass of the same time constant.
+/// Reference of the comparators. virtual_star: mean of the three filtered terminal voltages, as from three
+/// equal resistors. half_bus: half the bus voltage, filtered with the same time constant.
 enum class CrossingReference : std::uint8_t { virtual_star, half_bus };
 
-/// Comparators at the terminals, each with its own low-pass, for a firmware that captures their edges.
+/// Comparators at the terminals, each with a low-pass, for a firmware that captures the comparators' edges.
 struct CrossingComparators {
   double lag_s = 0.0;  ///< time constant of each low-pass; 0: no comparators
   CrossingReference against = CrossingReference::virtual_star;
@@ -23,7 +23,8 @@ struct CrossingComparators {
 /// Time constants of first-order lags, s; 0: no lag.
 struct FrontEndConfig {
   double amplifier_s = 0.0;                ///< lag of each current amplifier, 1/(2 pi bandwidth)
-  std::int64_t amplifier_delay_ticks = 0;  ///< ps; must be shorter than the time between two samples
+  std::int64_t amplifier_delay_ticks = 0;  ///< delay of the amplifiers, ps; must be shorter than the time
+                                           ///< between two samples
   double divider_s = 0.0;  ///< lag of the bus divider, and of terminals that a firmware samples
   plant::PerLeg<double> divider_gain_error{};  ///< relative gain error of each terminal's divider
   CrossingComparators comparators{};
@@ -39,8 +40,8 @@ struct FrontEndReading {
   double dc_link_A = 0.0, bus_V = 0.0;
   plant::PerLeg<double> comparator_V{};  ///< voltages at the comparators, if there are any
   double comparator_bus_V = 0.0;
-  bool currents = false, voltages = false;  ///< true: the lagging values in this struct apply; false: the
-                                            ///< plant's values apply
+  bool currents = false, voltages = false;  ///< true: use the filtered values of this struct; false: use the
+                                            ///< plant's values
 };
 
 }  // namespace sixstep::rig

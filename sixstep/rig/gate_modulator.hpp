@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge of a board whose chip sets the gates itself (chip_drive.hpp). Duty and pair are measured from
-// the gates over the last period, as an instrument would measure them.
+// Modulator of a board whose chip sets the gates directly (chip_drive.hpp). Duty and pair are measured from
+// the gates of the last period, like with an instrument.
 #pragma once
 #include "sixstep/plant/state.hpp"
 #include "sixstep/rig/pulse.hpp"
@@ -40,7 +40,7 @@ class GateModulator {
       gates_.low[k] = (command.bits >> (2 * k + 1) & 1U) != 0;
     }
   }
-  /// Ends the period of the duty's measurement; called at each control sample.
+  /// Ends the period over which the duty is measured. Call it at each control sample.
   void end_period(const sim::Instant& t) {
     note(t);
     const double period = sim::seconds_between(begun_, t);
@@ -53,7 +53,7 @@ class GateModulator {
   sim::Instant next_edge() const { return sim::Instant::never(); }
   bool act(const sim::Instant&) { return false; }
   bool steady() const { return false; }
-  /// Has no effect, because the firmware makes the dead time.
+  /// Has no effect, because the firmware generates the dead time.
   void set_dead_time(double) {}
 
   const plant::Gates& gates() const { return gates_; }

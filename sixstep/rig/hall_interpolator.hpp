@@ -3,10 +3,11 @@
 // (control/sensing/hall_angle.hpp). Optionally the drive measures the edge positions while it turns
 // (hall_calibration.hpp). A drive that commutates at samples uses this angle.
 //
-// The drive uses the hysteresis and the delay of the probes' data sheet. Until the positions are learned, a
-// speed is averaged over SensorsConfig::edges edges (over six edges the position errors cancel), or over one
-// edge if these edges take longer than the window. Afterwards a speed is averaged over
-// SensorsConfig::learned_edges edges.
+// The drive uses hysteresis and delay from the probes' data sheet. The number of edges over which a speed is
+// averaged:
+// - before the positions are learned: SensorsConfig::edges (over six edges the position errors cancel), or
+//   one edge if these edges need longer than the window
+// - afterwards: SensorsConfig::learned_edges
 #pragma once
 #include <cmath>
 
@@ -24,11 +25,11 @@ class HallInterpolator {
  public:
   HallInterpolator(const SensorsConfig& config, const Bases& bases, const PowerUp& power_up);
 
-  /// Takes the decoder's reading in the interrupt of an edge.
+  /// Processes the decoder's reading in the interrupt of an edge.
   void edge(const control::HallReading& reading, std::uint32_t now);
   void measure(control::Measurement<Scalar>& m, std::uint32_t now);
   bool learned() const { return learned_; }
-  /// Angle at the last sample; the middle of the sector if no speed is known.
+  /// Angle at the last sample; the middle of the sector if the speed is unknown.
   control::BinaryAngle electrical_angle() const { return seen_.angle; }
   const control::HallEdges& edges() const { return config_.edges; }
 
@@ -63,8 +64,7 @@ HallInterpolator<Scalar>::HallInterpolator(const SensorsConfig& config, const Ba
   config_.timeout_ticks = static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz);
   config_.delay_ticks = static_cast<std::uint32_t>(std::floor(config.hall_delay_s * config.capture_Hz + 0.5));
   config_.edges.half_hysteresis = control::binary_degrees(config.hall_hysteresis_deg / 2);
-  // The margin is -1 unit of the angle, so that a sector is entered only at its Hall edge or when the
-  // extrapolated angle reaches this edge.
+  // The margin is -1 unit of the angle, so that the extrapolated angle never passes the next Hall edge.
   config_.margin = ~control::BinaryAngle{0};
   calibration_config_.turns = config.calibration_turns;
   per_sector_ = control::Gain<Scalar>(sector_deg / raw_unit<Scalar>());
@@ -89,8 +89,8 @@ void HallInterpolator<Scalar>::edge(const control::HallReading& reading, std::ui
   if (learns_ && !learned_ && reading.moved != 0) learn(reading.moved, now);
 }
 
-/// Learns from an edge. If a series of edges was refused, for example because the rotor accelerated, a new
-/// series starts with this edge.
+/// Uses an edge to learn the positions. If the calibration rejects the series of edges, for example because
+/// the rotor accelerated, a new series starts with this edge.
 template <class Scalar>
 void HallInterpolator<Scalar>::learn(std::int8_t moved, std::uint32_t now) {
   using control::HallCalibration;
@@ -106,8 +106,8 @@ void HallInterpolator<Scalar>::learn(std::int8_t moved, std::uint32_t now) {
   control::hall_calibrate(calibration_config_, calibration_, state_.edge, moved, now);
 }
 
-/// Measures speed, position and sector at a sample. While no speed is known, as at the start, the probes'
-/// code gives the sector.
+/// Measures speed, position and sector at a sample. While the speed is unknown, as at the start, the sector
+/// follows from the probes' code.
 template <class Scalar>
 void HallInterpolator<Scalar>::measure(control::Measurement<Scalar>& m, std::uint32_t now) {
   using T = control::ScalarTraits<Scalar>;

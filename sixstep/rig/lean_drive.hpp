@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmwares that run only the loops of control/drive.hpp, with ideal measurements (LeanDrive) or with the
-// measurements of a board's sensors (SensedDrive).
+// Firmwares that consist only of the loops of control/drive.hpp. LeanDrive has ideal measurements,
+// SensedDrive the measurements of a board's sensors.
 #pragma once
 #include "sixstep/control/retune.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -8,7 +8,7 @@
 
 namespace sixstep::rig {
 
-/// The loops with ideal measurements.
+/// Drive with ideal measurements.
 template <class Scalar>
 class LeanDrive {
  public:
@@ -24,8 +24,8 @@ class LeanDrive {
   const control::BridgeCommand<Scalar>& tick(const SampleInstant<Real>& instant, double setpoint) {
     return step(ideal_measurement<Scalar>(instant, bases_), setpoint);
   }
-  /// Returns a reference to the stored command: a copy would stall until the fields that were just written
-  /// are in memory.
+  /// Returns a reference to the stored command. A copy would stall the processor until the fields that were
+  /// just written are in memory.
   const control::BridgeCommand<Scalar>& step(const control::Measurement<Scalar>& measured, double setpoint) {
     control::step(config_, state_, measured, wanted(setpoint), telemetry_);
     return state_.command;
@@ -49,8 +49,8 @@ class LeanDrive {
   bool reversed() const { return state_.reversed; }
   /// True if a tick needs only the setpoint and no measurement.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// True for an event hysteresis that acts on the setpoint directly and waits for no sample (model.md 4).
-  /// With a slew rate the hysteresis does wait, because the reference changes once per tick.
+  /// True for an event hysteresis whose reference is the setpoint, without waiting for a sample (model.md 4).
+  /// With a slew rate the result is false, because the reference changes once per tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
@@ -58,7 +58,7 @@ class LeanDrive {
            // mutant: !(config_.extras.on && config_.extras.slews_setpoint) => true
            !(config_.extras.on && config_.extras.slews_setpoint);
   }
-  /// True while the duty of a commutation is in the command (control/commutation_step.hpp).
+  /// True while the command contains the duty of a commutation (control/commutation_step.hpp).
   bool holds_commutation() const { return control::detail::holds_current(config_, state_); }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const { return {}; }
@@ -70,7 +70,7 @@ class LeanDrive {
   control::Telemetry<Scalar> telemetry_{};
 };
 
-/// The loops with the measurements of a board's sensors.
+/// Drive with the measurements of a board's sensors.
 template <class Scalar>
 class SensedDrive {
  public:
@@ -125,8 +125,8 @@ class SensedDrive {
   ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
   const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
   const Sensors<Scalar>& sensors() const { return sensors_; }
-  /// True if the board has an encoder, whose timer counts or whose code is latched between samples, or a
-  /// resolver.
+  /// True if the board has an encoder or a resolver. Their values change between samples: a timer counts, or
+  /// a code is latched.
   bool follows_shaft() const { return sensors_.follows_shaft(); }
   template <class Real>
   void follow(const ShaftMotion<Real>& motion) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig of the thesis's experiments: its firmware is only the loops, with ideal measurements.
+// The rig with LeanDrive: only the loops, with ideal measurements.
 #pragma once
 #include "sixstep/rig/lean_drive.hpp"
 #include "sixstep/rig/rig.hpp"

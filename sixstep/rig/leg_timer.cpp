@@ -52,7 +52,7 @@ LegTimer::Switches LegTimer::asked() const {
 void LegTimer::set_dead_time(double ticks) {
   dead_ticks_ = config_.in_counts(ticks);
   if (waits_ || !(dead_ticks_ > 0)) return;
-  waits_ = true;  // from now on changes wait; a switch that was turned off before has no wait
+  waits_ = true;  // from now on changes wait for the dead time; earlier changes do not
   for (unsigned k = 0; k < 3; ++k) legs_[k] = LegChannel(side_of(told_, k));
 }
 
@@ -82,7 +82,7 @@ void LegTimer::update(const Instant& t, int late) {
   next_edge_ = first_edge();
 }
 
-/// Writes the mask of legs that wait, and the earliest end of a wait.
+/// Updates the mask of the waiting legs, and the earliest end of a wait.
 void LegTimer::look_at_legs() {
   static constexpr Instant never = Instant::never();
   const Instant* end = &never;
@@ -96,8 +96,8 @@ void LegTimer::look_at_legs() {
   wait_end_ = *end;
 }
 
-/// Earliest edge of pulses and waits. Returns a reference: a copy of a value just written would stall until
-/// both its halves are in memory.
+/// Earliest edge of pulses and waits. Returns a reference, because a copy of a value that was just written
+/// would stall the processor until both halves are in memory.
 const Instant& LegTimer::first_edge() const {
   const Instant* first = &wait_end_;
   for (unsigned left = chopping_; left != 0; left &= left - 1) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PWM timer of the board. Three compare units make pulses, and each of three legs follows one of the
-// pulses with its own dead time (model.md 11). A leg has one switch on during the pulse, and the other, or
-// none, in the rest of the period. six_step_modulator.hpp sets all three legs from a pair and one duty,
+// The PWM timer of the board. Three compare units generate pulses. Each of three legs follows one of the
+// pulses, with dead time (model.md 11). In the pulse one switch of the leg is on; in the rest of the period
+// the opposite switch, or no switch. six_step_modulator.hpp sets all three legs from a pair and one duty,
 // three_leg_modulator.hpp from three commands.
 #pragma once
 #include <array>
@@ -18,18 +18,18 @@ class LegTimer {
   explicit LegTimer(const ModulatorConfig& config)
       : config_(config), dead_ticks_(config.in_counts(config.dead_ticks)), waits_(dead_ticks_ > 0) {}
 
-  /// Turns the timer on. The legs' previous states are unknown: any switch that turns on waits for a dead
-  /// time. No pulse is on.
+  /// Turns the timer on. Each switch that turns on waits for a dead time, because the legs' previous states
+  /// are unknown. No pulse is on.
   void wake(const sim::Instant& t);
-  /// Begins a PWM period and cancels the remaining edges of the period before.
+  /// Begins a PWM period and cancels the remaining edges of the previous period.
   void start_period(const sim::Instant& t);
   void start_pulse(unsigned pulse, const sim::Instant& t, double duty);
-  /// Turns a pulse on or off outside its period's edges, as a comparator does.
+  /// Turns a pulse on or off independently of the period's edges, as a comparator does.
   void switch_pulse(unsigned pulse, bool on);
   /// Sets a pulse's initial state, which is not counted as a turn-on.
   void preset_pulse(unsigned pulse, bool on) { pulses_[pulse].on = on; }
 
-  /// Sets the dead time, ps, of changes from now on. A wait that has begun keeps its end.
+  /// Sets the dead time, ps, for later changes. The end of a wait that has begun does not change.
   void set_dead_time(double ticks);
 
   /// Turns all legs off; the pulses continue.
@@ -43,7 +43,7 @@ class LegTimer {
   /// Moves a leg's state, including its wait, to another leg (model.md 3).
   void hand_over(unsigned from, unsigned to);
   /// Sets the legs' commands from pulses and connections. If leg `late` would turn a switch on at this
-  /// instant, that switch waits too.
+  /// instant, this switch also waits for the dead time.
   static constexpr int none_late = -1;
   void update(const sim::Instant& t, int late = none_late);
 
@@ -53,9 +53,9 @@ class LegTimer {
 
   const plant::Gates& gates() const { return gates_; }
   bool pulse_on(unsigned pulse) const { return pulses_[pulse].on; }
-  /// True if no edge comes before the next command.
+  /// True if no edge occurs before the next command.
   bool steady() const { return next_edge_ == sim::Instant::never(); }
-  /// Turn-ons of the first pulse. They give the PWM frequency, even if legs follow the other pulses.
+  /// Turn-ons of the first pulse. They determine the PWM frequency, even if legs follow the other pulses.
   std::int64_t turn_ons() const { return turn_ons_; }
   /// Turn-ons before t, without the turn-ons of a period that begins at t.
   std::int64_t turn_ons_before(const sim::Instant& t) const {
@@ -77,7 +77,7 @@ class LegTimer {
   static LegSide side_of(Switches switches, unsigned leg) {
     return switches >> leg & 1 ? LegSide::high : switches >> leg & 0b1000 ? LegSide::low : LegSide::none;
   }
-  /// Switches that a pulse turns on, of all legs that follow it: in the pulse, and in the rest of the period.
+  /// Switches, of all legs that follow a pulse, that are on in the pulse and in the rest of the period.
   struct Output {
     Switches in_pulse = 0, in_rest = 0;
   };
@@ -88,13 +88,13 @@ class LegTimer {
 
   ModulatorConfig config_;
   double dead_ticks_ = 0.0;  ///< rounded to counts of the timer
-  bool waits_ = false;       ///< there is or was a dead time; if not, the legs' waits are not checked
+  bool waits_ = false;       ///< true: the dead time is or was above 0; false: the legs' waits need no check
   std::array<Pulse, 3> pulses_{};
   std::array<LegChannel, 3> legs_{};
   std::array<Output, 3> outputs_{};                 ///< switches of each pulse
   Switches told_{};                                 ///< last commands to the legs
   std::uint8_t waiting_ = 0;                        ///< mask of the legs that wait
-  unsigned chopping_ = 0;                           ///< mask of the pulses with an edge still to come
+  unsigned chopping_ = 0;                           ///< mask of the pulses with a pending edge
   sim::Instant wait_end_ = sim::Instant::never();   ///< earliest end of a leg's wait
   sim::Instant next_edge_ = sim::Instant::never();  ///< next edge of pulses and legs
   plant::Gates gates_{};                            ///< gates that result from the legs' commands and waits

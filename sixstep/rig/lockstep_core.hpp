@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core in parallel to the board's own drive: each call of an entry also goes to the core. The plant does
-// not advance until the core has answered, and the core's answer must equal the host's bit by bit. The
-// transport of calls and answers is outside the library (faces/loop/).
+// A core that executes the same drive as the board, in parallel. Each call of the drive is also sent to the
+// core. The plant waits for the core's answer, which must equal the host's answer bit by bit. faces/loop/
+// transports calls and answers.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace sixstep::rig {
 
-/// Trouble with a core or chip.
+/// Failure of a core or chip.
 enum class CoreTrouble : std::uint8_t {
   none,
   silent,   ///< the core did not answer in time
   gone,     ///< the core's program ended
   differs,  ///< the core's answer differs from the host's answer
-  stalled   ///< a chip with its own clock no longer samples
+  stalled   ///< a chip no longer samples
 };
 
 /// Transport of calls to a core and of its answers; `ask` is null if there is no core.
@@ -35,7 +35,7 @@ class LockstepCore {
   explicit LockstepCore(const CorePort& port) : port_(port) {}
 
   bool there() const { return static_cast<bool>(port_); }
-  /// Returns the host's command if the core agrees. If the core is in trouble, now or before, returns a
+  /// Returns the host's command if the core's answer is equal. After any failure of the core, returns a
   /// command with a fault, which turns the bridge off.
   template <class Call, class Command>
   Command held(const Call& call, const Command& host, const sim::Instant& at) {
@@ -44,7 +44,7 @@ class LockstepCore {
     off.fault = true;
     return off;
   }
-  /// True if there is no trouble so far and the core's answer equals `wanted`.
+  /// True if the core has had no failure and its answer equals `wanted`.
   template <class Call, class Answer>
   bool agrees(const Call& call, const Answer& wanted, const sim::Instant& at) {
     if (trouble_ != CoreTrouble::none) return false;

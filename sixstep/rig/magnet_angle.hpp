@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// True direction of the magnet from phase a's axis: theta_d = theta_e - 150 electrical degrees
+// True direction of the magnet relative to phase a's axis: theta_d = theta_e - 150 electrical degrees
 // (control/frames.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"
@@ -12,7 +12,7 @@ namespace sixstep::rig {
 
 inline constexpr double magnet_behind_rad = 5 * base::pi / 6;
 
-/// Direction of the magnet, electrical rad, in a range of one turn.
+/// Direction of the magnet, electrical rad, within one turn.
 template <class Real>
 double magnet_rad(const plant::State<Real>& s) {
   return plant::sector_in_turn(s.sector) * base::sector_rad + static_cast<double>(s.x) - magnet_behind_rad;

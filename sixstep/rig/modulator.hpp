@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a controller's answer to the board's command and selects the modulator of that command: a driven
-// pair with one duty, or three legs. The three-leg modulator shares only the timer with six-step. A firmware
-// that sets the gates itself uses neither modulator nor timer.
+// Converts a controller's command to the board's command, and selects the modulator for the command's type: a
+// driven pair with one duty, or three legs. The two modulators have only the timer in common. A firmware that
+// sets the gates directly uses GateModulator.
 #pragma once
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/gate_modulator.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the answer of a user's controller to a command for the timer, or finds the reason why the timer
-// cannot execute it.
+// Converts the answer of a user's controller to a command for the timer, or determines why the timer cannot
+// execute the answer.
 #pragma once
 #include <cstdint>
 
@@ -13,19 +13,19 @@ namespace sixstep::rig {
 /// Reason why an answer was not executed.
 enum class OwnWrong : std::uint8_t {
   none,
-  gave_up,  ///< the controller itself reports a fault
+  gave_up,  ///< the controller reports a fault
   duty,     ///< a duty outside 0 to 1, or an overlap outside -1 to 1
   leg,      ///< an invalid leg, or source and sink are the same leg
   choice,   ///< an invalid chopping, switch or state
 };
 
-/// The first invalid field of an answer, and the call that returned that answer.
+/// The first invalid field of an answer, and the call that returned the answer.
 struct OwnFinding {
   OwnWrong what = OwnWrong::none;
   const char* field = "";  ///< name of the field, such as "duty" or "leg[1].state"
   double value = 0.0;
   std::int64_t steps = 0;       ///< calls of step() so far
-  bool in_hall = false;         ///< answered by hall(), not by step()
+  bool in_hall = false;         ///< true: hall() returned the answer; false: step() returned it
   const char* controller = "";  ///< file of the controller; valid as long as the firmware exists
 };
 
@@ -77,7 +77,7 @@ constexpr OwnFinding wrong_in(const sixstep_answer& a) {
   return {};
 }
 
-/// Command for the timer from an answer that wrong_in() has found valid.
+/// Command for the timer. `a` must be valid according to wrong_in().
 template <class Command>
 constexpr Command command_of(const sixstep_answer& a) {
   if constexpr (requires(Command command) { command.pair; }) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware that runs a user's controller (control/own/own_controller.h); compare firmware.hpp:
+// Firmware that executes a user's controller (control/own/own_controller.h). The table's columns are as in
+// firmware.hpp:
 //
 //              input of a tick                         a Hall edge          a fault         reports
 //   OwnDrive   ideal values, or those of [sensors],    captured, its hall   ends the run    lost sensor, invalid
 //              and the magnet's direction                                                   answer
 //
-// Its answer is a pair or three legs, according to its Command. An answer that the timer cannot execute ends
-// the run, and the diagnosis has the reason.
+// Its command is a pair or three legs, according to the template argument. An answer that the timer cannot
+// execute ends the run, and diagnosis() returns the reason.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@
 namespace sixstep::rig {
 
 /// A user's controller and the bytes that its `design` function wrote. `is` is null if the scenario has no
-/// controller of the user.
+/// user's controller.
 struct OwnConfig {
   const sixstep_controller* is = nullptr;
   std::vector<std::uint64_t> config;
@@ -94,7 +95,7 @@ class OwnDrive {
   void retune(const Tuning<Config>& tuning) { config_ = tuning.config; }
 
   control::Mode mode() const { return config_.mode; }
-  /// True if the pair in the last answer drives a negative torque.
+  /// True if the pair in the last answer produces negative torque.
   bool reversed() const { return reversed_; }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
@@ -115,15 +116,15 @@ class OwnDrive {
   }
 
  private:
-  /// This is a separate function because GCC 12 stops with an internal error where a member is assigned
-  /// Command{}.
+  /// This is a separate function, because GCC 12 stops with an internal error if Command{} is assigned to a
+  /// member.
   static Command given_up() {
     Command command{};
     command.fault = true;
     return command;
   }
-  /// Direction of the magnet: decoded from a sensor's angle; with Hall codes only, the middle of the sector;
-  /// without sensors the true direction.
+  /// Direction of the magnet. With an angle sensor: the decoded angle. With Hall codes only: the middle of
+  /// the sector. Without sensors: the true direction.
   template <class Real>
   control::Direction<double> magnet_direction(const plant::State<Real>& s, std::uint8_t hall) {
     if (sensors_.tells_angle())

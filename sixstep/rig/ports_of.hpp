@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to parts of a chip that only some firmwares have. The functions return null for a firmware without
-// the part.
+// this part.
 #pragma once
 #include <type_traits>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Hall probes between rotor and wires (model.md 10): they give the present code of the lines. On the
-// general kernel they can have mounting errors, 60 degrees spacing, delays and glitches. On the lean kernel
-// they follow the rotor's sectors exactly, at no cost.
+// The Hall probes (model.md 10): they convert the rotor's angle to the code of the Hall lines. With the
+// general kernel they can have mounting errors, a spacing of 60 degrees, delays and glitches. With the lean
+// kernel the code follows the rotor's sectors exactly, without computing time.
 #pragma once
 #include <array>
 #include <optional>
@@ -39,8 +39,8 @@ class SectorProbes {
 template <class Real>
 class MountedProbes {
  public:
-  /// The probes count as mounted() if their placement or delay makes their edges differ from the sectors'
-  /// edges.
+  /// Makes probes that are mounted() if, because of placement or delay, their edges differ from the edges of
+  /// the sectors.
   MountedProbes(const ProbeGiven& given, const plant::State<Real>& at)
       : delay_ticks_(given.delay_ticks), spaced_60_(given.spaced_60) {
     if (given.placement.as_sectors() && given.delay_ticks == 0) return;
@@ -56,14 +56,14 @@ class MountedProbes {
     const std::uint8_t code = spaced_60_ ? plant::hall_code_60(shown) : plant::hall_code(shown);
     return code ^ glitch_;
   }
-  /// Sector according to the probes for the rotor's sector `own`, both counted over all turns.
+  /// Sector that the probes show while the rotor is in sector `own`, both counted over all turns.
   std::int64_t sector(std::int64_t own) const { return mounted() ? shown_ : own; }
 
   template <class Visit>
   void guards(const plant::Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     if (mounted()) probes_->guards(y, sector, visit);
   }
-  /// Call it when the rotor passed an edge; the line changes now, or after the delay.
+  /// Call it when the rotor has passed an edge of the probes. The line changes now, or after the delay.
   void pass(plant::ProbeEdge which, const sim::Instant& now) {
     probes_->pass(which);
     if (delay_ticks_ == 0 || count_ == late_.size()) {
@@ -74,7 +74,7 @@ class MountedProbes {
   }
   /// Instant at which the next delayed edge changes the lines.
   sim::Instant next() const { return count_ == 0 ? sim::Instant::never() : late_[first_].at; }
-  /// Changes the lines by the edge that is due; false if none is due.
+  /// Changes the lines if a delayed edge is due; returns false if no edge is due.
   bool show(const sim::Instant& now) {
     if (count_ == 0 || now < late_[first_].at) return false;
     shown_ = late_[first_].sector;
@@ -82,7 +82,7 @@ class MountedProbes {
     --count_;
     return true;
   }
-  /// Inverts the lines in `lines`, a mask of a code's bits: a glitch begins or ends.
+  /// Begins or ends a glitch: inverts the lines in `lines`, a mask of a code's bits.
   void glitch(std::uint8_t lines) { glitch_ ^= lines; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware that runs control/protected_drive.hpp, with registers as on the chip.
+// Firmware that executes control/protected_drive.hpp, with registers as on the chip.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -8,8 +8,8 @@
 
 namespace sixstep::rig {
 
-/// The program in the chip's flash: registers are its input, a command its output. The scenario's timeline
-/// sets the request to run as a level.
+/// The program of a product. Its input are registers, its output is a command. The scenario's timeline sets
+/// the request to run.
 template <class Scalar>
 class ProductDrive {
  public:
@@ -17,9 +17,10 @@ class ProductDrive {
   using Command = control::BridgeCommand<Scalar>;
   using Config = control::ProtectedConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
-  static constexpr bool decodes_arrangement = true;  ///< its configuration has the arrangement of its probes
+  static constexpr bool decodes_arrangement = true;  ///< the configuration contains the arrangement of the
+                                                     ///< probes
 
-  /// The rotor's angle is known at power-up: the position counts from that angle.
+  /// The counted position starts at the rotor's sector at power-up.
   ProductDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
       : config_(config), registers_(board.sensors), bases_(board.bases), core_(board.core) {
     state_.position.sectors = static_cast<std::int32_t>(power_up.sector);
@@ -37,7 +38,7 @@ class ProductDrive {
     return held(ProductCall<Scalar>{.entry = CoreEntry::hall, .now = now, .hall_pins = pins}, answer, at);
   }
   void request_run(bool run) { request_.run = run; }
-  /// Requests that a fault be cleared. Only the next tick reads the request, because clearing needs a rising
+  /// Requests to clear a fault. The request is reset after the next tick, because clearing needs a rising
   /// edge.
   void request_clear() { request_.clear = true; }
   void retune(const Tuning<Config>& tuning) {
@@ -53,7 +54,7 @@ class ProductDrive {
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_.drive; }
   control::Activity activity() const { return telemetry_.activity; }
   const Diagnosis& diagnosis() const { return diagnosis_; }
-  /// True if the core is lost. This ends the run, because no controller remains that could continue.
+  /// True if the core has failed. This ends the run, because no controller can continue.
   bool core_lost() const { return diagnosis_.core != CoreTrouble::none; }
   Registers& registers() { return registers_; }
 
@@ -92,7 +93,7 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const SampleInstant<Re
   request_.clear = false;
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
     diagnosis_ = {.faults = telemetry_.first_fault, .at = instant.at};
-  // The faulty line may be found later than the fault: by the first invalid code while the rotor coasts.
+  // The faulty line may be identified later than the fault, by the first invalid code while the rotor coasts.
   if ((diagnosis_.faults & control::fault_hall) != 0) diagnosis_.hall_line = telemetry_.hall_line;
   return answer;
 }

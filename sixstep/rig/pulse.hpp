@@ -29,14 +29,15 @@ struct Pulse {
   sim::Instant on_edge = sim::Instant::never(), off_edge = sim::Instant::never();
 
   const sim::Instant& next() const { return on_edge < off_edge ? on_edge : off_edge; }
-  // The two members are set one by one: a copy of the first would stall until both its halves are in memory.
+  // The two members are set separately. A copy of the first would stall the processor until both halves are
+  // in memory.
   void cancel() {
     on_edge = sim::Instant::never();
     off_edge = sim::Instant::never();
   }
-  /// Sets the edges of a period that begins at t; returns true if the pulse is on at t. A duty of 1 has no
-  /// gap, a duty of 0 no pulse. A pulse that is too short for the gate drivers is left out, and a gap that is
-  /// too short is closed.
+  /// Sets the edges of a period that begins at t; returns true if the pulse is on at t. With a duty of 1
+  /// there is no gap, with a duty of 0 no pulse. A pulse that is too short for the gate drivers is omitted,
+  /// and a gap that is too short is closed.
   bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {
     const auto period = static_cast<double>(c.period_ticks);
     const double on_time = duty * period;

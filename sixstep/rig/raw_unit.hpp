@@ -4,8 +4,8 @@
 
 namespace sixstep::rig {
 
-/// Unit of a gain whose output is in raw units (adc.hpp, hall_speed.hpp): the last bit of a fixed-point
-/// format, or 1 in floating point.
+/// Value of a raw unit, in which some gains have their output (adc.hpp, hall_speed.hpp): the last bit of a
+/// fixed-point format, or 1 in floating point.
 template <class Scalar>
 double raw_unit() {
   if constexpr (std::is_arithmetic_v<Scalar>)

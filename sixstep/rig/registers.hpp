@@ -13,34 +13,36 @@ enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
 /// Source of speed and position between Hall edges.
 enum class HallAngleFrom : std::uint8_t {
   sectors,        ///< sectors of 60 degrees, counted one by one
-  angle,          ///< an angle extrapolated from edge to edge
-  learned_edges,  ///< as `angle`, with edge positions that the drive learns while it turns
+  angle,          ///< an angle that is extrapolated from edge to edge
+  learned_edges,  ///< like `angle`, with edge positions that the drive learns while the motor turns
 };
 
 struct SensorsConfig {
   AdcPath current{};  ///< converter of each phase, or of the shunt
   AdcPath bus{};
-  double least_duty = 1.0;  ///< DC link: a sample is valid only above this duty (one_shunt.hpp)
+  double least_duty = 1.0;  ///< for the shunt in the DC link: a sample is valid only above this duty
+                            ///< (one_shunt.hpp)
   double fade = 1.0;        ///< factor per period on the estimate of an unmeasured current, exp(-R T_s/L)
   double capture_Hz = 1e6;  ///< clock of the timer that captures the edges
   double timeout_s = 0.05;  ///< s; the rotor counts as at rest after this time without an edge
   std::uint64_t seed = 0;   ///< seed of the noise
   CurrentMeasurement currents = CurrentMeasurement::ideal;
-  bool calibrated = true;  ///< the offsets were measured, with noise, before the run
+  bool calibrated = true;  ///< true: the offsets are measured, with noise, before the run
   bool measures_bus = false;
-  bool rotor_from_hall = false;  ///< speed and position from captured edges
-  bool decodes_hall = false;     ///< the lines are decoded, to find a broken line
+  bool rotor_from_hall = false;  ///< true: speed and position are computed from captured edges
+  bool decodes_hall = false;     ///< true: the lines are decoded, to find a broken line
   std::uint8_t commutation_samples = 0;
-  std::uint8_t edges = 6;  ///< edges over which a speed is averaged
+  std::uint8_t edges = 6;  ///< number of edges over which a speed is averaged
   HallAngleFrom hall_angle = HallAngleFrom::sectors;
-  bool commutates_by_angle = false;     ///< commutates at a sample, by the measured angle
-  std::uint8_t learned_edges = 1;       ///< edges over which a speed is averaged after the edge positions are
+  bool commutates_by_angle = false;  ///< true: the drive commutates at a sample, by the measured angle
+  std::uint8_t learned_edges = 1;  ///< number of edges over which a speed is averaged after the positions are
+                                   ///< learned
+  std::uint16_t calibration_turns = 8;  ///< number of electrical turns in which the edge positions are
                                         ///< learned
-  std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
   double hall_delay_s = 0.0;            ///< delay of the edges according to the data sheet
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;      ///< s; if `edges` edges take longer, a speed is measured over one edge; 0:
-                              ///< always over `edges` edges
+  double window_s = 0.0;      ///< s; if the time of `edges` edges is longer, a speed is measured over one
+                              ///< edge; 0: always over `edges` edges
   ShaftSensorConfig shaft{};  ///< an encoder or a resolver instead of the Hall probes
   double period_s = 0.0;      ///< period of the control ticks
 

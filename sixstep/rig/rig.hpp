@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board around the plant: it samples, runs the controller, modulates, and executes the scenario's
-// timeline. It is the System of sim::run. act() determines the order of actions at one instant (model.md 4b).
-// The chip's firmware is a template parameter (firmware.hpp).
+// The virtual board around the plant. It samples, executes the firmware, modulates, and executes the
+// scenario's timeline. Rig is the System of sim::run. act() determines the order of actions at one instant
+// (model.md 4b). The firmware is a template parameter (firmware.hpp).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -33,8 +33,8 @@ class Rig {
   using Wires = typename WiringFor<Plant>::type;
   using Probes = typename ProbesFor<Plant>::type;
 
-  /// `tunings`: configurations of the timeline's retune actions. `wires`: connection of motor and board at
-  /// the start. `probes`: mounting of the Hall probes. A copy of a rig is a snapshot of it.
+  /// `tunings`: configurations of the timeline's retune actions. `wires`: initial connection of motor and
+  /// board. `probes`: mounting of the Hall probes. A copy of a rig is a snapshot.
   Rig(const Plant& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
       Tunings tunings = {}, const Wires& wires = {}, const ProbeGiven& probes = {})
       : plant_(plant),
@@ -86,17 +86,18 @@ class Rig {
   }
   void apply(int id);
 
-  /// Replaces the part of the timeline that lies in the future. The new timeline must begin with all actions
-  /// done so far. `first`, the configuration in effect, may differ only in values that have had no effect
-  /// yet.
+  /// Replaces the future part of the timeline. The new timeline must begin with all actions that were
+  /// executed so far. `first` is the initial configuration. It may differ from the previous initial
+  /// configuration only in values without an effect so far.
   void replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings);
 
   const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }
-  /// Motion of the sensor's shaft over the present segment, up to its fraction s, which is the instant `to`.
+  /// Motion of the sensor's shaft in the present segment, up to the fraction s of the segment, which is the
+  /// instant `to`.
   ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
-  /// Requires a firmware that has converters.
+  /// Requires a firmware with converters.
   const auto& front_end() const { return front_end_; }
   /// Requires a firmware that captures the edges of comparators at the terminals.
   const auto& crossings() const { return crossings_; }
@@ -114,13 +115,12 @@ class Rig {
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
-  /// H1 H2 H3 at the board's pins as bits 2, 1, 0: the lines of the probes wired to them, except for stuck
-  /// lines.
+  /// Levels H1 H2 H3 at the board's pins as bits 2, 1, 0, with wiring and stuck lines.
   std::uint8_t pins() const {
     return static_cast<std::uint8_t>((wires_.at_pins(probes_.code(plant_.sector())) & ~stuck_low_) |
                                      stuck_high_);
   }
-  /// True if a clock is due now that can change the Hall pins: a delayed edge, or an action of the timeline.
+  /// True if a delayed Hall edge or an action of the timeline is due now. Both can change the Hall pins.
   bool pins_due() const {
     if constexpr (can_be_askew)
       if (!(now_ < probes_.next())) return true;
@@ -129,15 +129,14 @@ class Rig {
   const Wires& wires() const { return wires_; }
   /// Gates ordered by the board's legs: each leg has the gates of the phase that is connected to it.
   decltype(auto) leg_gates() const { return wires_.at_legs(plant_.gates()); }
-  /// Rotor's sector that the code at the board's pins gives; the true sector if the code is invalid.
+  /// Rotor's sector according to the code at the board's pins; the true sector if the code is invalid.
   int board_sector() const {
     if constexpr (std::is_same_v<Wires, StraightWiring>) return plant_.sector();
     const std::uint8_t seen = control::sector_of_hall(
         control::as_120_degrees(board_.hall_arrangement, wires_.at_pins(probes_.code(plant_.sector()))));
     return seen == control::no_sector ? plant_.sector() : seen;
   }
-  /// Sector according to the motor's probes, regardless of their wires. The motor current is defined by this
-  /// sector.
+  /// Sector that the motor's probes show, independent of the wiring. This sector defines the motor current.
   int probe_sector() const {
     if constexpr (can_be_askew) return static_cast<int>((probes_.sector(plant_.state().sector) % 6 + 6) % 6);
     return plant_.sector();
@@ -145,16 +144,16 @@ class Rig {
   std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
-  /// Instant of the chip's next tick; never(), if the drive is in open loop and the bridge steady.
+  /// Instant of the firmware's next tick; never() if the drive is in open loop and the bridge is steady.
   const sim::Instant& next_tick() const { return next_tick_; }
 
  private:
-  /// Six-step only: a command has a sign, its pair changes at Hall edges, and comparators may switch it.
+  /// True for six-step. Only then a command has a sign, the pair changes at Hall edges, and comparators may
+  /// switch legs.
   static constexpr bool six_step = std::is_same_v<Modulator, SixStepModulator>;
   using BoardAnswer = typename Modulator::Command;
   static constexpr bool can_be_askew = requires(Probes probes) { probes.next(); };
-  /// True for a chip with its own clock, which stops where the plant must advance to its time
-  /// (chip_drive.hpp).
+  /// True for an emulated chip. At its stops the plant must advance to the time of the chip (chip_drive.hpp).
   static constexpr bool keeps_time = requires(const Firmware& firmware) { firmware.next_stop(); };
   static constexpr bool has_front_end = requires(Firmware firmware) { firmware.registers(); };
   static constexpr bool looks_at_terminals = six_step && requires(Firmware firmware) {
@@ -172,10 +171,10 @@ class Rig {
     return looks_at_terminals;
   }
   static constexpr int probe_ahead = plant::guard::first_free + 2, probe_behind = probe_ahead + 1,
-                       crossing = probe_behind + 1;  // + leg
+                       crossing = probe_behind + 1;  // the leg's number is added
 
-  /// Pins as the chip reads them: for a drive that does not know the arrangement, codes of probes 120 degrees
-  /// apart.
+  /// Converts the pins to the code that the firmware reads. For a firmware without the arrangement of the
+  /// probes, this is the code of probes 120 degrees apart.
   std::uint8_t read_by_chip(std::uint8_t pins, [[maybe_unused]] bool knows_arrangement) const {
     if constexpr (can_be_askew) {
       pins = code_at(board_.believed_lines, pins);
@@ -195,7 +194,7 @@ class Rig {
   std::int64_t sensor_pole_pairs() const {
     return board_.sensors.shaft.linear ? 1 : static_cast<std::int64_t>(plant_.constants().pole_pairs);
   }
-  /// Angle of the shaft on which the sensor sits, at the start.
+  /// Initial angle of the shaft on which the sensor is mounted.
   plant::ShaftAngle<double> shaft_angle() const {
     if constexpr (has_load_side)
       if (board_.sensors.shaft.on_load)
@@ -206,7 +205,7 @@ class Rig {
     return {plant_.state().sector, static_cast<double>(plant_.state().x), sensor_pole_pairs()};
   }
   bool listens() const;
-  /// Not inlined, because few boards have a part that follows the plant between two samples.
+  /// Not inlined, because few boards have a sensor that follows the plant between two samples.
   [[gnu::noinline]] void show_segment(Real s, const sim::Instant& to);
   void show_terminals();
   void show_signals(Real s, const sim::Instant& to);
@@ -236,7 +235,7 @@ class Rig {
     if constexpr (six_step) return watching() && compare();
     return false;
   }
-  /// Not inlined, so that the run loop around act() keeps its values in registers.
+  /// Not inlined, so that the compiler keeps the values of the run loop around act() in registers.
   [[gnu::noinline]] bool act_on_due();
   bool compare();
   bool do_timeline();
@@ -245,7 +244,7 @@ class Rig {
   bool do_tick();
   bool do_half_tick();
   bool do_chip();
-  /// Time in which no Hall edge is expected, s, from now on.
+  /// Time from now, s, in which no Hall edge is expected.
   double quiet_s() const;
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void rewire(const Action& action);
@@ -255,7 +254,7 @@ class Rig {
   void control_step(bool starts_period);
   void follow_waveform();
   void skip_idle_ticks();
-  /// Takes a thermal step if one ends; called at control ticks.
+  /// Updates the temperatures at the end of a thermal step. Call it at control ticks.
   void warm_up() {
     if constexpr (requires { plant_.take_thermal_step(); })
       if (plant_.warms()) plant_.take_thermal_step();
@@ -275,7 +274,7 @@ class Rig {
   void commutate();
   template <class Answer>
   void move_pair(const Answer& answer);
-  /// True for a firmware that requests an interrupt of its timer between two ticks.
+  /// True for a firmware that requests a timer interrupt between two ticks.
   static constexpr bool has_commutation_clock = six_step && requires(const Firmware& f) {
     f.next_commutation();
   };
@@ -286,7 +285,8 @@ class Rig {
   void let_go();
   void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
 
-  // Small members last: the plant begins on a cache line, and padding might cost a whole line.
+  // Small members are last. The plant is aligned to a cache line, and padding before it might need a whole
+  // line.
   Plant plant_;
   Timeline timeline_;
   Tunings tunings_;
@@ -296,26 +296,29 @@ class Rig {
   [[no_unique_address]] Probes probes_;
 
   sim::Instant now_{}, next_tick_{};
-  sim::Instant due_{};  ///< the earliest of all clocks
+  sim::Instant due_{};  ///< instant of the earliest pending action
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
   std::size_t waveform_ = 0;  ///< if moving_: index of the action whose waveform the setpoint follows
-  BoardAnswer pending_ = Modulator::before_first();  ///< takes effect in the next period
-  BoardAnswer loaded_{};                             ///< the timer's next command, of a board that samples in
-                                                     ///< the middle of a period
+  BoardAnswer pending_ = Modulator::before_first();  ///< command that takes effect in the next period, if
+                                                     ///< `delayed`
+  BoardAnswer loaded_{};                             ///< command in the timer's buffer, on a board that
+                                                     ///< samples in the middle of a period
   std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
   [[no_unique_address]] std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> front_end_;
   [[no_unique_address]] std::conditional_t<has_crossings, Crossings, NoCrossings> crossings_;
-  bool listens_ = false;  ///< a port or the front end follows the plant between two samples
-  bool moved_ = true;     ///< a located event changed the circuit
+  bool listens_ = false;  ///< true: a shaft sensor or the front end follows the plant between two samples
+  bool moved_ = true;     ///< true: a located event has changed the circuit
   bool moving_ = false;
   bool pending_reversed_ = false,
-       reversed_ = false;                        ///< sign of the waiting command, and of the one in effect
-  bool loaded_reversed_ = false, half_ = false;  ///< half_: the next sample is in the middle of a period
+       reversed_ = false;                        ///< signs of pending_ and of the command in effect; true:
+                                                 ///< negative
+  bool loaded_reversed_ = false, half_ = false;  ///< half_: true if the next sample is in the middle of a
+                                                 ///< period
   bool ticked_ = false;
   Fault fault_ = Fault::none;
-  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code
+  std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< masks of the stuck Hall lines, as bits of a code
 };
 
 }  // namespace sixstep::rig

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Executes the rig's actions at one instant, in the order of model.md 4b. Part of rig.hpp.
+// Member functions of rig.hpp that execute the actions at one instant, in the order of model.md 4b.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// Executes all actions that are due now by their clocks, until none is due: late Hall edge, scenario step,
-/// control tick, stop of a chip, timed commutation, PWM edge, comparator. The gates are set at the end, so
+/// Executes all actions that are due now, in this order: delayed Hall edge, action of the timeline, control
+/// tick, stop of a chip, timed commutation, PWM edge, comparator. The gates are set after the last action, so
 /// that no leg depends on the order of actions at one instant.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::act() {
@@ -77,8 +77,8 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
     std::swap(command, pending_);
     // mutant: std::swap(reversed, pending_reversed_); => nothing
     std::swap(reversed, pending_reversed_);
-    // The pair also changes in the command that takes effect now, as at a compare match: the next sample must
-    // find the driven pair for which the firmware waits.
+    // As at a compare match, the pair changes in the command that takes effect now too. The next sample must
+    // show the driven pair that the firmware expects.
     if constexpr (has_commutation_clock)
       if (firmware_.moved_on())
         command.pair = firmware_.reversed() == reversed ? answer.pair : control::swapped(answer.pair);

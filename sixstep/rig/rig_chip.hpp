@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a chip with its own clock (chip_drive.hpp) along with the rig. When the plant reaches the chip's stop,
-// the rig applies the chip's actions, and the chip continues. Part of rig.hpp.
+// Member functions of rig.hpp for an emulated chip (chip_drive.hpp). When the plant reaches the chip's stop,
+// the rig applies the chip's actions, and the chip continues.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -34,9 +34,9 @@ bool Rig<Real, Firmware, Plant>::do_chip() {
   return false;
 }
 
-/// Time, s, in which the rotor covers half of the angle to the next edge, at its present speed and twice its
-/// present acceleration. Each step halves the remaining angle, down to the shortest step. A rotor that is so
-/// slow that it may reverse can reach the edge on either side.
+/// Time, s, in which the rotor turns by half of the angle to the next edge, at the present speed and twice
+/// the present acceleration. Successive stops therefore halve the remaining angle, down to the shortest step.
+/// A slow rotor may reverse; then the nearer of the two edges counts.
 template <class Real, class Firmware, class Plant>
 double Rig<Real, Firmware, Plant>::quiet_s() const {
   constexpr double longest_s = 25e-6;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updates sensors between two samples: the ports of the shaft's sensor, the analogue front end, and the
-// terminals that a firmware samples. Part of rig.hpp.
+// Member functions of rig.hpp that update inputs between two samples: ports of the shaft's sensor, analogue
+// front end, and terminals that a firmware samples.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// Front end at the start of a run: the board was supplied before, with the bridge off and without current.
+/// Initial state of the front end: settled, with the bridge off and without current.
 template <class Real, class Firmware, class Plant>
 auto Rig<Real, Firmware, Plant>::front_end_before(const FrontEndConfig& config) const
     -> std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> {
@@ -30,8 +30,8 @@ bool Rig<Real, Firmware, Plant>::listens() const {
   return any;
 }
 
-/// Updates all parts that follow plant and shaft between two samples: ports of the shaft's sensor, amplifiers
-/// and dividers.
+/// Updates the inputs that follow plant and shaft between two samples: ports of the shaft's sensor,
+/// amplifiers and dividers.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_segment(Real s, const sim::Instant& to) {
   if constexpr (requires { firmware_.follows_shaft(); })
@@ -40,8 +40,8 @@ void Rig<Real, Firmware, Plant>::show_segment(Real s, const sim::Instant& to) {
     if (front_end_.follows()) show_signals(s, to);
 }
 
-/// Motion of the shaft on which the sensor is mounted: the motor's shaft, or the load's shaft behind gear and
-/// spring.
+/// Motion of the shaft on which the sensor is mounted: the motor's shaft, or the load's shaft after gear and
+/// elastic shaft.
 template <class Real, class Firmware, class Plant>
 ShaftMotion<Real> Rig<Real, Firmware, Plant>::shaft_motion(Real s, const sim::Instant& to) const {
   ShaftMotion<Real> motion{plant_.expansion(), plant_.state().sector, sensor_pole_pairs(), s, now_, to,
@@ -53,7 +53,7 @@ ShaftMotion<Real> Rig<Real, Firmware, Plant>::shaft_motion(Real s, const sim::In
   return motion;
 }
 
-/// Amplifiers and dividers follow the circuit over the segment.
+/// Advances amplifiers and dividers over the segment.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
   if constexpr (has_front_end) {
@@ -65,7 +65,8 @@ void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
   }
 }
 
-/// Passes the terminal voltages to the firmware: as filtered by the dividers' capacitors, or unfiltered.
+/// Passes the terminal voltages to the firmware: filtered by the dividers' capacitors, or unfiltered if there
+/// are none.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_terminals() {
   if constexpr (looks_at_terminals) {
@@ -96,7 +97,7 @@ void Rig<Real, Firmware, Plant>::crossing_guards(Visit&& visit) const {
                       });
 }
 
-/// A comparator's line changes; the timer captures the edge as it does a Hall edge.
+/// Changes a comparator's line. The timer captures the edge like a Hall edge.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::pass_crossing(int leg) {
   if constexpr (has_crossings) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig's clocks and inputs: the scenario's timeline, skipped ticks, changes of Hall lines, wires and
-// amplifiers, and the sample in the middle of a period. Part of rig.hpp.
+// Member functions of rig.hpp for timeline, skipped ticks, faults of inputs, wiring, and samples in the
+// middle of a period.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -97,8 +97,8 @@ sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
   return sim::Instant::never();
 }
 
-/// In open loop with a steady bridge, ticks have no effect until the next setpoint or retune action. Such
-/// ticks are not simulated.
+/// Skips ticks that have no effect: in open loop with a steady bridge, these are the ticks until the next
+/// setpoint or retune action.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if constexpr (requires { plant_.warms(); })
@@ -110,8 +110,8 @@ void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
-/// Replaces the rest of the timeline. Ticks that were skipped because no further action existed are due again
-/// if the new timeline has an action.
+/// Replaces the future part of the timeline. If the new timeline has a further setpoint or retune action,
+/// ticks that were skipped are due again.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<Config>& first,
                                                 Tunings tunings) {
@@ -138,15 +138,15 @@ void Rig<Real, Firmware, Plant>::follow_waveform() {
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::sector_edge() {
   count(EventKind::sector_edge);
-  if (probes_.mounted()) return;  // mounted probes have their own edges
+  if (probes_.mounted()) return;  // the edges of mounted probes are events of other guards
   const std::uint8_t stuck = stuck_high_ | stuck_low_;
-  // There is no edge on the pins if the line that differs between this sector and the sector before is stuck.
+  // The pins have no edge if the line that differs between the present and the previous sector is stuck.
   const int s = plant_.sector(), behind = (s + (plant_.state().w < Real(0) ? 1 : 5)) % 6;
   if ((wires_.at_pins(probes_.code(s)) ^ wires_.at_pins(probes_.code(behind))) & stuck) return;
   hall_edge();
 }
 
-/// Instant of the next sample: the next tick, or the middle of the period that begins with it.
+/// Instant of the next sample: the next tick, or the middle of the period that begins with the next tick.
 template <class Real, class Firmware, class Plant>
 sim::Instant Rig<Real, Firmware, Plant>::next_sample() const {
   sim::Instant sample = next_tick_;
@@ -173,7 +173,7 @@ void Rig<Real, Firmware, Plant>::pass_probe_edge(plant::ProbeEdge which) {
   }
 }
 
-/// Changes the lines by each Hall edge whose delay is over; several may be due at once.
+/// Changes the lines by the first Hall edge whose delay has ended. Several edges may be due at one instant.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::show_probes() {
   if constexpr (can_be_askew) {
@@ -185,7 +185,7 @@ bool Rig<Real, Firmware, Plant>::show_probes() {
   return false;
 }
 
-/// A glitch begins or ends on a probe's line, regardless of the pin to which the line is wired.
+/// Begins or ends a glitch on a probe's line. `action.value` is the number of the probe, not of the pin.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
   if constexpr (can_be_askew) {
@@ -195,7 +195,7 @@ void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
   }
 }
 
-/// A line breaks or is repaired. If the level at its pin changes, the change is an edge.
+/// Breaks or repairs a line. If the level at its pin changes, the change is a Hall edge.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, bool stuck_low) {
   const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(line));
@@ -207,8 +207,8 @@ void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, boo
   if (pins() != before) hall_edge();
 }
 
-/// Wires are exchanged at once: each phase keeps its current, which now flows through another leg. All lines
-/// that change together are one edge at the pins.
+/// Exchanges wires at one instant. Each phase keeps its current, which then flows through another leg. All
+/// lines that change are one edge at the pins.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
   if constexpr (std::is_same_v<Wires, Wiring>) {
@@ -221,8 +221,8 @@ void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
   }
 }
 
-/// Changes the amplifiers' errors from now on. A firmware with ideal measurements has no amplifiers, and
-/// nothing changes.
+/// Changes the amplifiers' errors from now on. For a firmware with ideal measurements, which has no
+/// amplifiers, the action has no effect.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   Registers* const registers = registers_of(firmware_);
@@ -231,7 +231,7 @@ void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   if (action.kind == ActionKind::current_gain) registers->set_current_gain_error(action.value);
 }
 
-/// Makes a shaft sensor fail, or repairs it. Requires a firmware with a shaft sensor.
+/// Begins or ends a fault of a shaft sensor. Requires a firmware with a shaft sensor.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   ShaftPorts* const ports = shaft_ports_of(firmware_);
@@ -262,7 +262,7 @@ void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   }
 }
 
-/// Tick of a board that samples in the middle of a period. The command waits in the timer's buffer until the
+/// Tick of a board that samples in the middle of a period. The command is in the timer's buffer until the
 /// next period.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_half_tick() {
@@ -294,7 +294,7 @@ sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
   return next;
 }
 
-/// Turns the bridge off at once: no delayed command and no command in the timer's buffer remains.
+/// Turns the bridge off at once. Also disables the delayed command and the command in the timer's buffer.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::let_go() {
   modulator_.turn_off(now_);

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions of the rig that only six-step has: the pair changes at a Hall edge, and comparators switch the
-// pair's legs. Part of rig.hpp.
+// Member functions of rig.hpp for six-step only: the change of the pair at a Hall edge, and comparators that
+// switch the pair's legs.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// The Hall interrupt of six-step: the pair changes in the command in effect and in the command that waits.
+/// The Hall interrupt of six-step. It changes the pair in the command in effect and in the pending commands.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::commutate() {
   move_pair(firmware_.hall_interrupt(chip_pins(), now_));
 }
 
-/// Commutates between two ticks, for a firmware with its own commutation clock; false if no commutation is
-/// due.
+/// Executes the timer interrupt that commutates between two ticks. Returns false if no commutation is due.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_commutation() {
   if constexpr (has_commutation_clock) {
@@ -49,7 +48,8 @@ void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
     modulator_.commutate(now_, control::swapped(answer.pair));
 }
 
-/// Switches pulses whose comparator's current is beyond the comparator's level.
+/// Switches the pulses of comparators whose current is beyond the comparator's level. Returns true if a pulse
+/// was switched.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::compare() {
   const int switched = modulator_.compare(now_, wires_.at_legs(plant_.state().i));
@@ -58,9 +58,9 @@ bool Rig<Real, Firmware, Plant>::compare() {
   return switched > 0;
 }
 
-/// A comparator reached its level. If two legs conduct, both phases carry the same current, and two
-/// comparators reach equal levels at the same instant. The second comparator must then switch too, whatever
-/// the rounding of the current.
+/// Processes the event that a comparator's current has reached its level. If two legs conduct, both phases
+/// have the same current, and two comparators with equal levels switch at the same instant. The second
+/// comparator must then switch too, independent of rounding errors of the current.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::trip(int which) {
   const ArmedComparator other = modulator_.comparator(1 - which);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes an encoder or a resolver with the controller's own blocks (control/sensing/): speed, position, and
+// Decodes an encoder or a resolver with the blocks of control/sensing/. The results are speed, position, and
 // the Hall code of the measured sector. A sensor on the motor's shaft determines the commutation. With a
-// sensor on the load's side the Hall probes commutate; speed and position are multiplied by the gear ratio,
-// and are then speed and position of the motor's shaft.
+// sensor on the load's side, the Hall probes determine the commutation. Speed and position of the load are
+// then multiplied by the gear ratio, which converts them to the motor's shaft.
 //
-// If `watched`, the decoder detects two states that an intact sensor cannot show:
+// If `watched` is true, the decoder detects two states that are impossible with an intact sensor:
 // - a resolver's sum of squares is outside its limits,
-// - at an encoder's index the count is wrong by more than a sector, so that the wrong pair was driven.
+// - at an encoder's index the count has an error of more than a sector, so that the wrong pair was driven.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -26,9 +26,10 @@ class RotorDecoder {
  public:
   RotorDecoder(const SensorsConfig& config, const Bases& bases, const plant::ShaftAngle<double>& at);
 
-  /// Replaces the values that the sensor measures. `now` is the count of the timer that captures edges.
+  /// Replaces the values in `m` that the sensor measures. `now` is the count of the timer that captures
+  /// edges.
   void sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports, std::uint32_t now);
-  /// Finding of the last samples about faults of the sensor itself.
+  /// Fault of the sensor according to the last samples.
   const ShaftFinding& found() const { return found_; }
   /// Angle at the last sample; 0 before the first sample, and for a sensor on the load's shaft.
   control::BinaryAngle electrical_angle() const { return electrical_; }
@@ -57,7 +58,7 @@ class RotorDecoder {
 
   std::uint8_t pole_pairs_ = 1;
   bool on_load_ = false;
-  control::BinaryAngle offset_ = 0;  ///< the believed offset, to be added
+  control::BinaryAngle offset_ = 0;  ///< the assumed mounting offset with opposite sign, to be added
   control::Gain<Scalar> deg_per_unit_{};
   control::QuadratureConfig quadrature_{};
   control::QuadratureState quarters_{};
@@ -74,15 +75,16 @@ class RotorDecoder {
   std::int32_t per_peak_ = 0;  ///< change of the resolver's angle per peak, in units of 2^-32 turn
   std::uint8_t per_turn_ = 1, bits_ = 32;
   std::int64_t samples_per_peak_ = 1, period_ticks_ = 1;
-  std::int64_t first_ticks_ = -1, last_peak_ = -1;  ///< -1: none so far
+  std::int64_t first_ticks_ = -1, last_peak_ = -1;  ///< time of the first sample, ps, and time of the last
+                                                    ///< peak relative to it; -1: none so far
   bool positive_peak_ = true;
   ShaftFinding found_{};
 };
 
 namespace detail {
 
-/// Number of sensor turns and the angle within the sensor's turn; `times` sensor turns make one turn of the
-/// shaft.
+/// Number of sensor turns, and the angle within the sensor's turn. One turn of the shaft is `times` sensor
+/// turns.
 inline control::UnwrappedAngle unwrapped(const plant::ShaftAngle<double>& at, std::int64_t times) {
   const std::int64_t fine = plant::parts_of_turn(at, std::int64_t{1} << 32);
   const std::int64_t all = fine * times;
@@ -142,11 +144,11 @@ void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& 
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
 
-/// The decoder's number for a resolver signal of the expected amplitude; the reserve to 1 is for larger
+/// The decoder's number for a resolver signal of the expected amplitude. It is below 1 to allow larger
 /// signals.
 inline constexpr double full_signal = 0.6;
 
-/// Sets the decoder's loop as if it had settled to the shaft's angle before the run.
+/// Sets the decoder's configuration, and its tracking loop to the shaft's initial angle.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases&,
                                         const control::UnwrappedAngle& at) {
@@ -156,7 +158,7 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
       control::Gain<Scalar>(per_count / raw_unit<Scalar>());
   if (given.resolver.calibrated) {
     const plant::Resolver r = windings_of(given.resolver);
-    // At a peak of the excitation, the signal of a winding that leads by d is cos d of its amplitude.
+    // At a peak of the excitation, the signal of a winding with the phase d is cos d times its amplitude.
     const double cos_part = base::cos(r.phase_1_rad), sin_part = (1 + r.imbalance) * base::cos(r.phase_2_rad);
     const double g_c = per_count / cos_part, g_s = per_count / (sin_part * base::cos(r.quadrature_rad));
     resolver_config_.cos_per_count = control::Gain<Scalar>(g_c / raw_unit<Scalar>());
@@ -171,7 +173,8 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
   period_ticks_ = sim::to_instant(config.period_s).ticks;
 }
 
-/// Sets the limits of the sum of squares. A limit that the number format cannot represent is not checked.
+/// Sets the limits of the sum of squares. An upper limit that the number format cannot represent is not
+/// checked.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_watch(const ShaftSensorConfig& given) {
   constexpr double unit = full_signal * full_signal;
@@ -203,8 +206,8 @@ void RotorDecoder<Scalar>::place(control::Measurement<Scalar>& m, const control:
   m.position_deg = control::AngleTraits<Scalar>::scaled(units, deg_per_unit_);
 }
 
-/// Until the index is passed, the Hall probes give the rotor's sector. Each later index corrects counts that
-/// the timer missed.
+/// Before the first index, the Hall probes determine the sector. Each later index corrects counts that the
+/// timer missed.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now) {
   const auto moved = static_cast<std::int32_t>(ports.quarters() - counted_);
@@ -241,7 +244,7 @@ void RotorDecoder<Scalar>::of_absolute(control::Measurement<Scalar>& m, const Sh
   commutate_at(m, electrical_of(reading.position.angle, pole_pairs_));
 }
 
-/// Reads a tracking chip, whose loop has followed the windings until the reading.
+/// Reads a tracking converter, which follows the windings continuously.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter) {
   found_ = converter.found();
@@ -251,7 +254,7 @@ void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const T
   commutate_at(m, electrical_of(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
 }
 
-/// Finds which winding is lost, from the samples of the last two peaks.
+/// Determines which winding has failed, from the samples of the last two peaks.
 template <class Scalar>
 void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
                                             const control::ResolverCounts& before, bool positive_peak) {
@@ -261,8 +264,8 @@ void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
       given.watch.finding(static_cast<double>(x.c) / full_signal, static_cast<double>(x.s) / full_signal);
 }
 
-/// Two peaks together give the angle in the middle of the time between them; the angle at the second peak is
-/// half a step further. Between peaks the angle advances with its speed. A call between two samples, for a
+/// Two peaks determine the angle in the middle between them. At the second peak the angle is half a step
+/// further. Between peaks the angle is extrapolated with the speed. A call between two samples, for a
 /// setpoint that acts at once, is not a peak.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports) {
@@ -279,7 +282,7 @@ void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sa
     per_peak_ = reading.speed;
     control::unwrap(seen_, resolver_.loop.angle);
   }
-  // loop.angle is the prediction for the middle of the next step, a whole step after the middle just
+  // loop.angle is the prediction for the middle of the next step, a whole step after the middle that was
   // measured.
   const std::int64_t since = passed / period_ticks_ % samples_per_peak_;
   const std::int32_t on = per_peak_ / static_cast<std::int32_t>(samples_per_peak_);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the plant and a core that runs the drive without a rotor sensor
-// (control/commissioning/pulse_start.hpp). They are as in core_call.hpp, with additional entries for the
-// drive's timer and its comparators.
+// Messages between the plant and a core that executes the drive without a rotor position sensor
+// (control/commissioning/pulse_start.hpp). Their form is that of core_call.hpp, with additional entries for
+// the drive's timer and comparators.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/rig/core_call.hpp"
@@ -12,7 +12,7 @@ template <class Scalar>
 struct SensorlessCall {
   CoreEntry entry = CoreEntry::tick;
   std::uint32_t now = 0;   ///< count of the timer
-  std::uint32_t pins = 0;  ///< pins of Hall probes; in `capture` the comparators' lines
+  std::uint32_t pins = 0;  ///< pins of Hall probes; with entry `capture`: lines of the comparators
   std::uint32_t on = 0, on_ticks = 0;
   std::uint32_t terminal_counts[3]{}, bus_counts = 0, current_counts[3]{};
   control::Measurement<Scalar> measured{};
@@ -55,7 +55,7 @@ constexpr control::PulsedDriveInput<Scalar> input_of(const SensorlessCall<Scalar
   return input;
 }
 
-/// The command for the bridge, and the time of the timer's next commutation.
+/// Command for the bridge, and the timer count `next` of the next commutation, valid if `commutes` is not 0.
 template <class Scalar>
 struct SensorlessCoreAnswer {
   std::uint32_t commutes = 0, next = 0;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a drive without a rotor sensor (control/sensorless/). Unlike the drives of firmware.hpp it
-// samples the three terminals, and requests an interrupt of its timer between two ticks.
+// Firmware of a drive without a rotor position sensor (control/sensorless/). In contrast to the drives of
+// firmware.hpp it samples the three terminals, and requests timer interrupts between two ticks.
 //
 //                     input of a tick                         a compare match         a fault
 //   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, new start; off after
-//                     as SensedDrive                          commutate               more than lock.retries in a row
+//                     as SensedDrive                          commutate               more than lock.retries losses
+//                                                                                     in sequence
 //
 // The same timer captures the edges of comparators at the terminals (crossing_comparators.hpp). Terminals and
-// bus have equal dividers and converters, `sensors.bus`. The timer runs at `sensors.capture_Hz`. If pulses
-// determine the rotor's angle at the start (control/commissioning/pulse_start.hpp), the drive also reads the
-// counts of the currents.
+// bus have equal dividers and converters, `sensors.bus`. The frequency of the timer is `sensors.capture_Hz`.
+// If pulses determine the rotor's angle at the start (control/commissioning/pulse_start.hpp), the drive also
+// reads the counts of the currents.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -25,7 +26,7 @@ class SensorlessDrive {
   using Command = control::BridgeCommand<Scalar>;
   using Config = control::PulsedDriveConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
-  /// Fraction of the period for which the pair must be on, so that its terminals can be compared with the
+  /// Least duty at which the pair counts as on at the sample, so that the terminals are compared with the
   /// command.
   static constexpr double surely_on = 0.05;
 
@@ -39,13 +40,13 @@ class SensorlessDrive {
     for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + board.front_end.divider_gain_error[k];
   }
 
-  /// Terminal voltages at the coming sample, V.
+  /// Sets the terminal voltages of the next sample, V.
   template <class Real>
   void look_at_terminals(const plant::PerLeg<Real>& u) {
     for (std::size_t k = 0; k < 3; ++k) terminal_V_[k] = gain_[k] * static_cast<double>(u[k]);
   }
-  /// The upper resistor of a leg's divider breaks: the lower resistor holds the converter's input at 0 from
-  /// now on.
+  /// Breaks the upper resistor of a leg's divider. The converter's input is 0 from now on, due to the lower
+  /// resistor.
   void break_divider(std::size_t leg) { gain_[leg] = 0.0; }
 
   template <class Real>
@@ -80,8 +81,7 @@ class SensorlessDrive {
     find_next(instant.at);
     return command();
   }
-  /// Captures an edge of the comparators at the terminals; `lines`: the lines of legs a, b, c as bits 2, 1,
-  /// 0.
+  /// Captures an edge of the comparators at the terminals; `lines`: lines of legs a, b, c as bits 2, 1, 0.
   void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
     const std::uint32_t now = sensors_.registers().counter(at);
     control::sensorless_capture(state_.drive.sensorless, lines, now);
@@ -131,13 +131,13 @@ class SensorlessDrive {
             .north = state_.found.north_16 / 16.0,
             .certain = static_cast<double>(config_.pulses.certain)};
   }
-  /// True if the core is lost. This ends the run, because no controller remains that could continue.
+  /// True if the core has failed. This ends the run, because no controller can continue.
   bool core_lost() const { return core_.trouble() != CoreTrouble::none; }
   Registers& registers() { return sensors_.registers(); }
-  /// rotor(): the drive's knowledge of the rotor. source(): the present source of commutation.
+  /// rotor(): state of the sensorless position. source(): present source of commutation.
   const control::SensorlessState& rotor() const { return state_.drive.sensorless; }
   const control::PositionSourceState& source() const { return state_.drive.source; }
-  /// State of the pulses at the start: their results, and whether they are active.
+  /// State of the pulses at the start, with their results.
   const control::PulsedDriveState<Scalar>& start() const { return state_; }
 
  private:
@@ -148,7 +148,7 @@ class SensorlessDrive {
     off.fault = true;
     state_.drive.drive.command = off;
   }
-  /// Counts all losses: lock.losses counts losses in a row and restarts from 0.
+  /// Counts all losses, because lock.losses counts only consecutive losses and is reset to 0.
   void note_losses(const sim::Instant& now) {
     const int in_a_row = rotor().lock.losses;
     if (in_a_row > in_a_row_) {

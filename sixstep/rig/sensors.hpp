@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures for the lean drive with the controller's own blocks: phase currents or one shunt in the DC link,
-// the bus, and speed and position from captured Hall edges, an encoder or a resolver. Every input is ideal
-// unless the scenario switches its sensor on.
+// Measures currents, bus voltage, speed and position with the blocks of control/. Currents are from phase
+// amplifiers or one shunt in the DC link; speed and position are from Hall edges, an encoder or a resolver. A
+// value is ideal if the scenario has no sensor for it.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/adc.hpp"
@@ -34,7 +34,7 @@ class Sensors {
   const ShaftPorts& shaft_ports() const { return ports_; }
   const HallInterpolator<Scalar>& interpolator() const { return interpolator_; }
   bool follows_shaft() const { return config_.shaft.kind != ShaftSensor::none; }
-  /// True if an angle between two Hall edges is known: from a shaft sensor, or by extrapolation.
+  /// True if the angle between two Hall edges is available, from a shaft sensor or by extrapolation.
   bool tells_angle() const { return follows_shaft() || interpolates(); }
   /// Angle at the last sample.
   control::BinaryAngle electrical_angle() const {
@@ -44,9 +44,9 @@ class Sensors {
   void follow(const ShaftMotion<Real>& motion) {
     ports_.follow(motion);
   }
-  /// Finding about faults of an encoder or a resolver.
+  /// Fault of an encoder or a resolver.
   const ShaftFinding& shaft_found() const { return rotor_.found(); }
-  /// 1..3: the line that caused an invalid code; 0: none, or the line cannot be determined.
+  /// 1..3: the line that caused an invalid code; 0: no line, or unknown.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:
@@ -137,7 +137,7 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
 
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
-  // The rotor is sensed first, because one shunt measures the current of the pair of the measured sector.
+  // The rotor is measured first, because the shunt's sample belongs to the pair of the measured sector.
   if (follows_shaft()) rotor_.sense(m, s, ports_, registers_.counter(s.at));
   if (interpolates()) interpolator_.measure(m, registers_.counter(s.at));
   if (config_.currents == CurrentMeasurement::phases) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of the shaft on which the sensor is mounted, within one segment: the rotor's shaft, or the load's
-// shaft behind gear and coupling.
+// Motion within one segment of the shaft on which the sensor is mounted: the rotor's shaft, or the load's
+// shaft after gear and elastic shaft.
 #pragma once
 #include <cmath>
 
@@ -10,24 +10,24 @@
 
 namespace sixstep::rig {
 
-/// The load's shaft in the general kernel. Its angle is theta_load = theta_m/n - twist, with the motor's
-/// angle theta_m and the gear ratio n. `speed` is null if the sensor is on the rotor's shaft.
+/// The load's shaft in the general kernel. The load's angle is theta_m/n - twist, with the motor's angle
+/// theta_m and the gear ratio n. `speed` is null if the sensor is on the rotor's shaft.
 template <class Real>
 struct LoadSide {
   const series::Coefficients<Real>* speed = nullptr;
-  const series::Coefficients<Real>* twist = nullptr;  ///< only of an elastic shaft
+  const series::Coefficients<Real>* twist = nullptr;  ///< null for a rigid shaft
   Real inv_gear = 1;
 };
 
-/// An angle, rad, over all turns, as whole sixths of a turn and the rest. A double is exact to 1e-12 rad over
-/// a thousand turns.
+/// Converts an angle, rad, over all turns to whole sixths of a turn and the rest. After a thousand turns the
+/// error of a double is 1e-12 rad.
 template <class Real>
 plant::ShaftAngle<Real> in_sixths(Real theta_rad) {
   const Real whole = std::floor(theta_rad / Real(base::sector_rad));
   return {static_cast<std::int64_t>(whole), theta_rad - whole * Real(base::sector_rad), 1};
 }
 
-/// The shaft over one segment, of which the fraction s in (0, 1] is used.
+/// Motion of the shaft over the fraction s, in (0, 1], of one segment.
 template <class Real>
 struct ShaftMotion {
   const plant::Expansion<Real>& y;
@@ -48,13 +48,14 @@ struct ShaftMotion {
   Real speed(Real at) const {
     return series::evaluate(load.speed == nullptr ? y.w : *load.speed, y.degree, at);
   }
-  /// Fraction of the segment at which an instant within it lies.
+  /// Fraction of the segment at the instant `at`.
   Real part(const sim::Instant& at) const {
     return y.h > 0 ? static_cast<Real>(sim::seconds_between(from, at)) / y.h : Real(0);
   }
 };
 
-/// Fraction of the segment at which the shaft reverses; 0 if it does not. It can reverse at most once.
+/// Fraction of the segment at which the shaft reverses; 0 if it does not reverse. The shaft can reverse at
+/// most once.
 template <class Real>
 Real turning_part(const ShaftMotion<Real>& m) {
   const Real start = m.speed(Real(0)), end = m.speed(m.s);
@@ -68,7 +69,7 @@ Real turning_part(const ShaftMotion<Real>& m) {
 }
 
 /// Fraction of the segment at which the shaft reaches a count, if it turns in one direction from fraction
-/// `low` to `high`. `count_at` gives the count at an angle; `way` is the direction, 1 or -1.
+/// `low` to `high`. `count_at` returns the count at an angle; `way` is the direction, 1 or -1.
 template <class Real, class CountAt>
 Real part_of_count(const ShaftMotion<Real>& m, const CountAt& count_at, Real low, Real high,
                    std::int64_t count, int way) {

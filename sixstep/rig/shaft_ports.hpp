@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peripherals of the board for an encoder or a resolver on the shaft (model.md 10). They work between two
+// Peripherals of the board for an encoder or a resolver on the shaft (model.md 10), simulated between two
 // samples:
 //
-//   incremental   The timer counts the quarters of lines, captures the time of the last edge, and latches
-//                 its count where the index passes. Edges that the timer misses are not counted. It evaluates
-//                 only the pins: with A or B stuck, each edge of the other line reverses the step of the edge
-//                 before.
-//   absolute      The code is latched some time before it is read; a track may be stuck.
-//   resolver      Both windings go to converters, sampled at the peaks of the excitation, or to a tracking
-//                 chip.
+//   incremental   The timer counts the quarters of lines, captures the time of the last edge, and latches its
+//                 count at the index. It does not count edges that it misses. The timer reads only the pins:
+//                 if A or B is stuck, each edge of the intact line reverses the step of the previous edge.
+//   absolute      The code is latched a latency before it is read; a track may be stuck.
+//   resolver      Both windings are connected to converters, which sample at the peaks of the excitation, or
+//                 to a tracking converter.
 #pragma once
 #include <cmath>
 
@@ -19,7 +18,7 @@
 
 namespace sixstep::rig {
 
-/// Converter of both windings. Its range is 1.25 times the windings' amplitude.
+/// Converter of each winding. The range is 1.25 times the winding's amplitude.
 inline AdcPath resolver_adc(const ShaftSensorConfig& given) {
   return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.resolver.noise_V};
 }
@@ -39,19 +38,18 @@ class ShaftPorts {
     if (given_.on_load) stands_ = as_double(motion.angle(motion.s));
   }
 
-  /// Quarters of lines as the timer counted them, over all turns.
+  /// Quarters of lines that the timer has counted, over all turns.
   std::int64_t quarters() const { return counted_; }
-  /// The capturing timer's count at the last counted quarter; edge_direction() is the direction of that
-  /// quarter.
+  /// Count of the capture timer at the last counted edge; edge_direction() is the direction of this edge.
   std::uint32_t edge_time() const { return edge_time_; }
   int edge_direction() const { return edge_direction_; }
-  /// True if the index was passed since the last call.
+  /// True if the shaft has passed the index since the last call.
   bool index_passed() {
     const bool passed = index_;
     index_ = false;
     return passed;
   }
-  /// Counts since the last index: the rotor's distance from the start of its turn.
+  /// Counts since the last index, which is the start of a turn.
   std::int64_t since_index() const { return counted_ - at_index_; }
   std::uint32_t code() const { return shown(code_); }
   /// Counts of both windings at a peak of the excitation, for a rotor at the angle `at`.
@@ -59,10 +57,10 @@ class ShaftPorts {
                                           std::uint64_t number);
   const TrackingConverter& converter() const { return converter_; }
 
-  /// Levels of the pins in a quarter of a line, bits as in plant::encoder_lines.
+  /// Levels of the pins in a quarter of a line, as bits like in plant::encoder_lines.
   std::uint8_t pins_in(std::int64_t quarter) const {
     const unsigned elsewhere =
-        given_.linear && (quarter < 0 || quarter > 3) ? 1 : 0;  // a linear scale has one index, at 0
+        given_.linear && (quarter < 0 || quarter > 3) ? 1 : 0;  // a linear scale has only one index, at 0
     const unsigned shown = plant::encoder_lines_in(quarter, given_.encoder.lines) & ~elsewhere;
     return static_cast<std::uint8_t>((shown | lines_high_) & ~unsigned{lines_low_});
   }
@@ -77,8 +75,8 @@ class ShaftPorts {
   std::uint32_t code_at(const plant::ShaftAngle<double>& at) const {
     return shown(absolute_code(given_, at));
   }
-  /// Voltages of cosine and sine winding, V, without noise. A drive that samples the windings itself starts
-  /// the excitation at its first sample; a tracking chip has excited the windings since t = 0.
+  /// Voltages of cosine and sine winding, V, without noise. A drive that samples the windings starts the
+  /// excitation at its first sample. A tracking converter excites the windings from t = 0 on.
   std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
     if (!excited_ && given_.resolver.reading == ResolverReading::sampled) return {};
     return windings_.leave(
@@ -87,14 +85,14 @@ class ShaftPorts {
 
   /// The next `edges` edges are not counted.
   void miss(std::int64_t edges) { missing_ += edges; }
-  /// A track of the Gray code shows one level from now on, bit 0 the finest.
+  /// A track of the Gray code is stuck at one level from now on; bit 0 is the finest track.
   void stick_track(int bit, bool high) { (high ? stuck_high_ : stuck_low_) |= std::uint32_t{1} << bit; }
   /// A track of the Gray code works again.
   void free_track(int bit) {
     stuck_high_ &= ~(std::uint32_t{1} << bit);
     stuck_low_ &= ~(std::uint32_t{1} << bit);
   }
-  /// Line 1 to 3 (A, B, Z) keeps one level from now on. A change to this level counts as an edge.
+  /// Line 1 to 3 (A, B, Z) is stuck at one level from now on. A change to this level is an edge.
   void stick_line(int line, bool high, const sim::Instant& now) {
     const std::uint8_t bit = static_cast<std::uint8_t>(8 >> line);
     set_lines(static_cast<std::uint8_t>(high ? lines_high_ | bit : lines_high_ & ~bit),
@@ -105,7 +103,8 @@ class ShaftPorts {
     const std::uint8_t rest = static_cast<std::uint8_t>(~(8 >> line));
     set_lines(lines_high_ & rest, lines_low_ & rest, now);
   }
-  /// A pulse on an intact Z line, so short that only the timer detects it. It has no effect while Z is high.
+  /// Simulates a pulse on an intact Z line that only the timer detects. The pulse has no effect while Z is
+  /// high.
   void pulse_index() {
     if ((pins_in(quarters_) & 1) == 0 && (lines_low_ & 1) == 0) latch_index(counted_);
   }
@@ -113,7 +112,7 @@ class ShaftPorts {
   void break_winding(int which) {
     windings_.broken = static_cast<std::uint8_t>(which == 0 ? 0 : windings_.broken | which);
   }
-  /// Sets the excitation to `part` of its full amplitude.
+  /// Sets the amplitude of the excitation, relative to the intact excitation.
   void excite(double part) { windings_.excitation = part; }
 
  private:
@@ -147,8 +146,8 @@ class ShaftPorts {
   CaptureClock capture_{1e6};
   AdcPath adc_{};
   TrackingConverter converter_{};
-  plant::ShaftAngle<double> stands_{};  ///< the load's shaft, if the sensor is on it, at the end of the last
-                                        ///< segment
+  plant::ShaftAngle<double> stands_{};  ///< angle of the load's shaft at the end of the last segment, if the
+                                        ///< sensor is on this shaft
   std::uint64_t seed_ = 0;
   std::int64_t quarters_ = 0;  ///< true count of the shaft
   std::int64_t counted_ = 0, at_index_ = 0, missing_ = 0, excited_ticks_ = 0;
@@ -170,7 +169,8 @@ inline ShaftPorts::ShaftPorts(const ShaftSensorConfig& given, double capture_Hz,
   if (given.resolver.reading == ResolverReading::tracking) converter_ = TrackingConverter(given, seed, at);
 }
 
-/// Counts the quarters of a segment. The shaft may reverse once: then each direction is counted separately.
+/// Counts the quarters that the shaft passes in a segment. If the shaft reverses, which it can do once, each
+/// direction is counted separately.
 template <class Real>
 void ShaftPorts::count(const ShaftMotion<Real>& m) {
   const Real turns = turning_part(m);
@@ -193,7 +193,7 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   quarters_ = end;
   if (not_missed == 0) return;
   edge_direction_ = direction;
-  capture(m, from, to, end, direction);  // captures the last border passed, at which the present quarter
+  capture(m, from, to, end, direction);  // captures the last passed border, at which the present quarter
                                          // begins
 }
 
@@ -204,8 +204,8 @@ void ShaftPorts::capture(const ShaftMotion<Real>& m, Real low, Real high, std::i
   edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(at * m.y.h)));
 }
 
-/// The timer's counting rule: the line that changed and the level of the other line determine the direction.
-/// Returns whether the count changed.
+/// The timer's counting rule: the changed line and the level of the other line determine the direction.
+/// Returns true if the count has changed.
 inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   const auto quarter = [](std::uint8_t pins) {
     return static_cast<int>(control::quarter_of_line((pins & 4) != 0, (pins & 2) != 0));
@@ -218,7 +218,7 @@ inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   return true;
 }
 
-/// Counts edge by edge from the pins' levels, for stuck lines.
+/// Counts each edge from the levels of the pins, for the case that lines are stuck.
 template <class Real>
 void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, std::int64_t end) {
   const int way = end > quarters_ ? 1 : -1;
@@ -235,8 +235,7 @@ void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, s
   if (last != begin) capture(m, from, to, last, way);
 }
 
-/// Sets which lines are stuck. Each pin that changes its level counts as an edge; a rising Z counts as an
-/// index.
+/// Sets which lines are stuck. A pin whose level changes is an edge for the timer; a rising Z is an index.
 inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim::Instant& now) {
   const std::uint8_t before = pins_in(quarters_);
   lines_high_ = high;
@@ -246,8 +245,8 @@ inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim
   if ((before & 1) == 0 && (after & 1) != 0) latch_index(counted_);
 }
 
-/// Latches the count at the index, the border between two turns, if the shaft passed it. Counts after the
-/// border are subtracted, so that the latched count is the count just above the border.
+/// Latches the count if the shaft has passed the index, the border between two turns. Counts after the border
+/// are subtracted, so that the latched value is the count just above the border.
 inline void ShaftPorts::look_for_index(std::int64_t end, std::int64_t not_missed) {
   const auto turn_of = [&](std::int64_t n) { return n >= 0 ? n / parts() : -((-n + parts() - 1) / parts()); };
   const std::int64_t last = turn_of(end), first = turn_of(quarters_);
@@ -266,7 +265,8 @@ void ShaftPorts::latch(const ShaftMotion<Real>& m) {
   code_ = absolute_code(given_, m.angle(m.part(at)));
 }
 
-/// Samples both windings. The chip starts its excitation so that samples lie on the excitation's peaks.
+/// Samples both windings. The phase of the excitation is set at the first sample, so that the samples are at
+/// the peaks.
 inline control::ResolverCounts ShaftPorts::resolver_counts(const plant::ShaftAngle<double>& at,
                                                            const sim::Instant& t, std::uint64_t number) {
   if (!excited_) {

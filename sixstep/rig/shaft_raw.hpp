@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output of an encoder or a resolver at an instant, as a measuring probe on the sensor's wires shows it
+// Output signals of an encoder or a resolver at an instant, like with an instrument at the sensor's wires
 // (model.md 10).
 #pragma once
 #include "sixstep/rig/shaft_motion.hpp"
@@ -9,10 +9,11 @@ namespace sixstep::rig {
 
 /// Output of the installed kind of sensor; members of other kinds are 0.
 struct ShaftRaw {
-  std::uint8_t lines = 0;  ///< A 4, B 2, Z 1 at the pins, including stuck lines
+  std::uint8_t lines = 0;  ///< levels at the pins including stuck lines: A has the value 4, B 2, Z 1
   std::uint32_t code = 0;  ///< Gray code, including stuck tracks
   std::array<double, 2>
-      winding_V{};  ///< cosine and sine, without noise; 0 before the first sample excites them
+      winding_V{};  ///< cosine and sine winding, V, without noise; 0 before the excitation starts at the
+                    ///< first sample
 };
 
 inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<double>& at,
@@ -32,8 +33,8 @@ inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<doubl
 
 namespace detail {
 
-/// Visits the quarters of lines that the shaft passes without a reversal. Each quarter is visited with the
-/// fraction of the segment at which the shaft enters it.
+/// Visits the quarters of lines that the shaft passes without a reversal. For each quarter the visitor
+/// receives the fraction of the segment at which the shaft enters the quarter.
 template <class Real, class Visit>
 void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& ports, Real from, Real to,
                               Visit&& visit) {
@@ -51,7 +52,7 @@ void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& port
 
 }  // namespace detail
 
-/// Visits the quarters of lines in time order, each as often as the shaft enters it.
+/// Visits the quarters of lines in the order in which the shaft enters them.
 template <class Real, class Visit>
 void for_each_quarter(const ShaftMotion<Real>& m, const ShaftPorts& ports, Visit&& visit) {
   const Real turns = turning_part(m);

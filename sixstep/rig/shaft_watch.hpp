@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks whether an encoder or a resolver shows values that an intact sensor cannot show.
+// Checks whether an encoder or a resolver shows values that are impossible with an intact sensor.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace sixstep::rig {
 enum class ShaftLoss : std::uint8_t {
   none,
   excitation,  ///< no signal from either winding of a resolver
-  cosine,      ///< no signal from the cosine winding, while the sine winding has one
+  cosine,      ///< no signal from the cosine winding, but from the sine winding
   sine,
   weak,    ///< both signals are weaker than the excitation's tolerance allows
   strong,  ///< both signals are stronger than the excitation's tolerance allows
-  index    ///< at an encoder's index the count is wrong by more than a sector
+  index    ///< at an encoder's index the count has an error of more than a sector
 };
 
 struct ShaftFinding {
@@ -28,15 +28,14 @@ struct ShaftFinding {
 /// Limits of a resolver's c^2 + s^2, relative to the expected amplitude (design/loops/resolver_watch.hpp).
 struct ResolverWatch {
   double least_square = 0.0, greatest_square = 0.0;  ///< 0: not checked
-  double silent = 0.0;                               ///< a signal smaller than this is only noise and
-                                                     ///< rounding
+  double silent = 0.0;                               ///< a smaller signal counts as noise and rounding only
   int in_a_row = 1;                                  ///< number of consecutive results outside the limits
                                                      ///< after which the sensor counts as lost
 
   bool outside(double square) const {
     return square < least_square || (greatest_square > 0 && square > greatest_square);
   }
-  /// Kind of the fault, for signals c and s that were outside the limits.
+  /// Kind of the fault, for signals c and s outside the limits.
   ShaftFinding finding(double c, double s) const {
     const double square = c * c + s * s;
     const bool no_c = std::fabs(c) <= silent, no_s = std::fabs(s) <= silent;

@@ -16,8 +16,8 @@ unsigned index(control::Leg leg) { return static_cast<unsigned>(leg); }
 
 }  // namespace
 
-/// Returns the leg that enters with a new pair, after it has received the state of the leg that leaves.
-/// Returns none_late if the pair has the same two legs: at a change of sign each leg keeps its state.
+/// Passes the state of the leg that leaves the pair to the leg that enters, and returns the entering leg.
+/// Returns none_late if the two legs are the same, as at a change of sign: each leg keeps its state.
 int SixStepModulator::hand_over(control::Pair to) {
   const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
   const unsigned before = legs_of(command_.pair), after = legs_of(to);
@@ -32,8 +32,8 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   // mutant: command.enabled && !command_.enabled => command.enabled
   const bool wakes = command.enabled && !command_.enabled;
   const int entered = hand_over(command.pair);
-  // The fields are copied one by one, as they were written: a copy in wider pieces would stall until the
-  // fields are in memory. An additional field does not compile here.
+  // The fields are copied separately, as they were written. A copy in wider pieces would stall the processor
+  // until the fields are in memory. The binding does not compile if a field is added.
   const auto& [enabled, pair, duty, chopping, chopped, watch, overlap, on_below_A, off_above_A] = command;
   command_.enabled = enabled;
   command_.pair = pair;
@@ -45,12 +45,11 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   command_.on_below_A = on_below_A;
   command_.off_above_A = off_above_A;
   if (!wakes) return entered;
-  // The legs' previous states are unknown, so that the first command changes every leg.
+  // The legs' previous states are unknown: every leg counts as changed by the first command.
   timer_.wake(t);
   timer_.preset_pulse(sink_pulse, true);
   if (watch != Watch::none)
-    timer_.switch_pulse(source_pulse, true);  // hysteresis starts with the pulse on
-                                              // (model.md 4)
+    timer_.switch_pulse(source_pulse, true);  // hysteresis control starts with the pulse on (model.md 4)
   return entered;
 }
 
@@ -76,8 +75,8 @@ void SixStepModulator::turn_off(const Instant& t) {
   fill_legs(t, LegTimer::none_late);
 }
 
-/// Sets the commands of three legs from the pair (model.md 3). Both legs of the pair follow one pulse; with
-/// hard chopping's second comparator the sink follows its own pulse.
+/// Sets the commands of three legs from the pair (model.md 3). Both legs of the pair follow one pulse. With
+/// two comparators (hard chopping) the sink follows the second pulse.
 void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {
@@ -85,7 +84,7 @@ void SixStepModulator::fill_legs(const Instant& t, int entered) {
     const control::ChoppedSwitch chopped = command_.chopped;
     // mutant: sink_pulse => source_pulse
     const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
-    if (command_.pair.source != command_.pair.sink)  // otherwise gates() has the commanded switches
+    if (command_.pair.source != command_.pair.sink)  // otherwise gates() returns the commanded switches
       timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, chopped, 0.0)),
                      source_pulse);
     timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, chopped, 0.0)), sink);

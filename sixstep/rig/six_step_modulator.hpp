@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step on the board's timer (model.md 3): a pair with one duty, or with armed comparators, sets three
-// legs. The legs of the pair share one pulse. When the pair changes, the pulse continues in the leg that
-// takes over the role of source or sink. The leg that leaves the pair passes its state, including a wait, to
-// the leg that enters.
+// Modulator of six-step on the board's timer (model.md 3). It converts a pair with one duty, or with armed
+// comparators, to the commands of three legs. The legs of the pair follow the same pulse. When the pair
+// changes, the pulse continues. The leg that leaves the pair passes its state, with any wait for a dead time,
+// to the leg that enters.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/rig/leg_timer.hpp"
 
 namespace sixstep::rig {
 
-/// A command as the board holds it: numbers are doubles.
+/// A BridgeCommand in the form of the board: numbers are doubles.
 struct BoardCommand {
   bool enabled = false;
   control::Pair pair{};
@@ -21,11 +21,11 @@ struct BoardCommand {
   double on_below_A = 0.0, off_above_A = 0.0;
 };
 
-/// Level at which a comparator switches; comparator_weights() gives the compared current.
+/// Level at which a comparator switches. comparator_weights() defines the compared current.
 struct ArmedComparator {
   bool armed = false;
   bool switches_off = false;  ///< true: switches off when the current rises above the level; false: switches
-                              ///< on when it falls below
+                              ///< on when the current falls below the level
   double level_A = 0.0;
 };
 
@@ -38,12 +38,12 @@ class SixStepModulator {
   /// Command in period 0 of a board whose commands take effect one period later: all gates off.
   static BoardCommand before_first() { return {}; }
 
-  /// A PWM period begins at t with this command. A duty of 1 has no gap, a duty of 0 no pulse.
+  /// Begins a PWM period at t with this command. With a duty of 1 there is no gap, with a duty of 0 no pulse.
   void start_period(const sim::Instant& t, const BoardCommand& command);
   /// Changes the pair at a Hall edge. The PWM period continues, the duty is not sampled again, and no leg
   /// overlaps until the next period.
   void commutate(const sim::Instant& t, control::Pair pair, control::ChoppedSwitch chopped);
-  /// Changes the pair; the chopped switch stays as it is.
+  /// Changes the pair; the chopped switch (upper or lower) does not change.
   void commutate(const sim::Instant& t, control::Pair pair) { commutate(t, pair, command_.chopped); }
   /// Sets new thresholds within a period, after the setpoint of an event hysteresis has jumped.
   void rearm(const sim::Instant& t, const BoardCommand& command) {
@@ -58,20 +58,22 @@ class SixStepModulator {
   bool act(const sim::Instant& now) { return timer_.act(now); }
   /// True if comparators are armed.
   bool watching() const { return command_.watch != control::Watch::none; }
-  /// Switches each pulse whose comparator's current is beyond its level; returns the number of pulses
-  /// switched.
+  /// Switches the pulse of each comparator whose current is beyond the level. Returns the number of switched
+  /// pulses.
   template <class Real>
   int compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
-  /// Comparator `which` reached its level: 0 watches the motor current or the source leg, 1 the sink leg.
+  /// Switches the pulse of comparator `which`, whose current has reached the level. Comparator 0 is for the
+  /// motor current or the source leg, 1 for the sink leg.
   void comparator_tripped(const sim::Instant& now, int which);
 
   /// The level at which comparator `which` switches next.
   ArmedComparator comparator(int which) const;
-  /// Factors of the phase currents in the current of comparator `which`.
+  /// Weights of the phase currents in the current that comparator `which` compares.
   plant::PerLeg<double> comparator_weights(int which) const;
 
-  /// Gates. If source and sink of the pair are one leg, both its switches are commanded on. No leg of the
-  /// timer can do that, so that the gates are set here, and the plant refuses the shoot-through.
+  /// Present gates. If source and sink of the pair are the same leg, both switches of this leg are commanded
+  /// on. The timer cannot command this state, so that gates() sets it, and the plant rejects the
+  /// shoot-through.
   plant::Gates gates() const {
     plant::Gates gates = timer_.gates();
     if (command_.enabled && command_.pair.source == command_.pair.sink) gates.high |= gates.low;
@@ -79,14 +81,14 @@ class SixStepModulator {
   }
   const BoardCommand& command() const { return command_; }
   bool source_on() const { return timer_.pulse_on(source_pulse); }
-  /// True if no edge comes before the next command: duty 0 or 1, or off.
+  /// True if no edge occurs before the next command: duty 0 or 1, or off.
   bool steady() const { return timer_.steady(); }
   std::int64_t turn_ons() const { return timer_.turn_ons(); }
   std::int64_t turn_ons_before(const sim::Instant& t) const { return timer_.turn_ons_before(t); }
 
  private:
-  /// The second pulse is for hard chopping's second comparator, the third for the leg that overlaps at a
-  /// commutation.
+  /// Pulses of the timer. sink_pulse is for the second comparator in hard chopping, overlap_pulse for the leg
+  /// that overlaps at a commutation.
   static constexpr unsigned source_pulse = 0, sink_pulse = 1, overlap_pulse = 2;
 
   int take(const sim::Instant& t, const BoardCommand& command);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three leg commands on the board's timer (model.md 11): each leg has its own pulse. Hall edges have no
-// effect.
+// Modulator of three leg commands on the board's timer (model.md 11): each leg follows a separate pulse. Hall
+// edges have no effect.
 #pragma once
 #include "sixstep/rig/leg_timer.hpp"
 
@@ -8,7 +8,7 @@ namespace sixstep::rig {
 
 class ThreeLegModulator {
  public:
-  /// The board's form of the three commands: duties are doubles.
+  /// The three commands in the form of the board: duties are doubles.
   using Command = control::LegCommands<double>;
 
   explicit ThreeLegModulator(const ModulatorConfig& config) : timer_(config) {}
@@ -37,7 +37,7 @@ class ThreeLegModulator {
   const plant::Gates& gates() const { return timer_.gates(); }
   const Command& command() const { return command_; }
   bool steady() const { return timer_.steady(); }
-  /// Turn-ons of the three upper switches, whether a pulse or a command for the whole period turns them on.
+  /// Number of turn-ons of the three upper switches, by a pulse or by a command for the whole period.
   std::int64_t turn_ons() const { return turn_ons_; }
   std::int64_t turn_ons_before(const sim::Instant& t) const {
     return timer_.began_at(t) ? before_period_ : turn_ons_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timeline: all actions of a scenario on a run, in one list of typed actions sorted by time.
+// The timeline: all actions of a scenario, sorted by time.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace sixstep::rig {
 
-/// Kinds of actions; each comment gives the meaning of Action::value.
+/// Kinds of actions. The comments are the meaning and unit of Action::value.
 enum class ActionKind : std::uint8_t {
   setpoint,             ///< the new setpoint, in the mode's unit
   load_torque,          ///< N m
   hall_stuck,           ///< Hall line 1 to 3; negative: stuck low
   run_request,          ///< 1: run, 0: stop
   clear_request,        ///< not used
-  shaft_locked,         ///< 1: a clamp holds the shaft, 0: it is free
+  shaft_locked,         ///< 1: a clamp holds the shaft, 0: the shaft is free
   source_voltage,       ///< V
-  source_sinks,         ///< 1: the source takes current back, 0: it does not
+  source_sinks,         ///< 1: the source can absorb current, 0: it cannot
   hall_whole,           ///< Hall line 1 to 3
   retune,               ///< index of the rig's tunings
   dead_time,            ///< ps
@@ -41,11 +41,11 @@ enum class ActionKind : std::uint8_t {
   encoder_line_sticks,  ///< A, B, Z as 1 to 3; negative: stuck low
   encoder_line_whole,   ///< A, B, Z as 1 to 3
   false_index,          ///< not used
-  excitation,           ///< amplitude relative to full excitation
+  excitation,           ///< amplitude relative to the intact excitation
   divider_breaks        ///< leg 0 to 2
 };
 
-/// Motion of a setpoint from its action on: after t seconds its value is
+/// Setpoint as a function of the time t since its action, in s:
 ///   value + rate t + curvature t^2/2 + amplitude sin(2 pi (frequency_Hz t + phase_turns)).
 /// A control tick evaluates the waveform; between two ticks the setpoint keeps the value of the last tick.
 struct Waveform {
@@ -56,8 +56,8 @@ struct Waveform {
   double phase_turns = 0.0;
 
   bool moves() const { return rate != 0.0 || curvature != 0.0 || amplitude != 0.0; }
-  /// Value after t_s seconds, in the unit of `value`. Whole turns are removed, so that only their fraction
-  /// enters the sine.
+  /// Value after t_s seconds, in the unit of `value`. Whole turns are removed before the sine, for accuracy
+  /// at large t_s.
   double after(double value, double t_s) const {
     // mutant: curvature / 2 * t_s => 0.0
     const double straight = value + (rate + curvature / 2 * t_s) * t_s;
@@ -72,10 +72,10 @@ struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
   double value = 0.0;   ///< meaning and unit depend on `kind`
-  Waveform waveform{};  ///< motion of a setpoint; for a load torque and a shaft's speed only the rate
+  Waveform waveform{};  ///< for a setpoint; for load_torque and shaft_speed only `rate` is used
 };
 
-/// Sorted by time, stable where times are equal.
+/// Actions sorted by time. Actions at the same time have the order of the scenario.
 using Timeline = std::vector<Action>;
 
 }  // namespace sixstep::rig

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock. It
-// outputs an angle of a number of bits, and the speed from its integrator (model.md 10).
+// A resolver-to-digital converter: a chip whose type 2 loop follows the windings with a separate clock. Its
+// outputs are the angle, with a limited number of bits, and the speed from the loop's integrator (model.md
+// 10).
 //
 //   detected   tan(phi - theta) from both demodulated windings, with the resolver's angle phi and the loop's
 //              angle theta; beyond 45 degrees 1 with the sign of the shorter rotation
-//   followed   control/sensing/tracking.hpp, per clock of the chip
-//   output     the angle predicted for this clock, not for the next clock: no lag at constant speed;
+//   followed   one step of control/sensing/tracking.hpp per clock of the chip
+//   output     angle predicted for this clock, not for the next clock: no lag at constant speed;
 //              at constant acceleration a the output lags by a T^2/K_i (clock period T, integral gain K_i)
 //
-// The chip itself checks the sum of both squares and keeps its first finding.
+// The chip checks the sum of the squares of both signals, and stores the first fault.
 //
-// The demodulator is ideal: the ripple at twice the excitation, which chips filter, is not modelled. A phase
-// shift relative to the excitation that both windings share cancels.
+// The demodulator is ideal: the model has no ripple at twice the excitation frequency, which chips filter. A
+// phase shift relative to the excitation cancels if it is the same in both windings.
 #pragma once
 #include "sixstep/base/random.hpp"
 #include "sixstep/control/sensing/resolver.hpp"
@@ -23,7 +24,7 @@ namespace sixstep::rig {
 class TrackingConverter {
  public:
   TrackingConverter() = default;
-  /// The loop starts as if it had settled to the shaft's angle before the run.
+  /// The loop starts in the settled state at the shaft's initial angle.
   TrackingConverter(const ShaftSensorConfig& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
       : loop_{given.tracking},
         resolver_(windings_of(given.resolver)),
@@ -57,7 +58,7 @@ class TrackingConverter {
     if (latches) read_ = shown_;
   }
 
-  /// Angle within the resolver's own turn, from the last reading.
+  /// Angle within the resolver's turn, from the last reading.
   control::BinaryAngle angle() const { return control::quantised(read_.angle, bits_); }
   const ShaftFinding& found() const { return found_; }
   /// Speed in units of 2^-32 turn of the resolver per clock of the chip.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plant without a board, as a System for sim::run in which nothing is scheduled. A derived class adds
+// The plant without a board, as a System for sim::run without scheduled actions. A derived class adds
 // apply(id), the reaction to a located event.
 #pragma once
 #include "sixstep/plant/plant.hpp"

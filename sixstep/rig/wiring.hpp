@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wires between board and motor: which phase is at each leg, and which Hall probe at each pin (model.md
-// 7). The board names legs a, b, c and pins H1, H2, H3, the motor names phases and probes; crossed wires do
-// not change these names. Only a rig on the general kernel can have crossed wires. On the lean kernel the
-// wires are straight and cost nothing.
+// The wiring between board and motor: the phase at each leg, and the Hall probe at each pin (model.md 7).
+// Legs a, b, c and pins H1, H2, H3 are names of the board; phases and probes are names of the motor. Only a
+// rig with the general kernel can have exchanged wires. With the lean kernel the wires are straight and need
+// no computing time.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -27,7 +27,7 @@ constexpr std::array<std::uint8_t, 3> ends_of(WireOrder order) {
   return ends[static_cast<std::size_t>(order)];
 }
 
-/// Code of probes 1, 2, 3 from the levels at pins H1, H2, H3, if the probes are at the pins in this order.
+/// Code of probes 1, 2, 3 from the levels at pins H1, H2, H3, with the probes connected in this order.
 constexpr std::uint8_t code_at(WireOrder order, std::uint8_t pins) {
   unsigned code = 0;
   for (unsigned pin = 0; pin < 3; ++pin) code |= (pins >> (2U - pin) & 1U) << (2U - ends_of(order)[pin]);
@@ -38,14 +38,15 @@ constexpr std::uint8_t code_at(WireOrder order, std::uint8_t pins) {
 struct Wiring {
   WireOrder phases = WireOrder::abc;  ///< phases at legs a, b, c
   WireOrder probes = WireOrder::abc;  ///< probes at pins H1, H2, H3
-  std::uint8_t inverted = 0;  ///< mask of the pins, as bits of a Hall code, that read their probe inverted
+  std::uint8_t inverted = 0;  ///< mask of the pins, as bits of a Hall code, at which the probe's signal is
+                              ///< inverted
 
   bool operator==(const Wiring&) const = default;
 
   /// Phase of the motor at this leg.
   std::size_t phase(std::size_t leg) const { return ends_of(phases)[leg]; }
 
-  /// Converts quantities ordered by phases to the order of legs.
+  /// Converts quantities from the order of the phases to the order of the legs.
   template <class T>
   std::array<T, 3> at_legs(const std::array<T, 3>& of_phases) const {
     return {of_phases[phase(0)], of_phases[phase(1)], of_phases[phase(2)]};
@@ -74,7 +75,7 @@ struct Wiring {
     }
     return phases_gates;
   }
-  /// Converts a code of the probes to the code at the pins; in both H1 H2 H3 are bits 2, 1, 0.
+  /// Converts a code of the probes to the code at the pins. Bits 2, 1, 0 are probes 1, 2, 3, and H1, H2, H3.
   std::uint8_t at_pins(std::uint8_t probe_code) const {
     unsigned pins = 0;
     for (unsigned pin = 0; pin < 3; ++pin)
@@ -83,7 +84,7 @@ struct Wiring {
   }
 };
 
-/// Wires that connect each leg to its phase and each pin to its probe, so that nothing is converted.
+/// Wiring without exchanged wires: all conversions return their argument.
 struct StraightWiring {
   static constexpr std::size_t phase(std::size_t leg) { return leg; }
   template <class T>

@@ -18,7 +18,7 @@ Real magnitude_of(const Coefficients<Real>& c, int degree) {
 }
 
 /// Calls visit(s) at every sign change in (0, 1), in ascending order. `scale` is the typical magnitude of the
-/// polynomial, which determines the level of rounding.
+/// polynomial; it determines the rounding level.
 template <class Real, class Visit>
 void for_each_sign_change(const Coefficients<Real>& c, int degree, Real scale, Visit&& visit) {
   const Real noise = Real(1e-15) * scale;

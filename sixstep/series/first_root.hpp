@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where a guard that should stay >= 0 first goes below zero. The root is exact to rounding, and no root
-// is missed. A cheap bound is tried first, then Newton's method if the guard is strictly monotone, else
+// Finds the first instant at which a guard becomes negative. The root is exact to rounding, and no root is
+// missed. The search tries a cheap bound first, then Newton's method if the guard is strictly monotone, else
 // Bernstein subdivision.
 #pragma once
 #include <array>
@@ -10,14 +10,13 @@
 
 namespace sixstep::series {
 
-/// Result for a guard that does not fall below zero: a value beyond every segment's end. It is a number
-/// because an optional would cost 2 % of the run loop's time.
+/// Result for a guard that does not become negative: a value beyond the end of every segment. A std::optional
+/// would cost 2 % of the run loop's time.
 template <class Real>
 inline constexpr Real no_root = 2;
 
-/// The sign of a guard just after its start. Coefficients within `noise` count as zero; the first other
-/// coefficient has this sign. `order` is the index of this coefficient (degree + 1 if all coefficients are
-/// noise: the guard stays at zero).
+/// The first coefficient of a guard that exceeds `noise`: its index `order` and its sign, which is the sign
+/// of the guard just after the start. If no coefficient exceeds `noise`, `order` is degree + 1 and `sign` 0.
 struct Leading {
   int order = 0;
   int sign = 0;
@@ -34,14 +33,14 @@ inline Leading leading(const Coefficients<Real>& c, int degree, Real noise) {
 
 namespace detail {
 
-/// Bounds that show whether a polynomial falls, rises or stays away from zero over [0, length].
+/// Bounds that show whether a polynomial falls, rises or has no zero in [0, length].
 template <class Real>
 struct Outline {
-  Real at_end = 0, tail = 0;  ///< value at length; sum of |q_j| length^j without j = 0
+  Real at_end = 0, tail = 0;  ///< value at `length`; sum of |q_j| length^j over j >= 1
   Real slope_rest = 0;        ///< sum_{j >= 2} j |q_j| length^(j-1)
 };
 
-/// Outline over the whole of [0, 1]: the length is 1, so that no products are needed.
+/// Outline for the length 1, which needs no products.
 template <class Real>
 Outline<Real> outline(const Real* q, int n) {
   Outline<Real> of;
@@ -51,7 +50,7 @@ Outline<Real> outline(const Real* q, int n) {
     of.slope_rest += of.tail;
   }
   // mutant: of.slope_rest += of.tail; => nothing
-  of.slope_rest += of.tail;  // term j has now been counted j times
+  of.slope_rest += of.tail;  // term j has now been added j times
   of.tail += std::fabs(q[1]);
   of.at_end = q[0] + (q[1] + of.at_end);
   return of;
@@ -78,8 +77,8 @@ struct Local {
   Real value = 0, slope = 0, bend = 0;  ///< bend: half the second derivative
 };
 
-/// Evaluates c at s. Even and odd powers are separate, y = e(s^2) + s o(s^2): two parallel chains of half the
-/// length.
+/// Evaluates c at s. Even and odd powers are separate, c(s) = e(s^2) + s o(s^2), so that two chains of half
+/// the length are computed in parallel.
 template <class Real>
 inline Local<Real> local(const Real* c, int degree, Real s) {
   const Real t = s * s;
@@ -105,12 +104,13 @@ inline Local<Real> local(const Real* c, int degree, Real s) {
           e.slope + 4 * (t * e.bend) + s * (3 * o.slope + 4 * (t * o.bend))};
 }
 
-/// Finds the only root in (low, high], where c(low) > 0 >= c(high). Newton's method starts from `guess`;
-/// bisection keeps it inside. The last step includes the curvature; its relative error is about 2 (bend/slope
-/// step)^2.
+/// Finds the only root in (low, high], where c(low) > 0 >= c(high). Newton's method starts from `guess`. A
+/// step that would leave the interval is replaced by a bisection. The last step includes the curvature; its
+/// relative error is about 2 (bend/slope step)^2.
 template <class Real>
 Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
-  // If the step and the curvature's correction are this small, another step would change only rounding.
+  // If the step and the correction by the curvature are smaller than this, another step would change only the
+  // rounding error.
   constexpr Real small = Real(sizeof(Real) > 8 ? 3e-7L : 4e-6L);
   const Real last_step = small * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
@@ -133,8 +133,8 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   return s;
 }
 
-/// The root of a falling, nearly straight polynomial to fourth order; after it one Newton step suffices.
-/// Reversion of a series: Abramowitz and Stegun 3.6.25.
+/// The root of a falling, nearly linear polynomial, exact to fourth order. From this value one Newton step
+/// suffices. Formula: reversion of a series, Abramowitz and Stegun 3.6.25.
 template <class Real>
 Real near_root(const Real* c, int degree) {
   const Real inverse = 1 / c[1], straight = -c[0] * inverse;
@@ -190,9 +190,9 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
   return right;
 }
 
-/// Finds the first root in [0, length] by halving, left part first. A piece with one sign change of its
-/// coefficients contains one root, a piece without a sign change contains none (Descartes). A piece too
-/// narrow for another split touches zero within rounding; it counts as the root.
+/// Finds the first root in [0, length] by halving, the left part first. The number of sign changes of a
+/// piece's coefficients is 0 if the piece contains no root, 1 if it contains one root (Descartes). A piece
+/// that is too narrow for another split touches zero within rounding, and counts as the root.
 template <class Real>
 Real subdivide(const Real* c, int degree, Real length) {
   constexpr int depth_limit = 50;
@@ -223,8 +223,8 @@ Real subdivide(const Real* c, int degree, Real length) {
 
 }  // namespace detail
 
-/// Upper bound of |y(s) - y(0)| over [0, 1]. The sums of even and odd terms are separate because the
-/// processor then computes them in parallel.
+/// Upper bound of |y(s) - y(0)| over [0, 1]. The sums of even and odd terms are separate, so that the
+/// processor computes them in parallel.
 template <class Real>
 inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   Real even = 0, odd = 0;
@@ -234,22 +234,23 @@ inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   return even + odd;
 }
 
-/// True if a guard certainly stays above zero, from its first two terms and a bound `rest` of the sum of all
-/// others. Either both ends of the straight line are far enough from zero, or the line rises so steeply from
-/// zero that the other terms cannot make the guard fall. False means undecided.
+/// True if a guard is certainly above zero in [0, 1]. The function uses the guard's first two terms, which
+/// are a straight line, and a bound `rest` of the sum of all other terms. In one case both ends of the line
+/// are far enough from zero. In the other case the line rises from zero so steeply that the other terms
+/// cannot make the guard fall. False means: not decided.
 template <class Real>
 inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
   const Real lowest = slope < 0 ? start + slope : start, margin = rest + 2 * noise;
   return lowest > margin || (2 * start > -noise && slope > margin);
 }
 
-/// First s in [0, length], length <= 1, at which the polynomial goes below zero. The result is 0 if the
-/// polynomial falls at the start, and no_root if it never goes below zero. `noise` is the rounding level of
-/// the guard: leading coefficients within it count as zero and are divided out. A restart on the boundary
-/// therefore does not repeat the event, and needs no dead time.
+/// First s in [0, length], length <= 1, at which the polynomial becomes negative. The result is 0 if the
+/// polynomial is negative just after the start, and no_root if it never becomes negative. `noise` is the
+/// rounding level of the guard. Leading coefficients below it count as zero and are divided out. A segment
+/// that starts at the event therefore does not repeat the event.
 template <class Real>
 Real first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
-  // The most frequent case is tried first: the sum of all other terms is smaller than the value at the start.
+  // The most frequent case first: the value at the start is larger than the sum of all other terms.
   if (c[0] > noise && c[0] > tail_bound(c, degree)) return no_root<Real>;
 
   const Leading start = leading(c, degree, noise);

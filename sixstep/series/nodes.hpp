@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers at the nodes of a quadrature rule, two per instruction. A file compiled for AVX can define
-// SIXSTEP_FOUR_LANES: the rule with four nodes then uses four per instruction. The sums of different nodes
-// are computed in parallel. Each number results from the same operations in the same order as in scalar code,
-// and has the same bits.
+// Numbers at the nodes of a quadrature rule, two per instruction. A file that is compiled for AVX can define
+// SIXSTEP_FOUR_LANES. The rule with four nodes then uses four numbers per instruction. The sums of different
+// nodes are computed in parallel. For each node the operations and their order are the same as in scalar
+// code, so that the bits are the same.
 #pragma once
 
-// Code that depends on the number of lanes has a different name in each case, so that a program can contain
-// both.
+// Code for two and for four lanes is in different namespaces, so that a program can contain both.
 #ifdef SIXSTEP_FOUR_LANES
 #define SIXSTEP_LANES four_lanes
 #else
@@ -15,8 +14,8 @@
 
 namespace sixstep::series {
 
-/// Two numbers of any scalar side by side. For double the pair is one register (the vector extension of GCC
-/// and clang, which splits the pair on processors without such registers).
+/// Two numbers of any scalar type. For double a pair is one register, by the vector extension of GCC and
+/// clang. On processors without such registers the compiler splits the pair.
 template <class Real>
 struct PlainPair {
   Real lane[2];
@@ -101,7 +100,7 @@ struct Nodes {
   }
 };
 
-/// The sum over all lanes, also over an unused lane. Even and odd nodes are summed separately, then both sums
+/// Sum over all lanes, including an unused lane. Even and odd nodes are summed separately, then the two sums
 /// are added.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real total(const Nodes<points, Real>& v) {
@@ -137,7 +136,7 @@ template <int points, class Real>
 
 #ifdef SIXSTEP_FOUR_LANES
 
-/// The most frequent number of nodes, four, in one register.
+/// Four nodes, the most frequent number, in one register.
 template <>
 struct Nodes<4, double> {
   typedef double Row __attribute__((vector_size(32)));

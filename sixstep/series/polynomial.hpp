@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Taylor coefficients of one segment in the segment's own time s in [0, 1], the fraction of its length h.
-// Coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment have the same degree.
+// Taylor coefficients of one segment as a function of s in [0, 1], the elapsed fraction of the segment's
+// length h. Coefficient j of y is (h^j/j!) d^j y/dt^j. All series of a segment have the same degree.
 #pragma once
 #include <array>
 
 namespace sixstep::series {
 
-/// With degree 16 the rounding level is reached over about half a time constant. A higher degree costs time
-/// and does not lengthen segments (model.md 12).
+/// With degree 16 a segment of about half a time constant is exact to rounding. A higher degree costs time
+/// and does not allow longer segments (model.md 12).
 inline constexpr int max_degree = 16;
 
 template <class Real>
@@ -27,8 +27,8 @@ inline Real evaluate(const Coefficients<Real>& c, int degree, Real s) {
 }
 
 /// Coefficient n of the product of two series (Cauchy); n is a compile-time constant and the sum is unrolled.
-/// The newest coefficients are last in the sum: a recurrence can sum all others while the newest are still
-/// being computed.
+/// The newest coefficients are added last, so that a recurrence can sum all others while it still computes
+/// the newest.
 template <int n, class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
   if constexpr (n == 0) {
@@ -41,9 +41,9 @@ inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& 
   }
 }
 
-/// Coefficient n >= 1 of (a - a[0]) b. It does not depend on the newest coefficient of b: a recurrence never
-/// waits for this sum. The sum begins with a product, because an addition to zero would be another operation
-/// in the chain.
+/// Coefficient n >= 1 of (a - a[0]) b. This sum does not depend on the newest coefficient of b, so that a
+/// recurrence need not wait for it. The sum begins with a product, because an addition to zero would be an
+/// additional operation in the chain.
 template <int n, class Real>
 inline Real increment_product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
   if constexpr (n == 1) {
@@ -62,7 +62,7 @@ inline Real increment_product_term(const Coefficients<Real>& a, const Coefficien
   }
 }
 
-/// Half of coefficient n >= 2 of (a - a[0])^2: each pair of factors is counted once.
+/// Half of coefficient n >= 2 of (a - a[0])^2: each pair of factors is added once.
 template <int n, class Real>
 inline Real half_increment_square_term(const Coefficients<Real>& a) {
   Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] * Real(0.5) : a[n / 2] * a[n / 2 + 1];
@@ -72,7 +72,7 @@ inline Real half_increment_square_term(const Coefficients<Real>& a) {
   return sum;
 }
 
-/// Coefficient n of the product of two series, if n is known only at run time.
+/// Coefficient n of the product of two series, for an n that is not a compile-time constant.
 template <class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
   Real sum = 0;
@@ -88,8 +88,8 @@ inline Real integral(const Coefficients<Real>& c, int degree, Real to) {
   return sum * to;
 }
 
-/// Integral of the product of two polynomials over s from 0 to `to`, in units of h. It is exact to rounding,
-/// because all 2 degree + 1 terms are summed.
+/// Integral of the product of two polynomials over s from 0 to `to`, in units of h. The result is exact to
+/// rounding, because all 2 degree + 1 terms are summed.
 template <class Real>
 inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Real>& b, int degree, Real to) {
   Real sum = 0;
@@ -104,7 +104,7 @@ inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Rea
   return sum * to;
 }
 
-/// The part of a polynomial over [from, to], with its own s from 0 to 1 (Taylor shift, then scaling).
+/// The polynomial over [from, to], as a function of a new s from 0 to 1 (Taylor shift, then scaling).
 template <class Real>
 inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from, Real to) {
   if (from != 0)

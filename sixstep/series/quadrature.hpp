@@ -2,13 +2,14 @@
 // Integrals over a segment without divisions. Products are integrated from a few values of their factors by
 // Gauss-Legendre, which is exact for polynomials of degree 2 points - 1 (Abramowitz and Stegun 25.4.29).
 //
-// Products of two series of degree n have degree 2 n, but fewer points suffice. x is the fastest rate times
-// the segment's length, M the magnitude of the solution and u = 2^-53. Taylor coefficients of a solution are
-// at most M x^j/j!, and a series ends at the degree n with x^n/n! = u. A product f therefore has
-// |f^(j)| <= M^2 (2 x)^j e^(2 x). The rule's error is E f^(2 points)/(2 points)!, with its error for
-// s^(2 points), E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points). For 2 points = n the
-// error is at most (pi/2) e^(2 x) 2^-n u M^2: u M^2/128 at n = 8 with x = 0.04, and less at any other degree
-// that the engine uses (7 to 16).
+// Products of two series of degree n have degree 2 n, but fewer points suffice. Let x be the fastest rate
+// times the segment's length, M the magnitude of the solution, and u = 2^-53.
+// - Taylor coefficients of a solution are at most M x^j/j!. A series ends at the degree n with x^n/n! = u.
+// - The derivatives of a product f of two series are therefore bounded: |f^(j)| <= M^2 (2 x)^j e^(2 x).
+// - The rule's error is E f^(2 points)/(2 points)!. E is the rule's error for s^(2 points),
+//   E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points).
+// - For 2 points = n the error is at most (pi/2) e^(2 x) 2^-n u M^2. This is u M^2/128 at n = 8 with x =
+//   0.04, and less at all other degrees that the engine uses (7 to 16).
 #pragma once
 #include <array>
 #include <bit>
@@ -21,7 +22,7 @@
 
 namespace sixstep::series {
 
-/// 1/(n + 1), rounded once. A product with it is five times as fast as a division.
+/// 1/(n + 1), rounded once. A multiplication by this number is five times as fast as a division.
 template <class Real>
 inline constexpr Coefficients<Real> reciprocals = [] {
   Coefficients<Real> out{};
@@ -37,7 +38,7 @@ inline Real whole_integral(const Coefficients<Real>& c, int degree) {
   return c[0] + sum;
 }
 
-/// Number of points with which products of two series of this degree are exact enough (see above).
+/// Number of points for products of two series of this degree, according to the error above.
 constexpr int points_for(int degree) { return degree < 5 ? 3 : (degree + 1) / 2; }
 
 /// Nodes and weights over [0, 1]: roots of the Legendre polynomial, with more digits than a double has.
@@ -114,8 +115,8 @@ template <int points, class Real>
   return v;
 }
 
-/// Returns v if `wanted`, else zero, also if v is NaN. There is no branch, because a branch would often be
-/// mispredicted.
+/// Returns v if `wanted` is true, else zero, also for a NaN. The function avoids a branch, because the
+/// processor would often mispredict it.
 template <class Real>
 [[gnu::always_inline]] inline Real only_if(bool wanted, Real v) {
   if constexpr (std::is_same_v<Real, double>)
@@ -124,10 +125,10 @@ template <class Real>
     return wanted ? v : Real(0);
 }
 
-/// Values of a series whose degree needs exactly `points` points. Even and odd powers are summed separately,
-/// which halves the latency. The number of terms is always even: an odd degree has an additional zero term,
-/// because a varying number would be mispredicted. Call the function for one series after the other: if all
-/// series were summed order by order, the compiler would store and load all coefficients.
+/// Values of a series for whose degree points_for() is `points`. Even and odd powers are summed separately,
+/// which halves the latency. The loop always has the same number of terms, if necessary with a zero term,
+/// because the processor would mispredict a varying number. Call the function separately for each series. If
+/// all series were summed together order by order, the compiler would store and load all coefficients.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_of_fitting(const Coefficients<Real>& c, int degree,
                                                                     const Nodes<points, Real>& s) {
@@ -160,7 +161,7 @@ template <int points, class Real>
   return weighted_sum<points>(a * b);
 }
 
-/// Values times the rule's weights, for the sum by totals(); an unused lane is zero.
+/// Values times the rule's weights, to be summed by totals(). An unused lane is zero.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> weighted(const Nodes<points, Real>& v) {
   auto weight = as_nodes<points, Real>(gauss<points>.weight);
@@ -173,7 +174,7 @@ template <int points, class Real>
 /// Calls visit.template operator()<points>() with the number of points that `degree` needs.
 template <class Visit>
 [[gnu::always_inline]] inline auto with_points_for(int degree, Visit&& visit) {
-  if (degree == 8 || degree == 7) return visit.template operator()<4>();  // nearly all degrees in a run
+  if (degree == 8 || degree == 7) return visit.template operator()<4>();  // the most frequent degrees
   switch (points_for(degree)) {
     case 3:
       return visit.template operator()<3>();

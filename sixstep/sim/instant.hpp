@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time is counted, not summed: an integer count of picoseconds (an int64 can count 106 days) plus an offset
-// within the picosecond. Instants from a file are whole ticks; PWM edges and located events have an offset.
+// Instants without accumulated rounding errors: an integer number of picoseconds (106 days fit into an int64)
+// plus an offset within the picosecond. Instants from a file are whole ticks. PWM edges and located events
+// have an offset.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -18,7 +19,7 @@ struct Instant {
 
   constexpr bool operator==(const Instant&) const = default;
   friend constexpr bool operator<(const Instant& a, const Instant& b) {
-    // Equal ticks are rare: the processor predicts the branch well and does not read the offsets.
+    // Equal ticks are rare. The processor therefore predicts the branch well and seldom reads the offsets.
     // mutant: a.offset < b.offset => a.offset <= b.offset
     return a.ticks != b.ticks ? a.ticks < b.ticks : a.offset < b.offset;
   }
@@ -26,7 +27,7 @@ struct Instant {
   friend constexpr bool operator<=(const Instant& a, const Instant& b) { return !(b < a); }
   friend constexpr bool operator>=(const Instant& a, const Instant& b) { return !(a < b); }
 
-  /// The instant that is later by `count` ticks, which need not be an integer.
+  /// The instant that is later by `count` ticks; `count` need not be an integer.
   Instant plus_ticks(double count) const {
     const double sum = offset + count;
     auto whole = static_cast<std::int64_t>(sum);
@@ -41,13 +42,13 @@ struct Instant {
   double seconds() const { return (static_cast<double>(ticks) + offset) / ticks_per_second; }
 };
 
-/// The tick nearest to a time in seconds, for times in files.
+/// The tick nearest to a time in seconds, for times from files.
 inline Instant to_instant(double seconds) {
   // mutant: seconds * ticks_per_second + 0.5 => seconds * ticks_per_second
   return {static_cast<std::int64_t>(std::floor(seconds * ticks_per_second + 0.5)), 0.0};
 }
 
-/// Time from one instant to a later instant, s. Its error is the rounding of the difference; it does not grow
+/// Time from one instant to a later instant, s. The error is the rounding of the difference and does not grow
 /// with the instants.
 inline double seconds_between(const Instant& from, const Instant& to) {
   // mutant: (to.offset - from.offset) => 0.0

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run loop. Known instants are scheduled; only instants that depend on the state are searched for.
+// The run loop. Instants that are known in advance are scheduled. The loop searches only for instants that
+// depend on the state.
 //
 //   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> end there -> observe -> advance -> apply ONE event
 //
 // A System provides
 //   Instant now() const                    the present instant
 //   Instant next_known() const             the next scheduled instant, > now after act()
-//   bool act()                             executes everything that is due now, by its own clocks (never by
-//                                          the planned end of a step); false if a fault stops the run
+//   bool act()                             executes all actions that are due at now(), never at the planned end
+//                                          of a step; false if a fault stops the run
 //   double expand(double h)                makes the discrete state consistent and the polynomials valid over the
 //                                          returned length, <= h; negative if no consistent state exists
 //   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay
-//                                          >= 0; guards that snap a state come first, because they win a tie
+//                                          >= 0; guards whose event sets a state exactly come first: of several
+//                                          guards at one instant the first is applied
 //   void end_at(Real s)                    ends the segment at the fraction s of the expanded length
 //   void advance(Real s, Instant to)       advances the state to the segment's end, at the instant `to`
-//   void apply(id)                         applies the one located event
+//   void apply(id)                         applies the located event
 // An Observer provides segment(system, s), which is called before the system advances over [0, s] of its
-// expansion. It may also provide done(): if it returns true, the run ends after the present event.
+// expansion. An Observer may also provide done(): if done() is true, the run ends after the present event.
 #pragma once
 #include <cstdint>
 
@@ -29,7 +31,7 @@ enum class Stop : std::uint8_t {
   end,         ///< the end was reached
   observer,    ///< the observer's done() returned true
   fault,       ///< act() returned false
-  unsettled,   ///< no consistent discrete state: an error of the model
+  unsettled,   ///< the model has no consistent discrete state
   no_progress  ///< more than a hundred events without progress of time
 };
 
@@ -43,8 +45,8 @@ struct NoObserver {
   void segment(const System&, Real) {}
 };
 
-/// Largest number of successive steps without progress of time. Steps of zero length are allowed; more of
-/// them in a row stop the run (pitfall 7).
+/// Largest number of successive steps without progress of time. A longer sequence
+/// of steps of zero length stops the run (architecture.md, pitfall 7).
 inline constexpr int stalled_limit = 100;
 
 template <class System, class Observer>

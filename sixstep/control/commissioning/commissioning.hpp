@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commissioning: the drive measures the motor that is connected to it.
-// - Steps of the voltage give resistance and inductance.
-// - A slow turn in each direction gives the table of the Hall lines.
-// - A fast turn gives the flux linkage.
-// The data of converters and timer and the allowed current must be known. No data of the motor is needed.
+// - Steps of the voltage determine resistance and inductance.
+// - A slow turn in each direction determines the table of the Hall lines.
+// - A fast turn determines the flux linkage.
+// Commissioning needs the data of converters and timer, and the allowed current. It needs no data of the
+// motor.
 //
 //   zeroing    measures the offsets of the three amplifiers, with the bridge off
 //   rising     raises a voltage vector until the test current flows. The vector lengths at half of the test
 //              current and at the test current are the two levels.
-//   leaning    pulls the rotor to a quarter turn. A pull to 0 at once would fail if the rotor rested at half
-//   a
-//              turn, where the torque is 0.
+//   leaning    pulls the rotor to a quarter turn. A direct pull to 0 would fail if the rotor rested at half
+//              a turn, where the torque is 0.
 //   aligning   pulls the rotor to 0, where it rests until the end of the steps
-//   stepping   level_steps.hpp
-//   turning    hall_survey.hpp, forward and backward
+//   stepping   switches between the two levels, to measure R and L (level_steps.hpp)
+//   turning    turns the field slowly forward and backward, to record the Hall edges (hall_survey.hpp)
 //   spinning   accelerates the rotor until the back-EMF is half of the applied voltage
-//   measuring  flux_turn.hpp; spinning and measuring are repeated at three quarters of the speed. If the two
-//              results differ, the rotor was lost: it is aligned and spun again with a quarter of the
-//              acceleration.
+//   measuring  measures the flux linkage (flux_turn.hpp). Spinning and measuring are repeated at three
+//              quarters of the speed. If the two results differ, the rotor did not follow the field. It is
+//              then aligned and spun again with a quarter of the acceleration.
 //   done, failed
 //
 // Call commissioning_step once per control tick, and commissioning_hall in the interrupt of the Hall pins.

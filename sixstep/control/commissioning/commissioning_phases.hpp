@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the control tick of each commissioning phase. commissioning.hpp gives the order of the phases.
+// Runs the control tick of each commissioning phase. The order of the phases is in commissioning.hpp.
 #pragma once
 #include <cstdint>
 
@@ -26,7 +26,7 @@ enum class CommissioningFault : std::uint8_t {
   offset,     ///< the offset of an amplifier is out of tolerance
   current,    ///< the longest vector does not reach the test current: a wire is open, or the test current is
               ///< too high
-  winding,    ///< the two levels give no resistance or no time constant
+  winding,    ///< the currents of the two levels allow no result for resistance or time constant
   not_turned  ///< the rotor did not follow even the slowest acceleration
 };
 
@@ -67,8 +67,9 @@ struct CommissioningState {
   std::uint64_t way = 0;           ///< angle turned at the wanted speed, 2^-32 turns
   std::int8_t direction = 1;
   std::uint8_t tries = 0;
-  bool held = false;            ///< in phase spinning: the rotor is fast enough, and the speed is held
-  std::int32_t spin_speed = 0;  ///< the speed that is held
+  bool held = false;            ///< true: in phase `spinning` the rotor is fast enough, and the field's speed
+                                ///< stays constant
+  std::int32_t spin_speed = 0;  ///< the field's constant speed while `held` is true
   LevelStepsState steps{};
   HallSurveyState hall{};
   FluxTurnState turn{};
@@ -143,8 +144,8 @@ constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::u
     state.way += static_cast<std::uint64_t>(wanted < 0 ? -static_cast<std::int64_t>(wanted) : wanted);
 }
 
-/// One tick of the slow turn. The rotor's swing decays during the first turn in each direction. The pins at
-/// the end of this first turn are the first code.
+/// One tick of the slow turn. The rotor's oscillation decays during the first turn in each direction. The
+/// first recorded code is read at the end of this turn.
 constexpr void turning_tick(const CommissioningConfig& config, CommissioningState& state, std::uint8_t pins) {
   const std::uint64_t before = state.way;
   const auto slow = static_cast<std::int32_t>(config.slow_speed);
@@ -165,8 +166,8 @@ constexpr std::uint32_t size_of(std::int32_t speed) {
   return static_cast<std::uint32_t>(speed < 0 ? -speed : speed);
 }
 
-/// Starts the fast turn again from rest, with a quarter of the acceleration, because the rotor was lost or is
-/// too slow.
+/// Starts the fast turn again from rest, with a quarter of the acceleration. The caller found that the rotor
+/// did not follow the field or is too slow.
 constexpr void spin_again(const CommissioningConfig& config, CommissioningState& state) {
   state.turn = FluxTurnState{};
   state.magnet = FluxTurnReading{};
@@ -184,7 +185,7 @@ constexpr void spinning_tick(const CommissioningConfig& config, CommissioningSta
   const auto fastest = static_cast<std::int32_t>(config.fastest_speed);
   const std::uint32_t gentle = config.acceleration >> (2 * state.tries);
   turn_field(state, state.held ? state.spin_speed : fastest, gentle == 0 ? 1 : gentle);
-  if (state.speed <= 0) state.turn = FluxTurnState{};     // the field still turns back
+  if (state.speed <= 0) state.turn = FluxTurnState{};     // the field still turns backward
   if (state.speed <= 0 || state.angle >= before) return;  // a turn ends where the angle wraps
   const FluxTurnReading turn = flux_turn_reading(state.winding, state.turn, state.v, size_of(state.speed));
   state.turn = FluxTurnState{};
@@ -195,7 +196,7 @@ constexpr void spinning_tick(const CommissioningConfig& config, CommissioningSta
     state.way = 0;
     return;
   }
-  // Waits until the rotor's swing has decayed, for as many turns as the measurement then takes.
+  // The rotor's oscillation decays during as many turns as the measurement lasts.
   if (state.held && state.way >= one_turn * config.flux_turns) enter(state, CommissioningPhase::measuring);
 }
 
@@ -212,8 +213,8 @@ constexpr void measuring_tick(const CommissioningConfig& config, CommissioningSt
     state.spin_speed -= state.spin_speed / 4;
     return enter(state, CommissioningPhase::spinning);
   }
-  // A rotor that slips or swings also has a back-EMF, but its back-EMF is not proportional to the field's
-  // speed.
+  // A rotor that slips or oscillates also induces a back-EMF, but this back-EMF is not proportional to the
+  // field's speed.
   const std::int32_t off = reading.flux - state.magnet.flux;
   if ((off < 0 ? -off : off) > state.magnet.flux / 32) return spin_again(config, state);
   enter(state, CommissioningPhase::done);

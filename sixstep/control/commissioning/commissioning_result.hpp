@@ -6,8 +6,9 @@
 //
 // r, tau, f: the readings `resistance`, `tau` and `flux`. u: V per count, i: A per count, T: control period.
 // R is the resistance of a phase and a switch. L is measured along the magnet's axis. psi is the flux linkage
-// of the back-EMF's fundamental: the fundamental's peak in a phase over the electrical speed. For a sine psi
-// is K_e/p, for the trapezoid of 120 degrees 1.2159 K_e/p.
+// of the back-EMF's fundamental: the fundamental's peak in a phase divided by the electrical speed. For a
+// sinusoidal back-EMF psi is K_e/p, for a trapezoid of 120 degrees 1.2159 K_e/p. K_e is a phase's peak
+// back-EMF per mechanical rad/s, p the number of pole pairs.
 #pragma once
 #include "sixstep/control/commissioning/commissioning.hpp"
 #include "sixstep/control/units.hpp"
@@ -17,16 +18,17 @@ namespace sixstep::control {
 /// SI units per unit of a reading; in fixed point divided by the base and by the format's last digit.
 template <class Scalar>
 struct CommissioningScale {
-  Gain<Scalar> ohm{};        ///< per 2^-20 bus counts per current count
-  Gain<Scalar> henry{};      ///< per 2^-12 bus counts per current count, times ticks
-  Gain<Scalar> weber{};      ///< per 2^-4 bus counts, times ticks in a turn
-  Gain<Scalar> half_turn{};  ///< half a turn in degrees over the base of positions
+  Gain<Scalar> ohm{};        ///< ohm per unit of 2^-20 bus counts per current count
+  Gain<Scalar> henry{};      ///< H per unit of 2^-12 bus counts times ticks per current count
+  Gain<Scalar> weber{};      ///< V s per unit of 2^-4 bus counts times ticks per turn
+  Gain<Scalar> half_turn{};  ///< half a turn in degrees divided by the base of positions
 };
 
 template <class Scalar>
 struct Commissioned {
   Scalar R_ohm{}, L_H{}, flux_linkage_Vs{};
-  Scalar hall_offset_deg{};  ///< mean angle by which the edges are ahead of 60 n, electrical degrees
+  Scalar hall_offset_deg{};  ///< mean angle by which the edges are ahead of multiples of 60 degrees,
+                             ///< electrical degrees
   Scalar hall_lag_deg{};     ///< mean lag of the edges in each direction, electrical degrees
 };
 
@@ -43,12 +45,12 @@ struct CommissioningBoard {
 struct CommissioningWish {
   double test_A = 0.0;             ///< current that the motor withstands for several seconds
   double settle_s = 0.2;           ///< time until the rotor rests
-  double step_s = 0.02;            ///< duration of a level; ten electrical time constants
+  double step_s = 0.02;            ///< duration of a level; choose about ten electrical time constants
   double slow_turns_s = 10.0;      ///< speed of the slow turn, electrical turns per second
   double fastest_turns_s = 500.0;  ///< largest speed, electrical turns per second
   double spin_up_s = 1.0;          ///< time to the largest speed at the first try
-  std::uint8_t tries = 4;          ///< number of tries; each try has a quarter of the acceleration of the try
-                                   ///< before
+  std::uint8_t tries = 4;          ///< number of tries; each new try uses a quarter of the previous
+                                   ///< acceleration
 };
 
 constexpr CommissioningConfig commissioning_config(const CommissioningBoard& board,
@@ -65,7 +67,7 @@ constexpr CommissioningConfig commissioning_config(const CommissioningBoard& boa
   config.steps.ticks = static_cast<std::uint16_t>(step < 8 ? 8u : step > 65532u ? 65532u : step);
   config.steps.late_half_ticks = board.late_half_ticks;
   config.slow_speed = whole(wish.slow_turns_s * turn);
-  const double fastest = wish.fastest_turns_s * turn;  // the next line bounds it to a sixteenth of a turn per
+  const double fastest = wish.fastest_turns_s * turn;  // the next line limits it to a sixteenth of a turn per
                                                        // tick
   config.fastest_speed = static_cast<std::uint32_t>(fastest < 268435456.0 ? fastest : 268435456.0);
   const double spin_up_ticks = wish.spin_up_s / board.period_s;

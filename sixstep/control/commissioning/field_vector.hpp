@@ -5,10 +5,11 @@
 //   v_k = v cos(angle - 120 k),   d_k = 1/2 + v_k + v_0,  v_0 = -(max v_k + min v_k)/2     (model.md 11)
 //   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c)
 //
-// A rotation by -angle then gives the components of the current along and across the vector. v is the
-// vector's length, v_k and d_k are voltage and duty of leg k. All numbers are integers. Voltages are in units
-// of 2^-20 of the bus. Currents are in 24ths of a converter's count: the offsets are in eighths (adc.hpp),
-// and the formula gives 3 i. Only commissioning_result.hpp converts to V and A.
+// A rotation by -angle results in the components of the current along and across the vector. v is the
+// vector's length. v_k and d_k are voltage and duty of leg k = 0, 1, 2. v_0 is the common voltage that
+// centres the three duties. All numbers are integers. Voltages are in units of 2^-20 of the bus. Currents are
+// in 24ths of a converter's count: the offsets are in eighths (adc.hpp), and the result of the formula is 3
+// i. Only commissioning_result.hpp converts to V and A.
 #pragma once
 #include <cstdint>
 
@@ -65,7 +66,8 @@ constexpr LegCommands<Scalar> legs_of_vector(std::int32_t v, BinaryAngle angle) 
   return legs;
 }
 
-/// Components along an angle and across it of the three phase currents, which are in eighths of a count.
+/// Components of the three phase currents along `angle` and across it, in 24ths of a count. The currents are
+/// in eighths of a count.
 constexpr FieldVector seen_along(const std::int32_t (&eighths)[3], BinaryAngle angle) {
   const Direction<Q30> to = direction_of<Q30>(angle);
   const std::int32_t alpha = 2 * eighths[0] - eighths[1] - eighths[2];

@@ -7,8 +7,9 @@
 //
 // v: voltage vector, i: current, e: back-EMF, w: electrical speed, R and L of a phase. `lost` is the voltage
 // that dead time and diodes subtract from a vector along a phase (level_steps.hpp), 4/3 of the loss of one
-// leg. s is the vector of the signs of the legs' currents. The rotor's lag behind the vector has no
-// influence. A relative error of R changes psi by R i/e times this error; R i/e is below 2 at e = v/2.
+// leg. s is the vector of the signs of the legs' currents, and j w L i is the voltage of the inductance. The
+// rotor's lag behind the vector has no influence. A relative error of R changes psi by R i/e times this
+// error. R i/e is below 2 at e = v/2.
 #pragma once
 #include <cstdint>
 
@@ -24,16 +25,17 @@ struct FieldCurrent {
 /// Sums over the ticks of whole electrical turns.
 struct FluxTurnState {
   std::int64_t along = 0, across = 0;              ///< currents, 24ths of a count
-  std::int64_t signs_along = 0, signs_across = 0;  ///< signs of currents, 24 per leg
+  std::int64_t signs_along = 0, signs_across = 0;  ///< sums of the signs of the legs' currents; a sign counts
+                                                   ///< 24
   std::int64_t bus = 0;                            ///< bus voltage, counts
   std::uint32_t ticks = 0;
 };
 
 /// Voltages in 2^-8 bus counts; the flux in 2^-4 bus counts, times ticks in a turn.
 struct FluxTurnReading {
-  std::int32_t applied = 0;  ///< v, the vector
-  std::int32_t emf = 0;      ///< |e|, the back-EMF
-  std::int32_t flux = 0;     ///< |e| over the speed in turns per tick
+  std::int32_t applied = 0;  ///< v, length of the voltage vector
+  std::int32_t emf = 0;      ///< |e|, length of the back-EMF vector
+  std::int32_t flux = 0;     ///< |e| divided by the speed in turns per tick
 };
 
 constexpr void flux_turn_tick(FluxTurnState& state, const FieldCurrent& seen, std::uint16_t bus_counts) {

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds which code of the Hall pins belongs to which angle. A field turns the rotor slowly, forward and then
-// backward, and each edge is recorded with the field's angle. No data of the probes is needed:
+// Measures at which rotor angles the Hall pins change, and which code they have between. A field turns the
+// rotor slowly, forward and then backward, and each edge is recorded with the field's angle. The survey
+// finds, without data of the probes:
 // - which line is connected to which pin, and which lines are inverted,
 // - whether the probes are 120 or 60 degrees apart,
 // - the errors of the probes' positions.
 //
 // The rotor's d axis lags the field. The lag has three causes: friction divided by the torque of the current,
 // the delay of the field, and half of the probes' hysteresis. All three change their sign with the direction,
-// and cancel in the mean of both directions:
+// and cancel in the mean of the two directions:
 //
 //   edge = (forward + backward)/2,   lag = (forward - backward)/2          theta_e = theta_d + 150 degrees (model.md 7)
 //
-// Two errors do not change their sign: cogging, and a back-EMF that is no sine. In a standing field a rotor
-// whose back-EMF is a trapezoid of 120 degrees deviates by up to 1.12 degrees, and by 0 at each multiple of
-// 30 degrees. The error is larger if six times the rotor's electrical speed is near sqrt(1.5 p^2 psi I/J),
-// the frequency of the rotor's swing in the field.
+// Two causes of error do not change their sign: cogging, and a back-EMF that is not sinusoidal. In a field at
+// rest a rotor whose back-EMF is a trapezoid of 120 degrees deviates by up to 1.12 degrees. At each multiple
+// of 30 degrees the deviation is 0. The error is larger if six times the rotor's electrical speed is near
+// sqrt(1.5 p^2 psi I/J). This is the frequency at which the rotor oscillates in the field, with pole pairs p,
+// flux linkage psi, current I and inertia J.
 #pragma once
 #include <cstdint>
 
@@ -24,43 +26,45 @@
 
 namespace sixstep::control {
 
-/// Angle by which theta_e is ahead of the d axis. The d axis follows the field.
+/// Angle by which theta_e is ahead of the rotor's d axis, which follows the field.
 inline constexpr BinaryAngle electrical_ahead = 1789569707u;  // 150 degrees
 
 struct HallSurveyConfig {
   std::uint8_t turns = 2;                   ///< electrical turns that are recorded in each direction
-  BinaryAngle widest = binary_degrees(15);  ///< largest distance between edges into the same code
+  BinaryAngle widest = binary_degrees(15);  ///< largest distance between repeated edges of the same code
   bool operator==(const HallSurveyConfig&) const = default;
 };
 
-/// The edge that enters a code when the rotor turns forward. When the rotor turns backward, it leaves the
-/// code at this edge.
+/// The edge at which a code begins when the rotor turns forward. When the rotor turns backward, the code ends
+/// at this edge.
 struct SurveyedEdge {
-  BinaryAngle first[2]{};  ///< theta_e of the first such edge, forward and backward
-  std::int64_t sum[2]{};   ///< sum of the angles by which later edges are ahead of the first
+  BinaryAngle first[2]{};  ///< theta_e at the first record of the edge, forward and backward
+  std::int64_t sum[2]{};   ///< sum of the angles by which later records are ahead of the first record
   std::uint8_t count[2]{};
-  std::uint8_t before = 0xff;  ///< the code before the edge in forward direction
+  std::uint8_t before = 0xff;  ///< the code that ends at the edge when the rotor turns forward
 };
 
 struct HallSurveyState {
-  SurveyedEdge edge[8]{};  ///< indexed by the code that the edge enters in forward direction
+  SurveyedEdge edge[8]{};  ///< indexed by the code that begins at the edge when the rotor turns forward
   std::uint8_t pins = 0xff;
-  bool torn = false;  ///< true: edges of one code are too far apart, or the codes before them differ
+  bool torn = false;  ///< true: repeated edges of one code are too far apart, or the codes before them differ
 };
 
 enum class HallSurvey : std::uint8_t {
   good,
   dead_line,    ///< a pin never changed
-  other_codes,  ///< not six codes in one order in both directions: a shorted line, or other probes
-  not_steady    ///< edges of one code are too far apart, or edges were missed: the rotor does not follow
+  other_codes,  ///< the codes are not six in the same order in both directions: a line is shorted, or the
+                ///< probes have another arrangement
+  not_steady    ///< repeated edges of one code are too far apart, or edges were missed: the rotor does not
+                ///< follow the field
 };
 
-/// How the pins correspond to probes 120 degrees apart.
+/// Assignment of the pins to probes that are 120 degrees apart.
 struct HallLines {
   std::uint8_t sector[8] = {no_sector, no_sector, no_sector, no_sector,
                             no_sector, no_sector, no_sector, no_sector};  ///< sector of each code of the pins
   std::uint8_t probe[3]{};    ///< number 1..3 of the probe at pin H1, H2, H3
-  std::uint8_t inverted = 0;  ///< mask of the pins with the inverted signal of their probe
+  std::uint8_t inverted = 0;  ///< mask of the pins that carry the inverted signal of their probe
   bool operator==(const HallLines&) const = default;
 };
 
@@ -72,17 +76,19 @@ struct HallSurveyReading {
   bool plain = false;
   HallConfig config{};
   HallEdges edges{};        ///< electrical angle of each edge
-  std::int32_t offset = 0;  ///< mean angle by which the edges are ahead of 60 n degrees, signed angle
-  std::int32_t lag = 0;     ///< mean angle by which the edges came late in each direction, signed angle
+  std::int32_t offset = 0;  ///< mean angle by which the edges are ahead of multiples of 60 degrees, signed
+                            ///< angle
+  std::int32_t lag = 0;     ///< mean angle by which the edges lag in each direction, signed angle
 };
 
-/// The code of correctly connected probes 120 degrees apart for `pins`; 000 if there is none.
+/// The code that correctly connected probes, 120 degrees apart, have where the pins read `pins`; 000 if no
+/// sector has these pins.
 constexpr std::uint8_t as_wired(const HallLines& lines, std::uint8_t pins) {
   return hall_of_sector(lines.sector[pins & 7u]);
 }
 
 /// The pins changed to `pins` while the field was at angle `field` and turned in `direction`. The first call
-/// gives the code at rest.
+/// records the code without an edge.
 constexpr void hall_survey_edge(const HallSurveyConfig& config, HallSurveyState& state, std::uint8_t pins,
                                 std::int8_t direction, BinaryAngle field) {
   const std::uint8_t before = state.pins, now = pins & 7u;
@@ -108,7 +114,7 @@ constexpr BinaryAngle surveyed(const SurveyedEdge& edge, int way) {
   return edge.first[way] + static_cast<BinaryAngle>(edge.sum[way] / edge.count[way]);
 }
 
-/// Returns `good` if six codes follow each other in one ring and each edge was found in both directions.
+/// Returns `good` if six codes follow each other cyclically and each edge was found in both directions.
 constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSurveyState& state,
                                     std::uint8_t& dead_pins) {
   unsigned seen = 0, ones = 0, zeros = 0;
@@ -134,7 +140,7 @@ constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSu
 }
 
 /// Assigns a probe to each pin. Probes 1, 2, 3 rise at the begin of sectors 5, 1, 3 and fall at the begin of
-/// 2, 4, 0.
+/// sectors 2, 4, 0.
 constexpr void name_lines(HallLines& lines) {
   for (unsigned pin = 0; pin < 3; ++pin) {
     const unsigned bit = 4u >> pin;
@@ -167,7 +173,7 @@ constexpr void name_arrangement(HallSurveyReading& reading) {
 }
 
 /// Assigns sector and angle to each edge. Sector 0 begins at the edge nearest to 0 degrees. The mean offset
-/// of all six edges decides which edge that is.
+/// of all six edges determines this edge.
 constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& reading) {
   std::uint8_t ring[6]{};
   BinaryAngle at[6]{};
@@ -182,7 +188,8 @@ constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& read
     lag += apart / 2;
   }
   for (std::uint8_t n = 0; n < 6; ++n) ahead += way_between(at[0] + sector_angle(n), at[n]);
-  const BinaryAngle mean = at[0] + static_cast<BinaryAngle>(ahead / 6);  // mean position of ring[0]'s edge
+  const BinaryAngle mean = at[0] + static_cast<BinaryAngle>(ahead / 6);  // position of ring[0]'s edge,
+                                                                         // averaged over all edges
   const std::uint8_t first = sector_of_angle(mean + sector_angle(1) / 2);
   reading.offset = way_between(sector_angle(first), mean);
   for (std::uint8_t n = 0; n < 6; ++n) {

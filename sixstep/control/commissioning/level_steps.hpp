@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures resistance and time constant of a phase. The rotor rests in the direction of the voltage, which
 // steps between two levels. The currents have the same signs at both levels. Dead time and diodes therefore
-// subtract the same voltage at both, and this voltage cancels in the differences:
+// subtract the same voltage at both levels, and this voltage cancels in the differences:
 //
 //   R = (V_2 - V_1)/(I_2 - I_1),     lost voltage: V_2 - R I_2
 //
@@ -10,13 +10,14 @@
 // the lost voltage changes this area:
 //
 //   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, minus the delay from a sample to its voltage
-//   x = T/tau:  S = coth(x/2)/2 for samples at the ends of periods, 1/(2 sinh(x/2)) for samples in their
-//               middles
+//   x = T/tau:  S = coth(x/2)/2 for samples at the ends of periods, 1/(2 sinh(x/2)) for samples in the
+//               middles of periods
 //   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              exact to x^4/720 and x^4/640
 //
-// T is the control period. Steps up and down alternate, and their areas are added. The converters' rounding
-// changes I_2 - I_1 by at most 4/3 of a count (2/3 in each mean, by 2 i_a - i_b - i_c). If I_2 - I_1 is n
-// counts, rounding changes S by the fraction ln(2 n)/n.
+// T is the control period, tau = L/R the time constant, i_k the current at tick k and I_end its final value.
+// Steps up and down alternate, and their areas are added. The converters' rounding changes I_2 - I_1 by at
+// most 4/3 of a count (2/3 in each mean, by 2 i_a - i_b - i_c). If I_2 - I_1 is n counts, rounding changes S
+// by the fraction ln(2 n)/n.
 #pragma once
 #include <cstdint>
 
@@ -28,7 +29,7 @@ struct LevelStepsConfig {
   /// Ticks of a level, a multiple of 4. Choose ten time constants: the current is then constant in the last
   /// quarter.
   std::uint16_t ticks = 1024;
-  std::uint16_t pairs = 4;           ///< pairs of steps, up and down
+  std::uint16_t pairs = 4;           ///< number of pairs; a pair is a step up and a step down
   std::uint8_t late_half_ticks = 1;  ///< delay from a sample until its output acts at the legs: 0, 1 or 2
                                      ///< half ticks
   bool operator==(const LevelStepsConfig&) const = default;
@@ -55,7 +56,7 @@ struct LevelStepsReading {
   std::int32_t resistance = 0;         ///< 2^-20 bus counts per current count
   std::int32_t tau = 0;                ///< time constant, 2^-16 ticks
   std::int32_t lost = 0;               ///< voltage that dead time and diodes subtract, 2^-8 bus counts
-  std::int32_t higher = 0, lower = 0;  ///< currents of the two levels, 24ths of a count
+  std::int32_t higher = 0, lower = 0;  ///< mean currents at the two levels, 24ths of a count
 };
 
 /// Adds one tick's sample of the current along the vector; returns true when the last step is complete.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the position of a rotor at rest by short voltage pulses on the six pairs. The current at the end of a
-// pulse is V t/L. L depends on x, the angle from the magnet's north to the pair's axis, and on the current i
-// (symbols of model.md 7):
+// Finds the position of a rotor at rest by short voltage pulses on the six pairs. The current I_s at the end
+// of the pulse of sector s is V t/L, with voltage V, pulse length t and the pair's inductance L. L depends on
+// x, the angle from the magnet's north to the pair's axis, and on the current i (symbols of model.md 7):
 //
 //   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x
 //   x = 60 s - 30 degrees - theta_d for the pair of sector s
 //
 // y_s = 1/I_s is proportional to L.
-// - The second harmonic of the six values comes from saliency. It shows the magnet's axis, but not which end
-//   is north.
-// - The first harmonic comes from saturation. It shows north, and the axis roughly. It also decides which of
-//   the two inductances is the one along the magnet.
+// - The second harmonic of the six values results from saliency. It shows the magnet's axis, but not which
+//   end is north.
+// - The first harmonic results from saturation. It shows north, and roughly the axis. It also shows along
+//   which axis the magnet lies.
 //
 // Both harmonics are compared with the noise of the readings in the same rounds, and with the converters'
 // rounding:
@@ -24,7 +24,7 @@
 // I_0 is the mean of the six currents. Rounding by itself causes at most 5.1 times this deviation. A first
 // harmonic below 6 times the deviation is rejected (`seen` is false): the rotor is round, or the current is
 // too small to saturate it. A second harmonic must also exceed the amplifiers' difference of gain; otherwise
-// the first harmonic gives the angle. The rotor must not turn: opposite pairs follow each other, so that
+// the first harmonic determines the angle. The rotor must not turn: opposite pairs follow each other, so that
 // their torques cancel.
 #pragma once
 #include <cstdint>
@@ -38,11 +38,10 @@ namespace sixstep::control {
 struct PulsePositionConfig {
   AdcConfig<Q30> current{};       ///< offset: counts without current; the gain is not used
   std::uint16_t pulse_ticks = 0;  ///< control ticks of a pulse; 0: no pulses
-  std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until its current has ended: at least pulse_ticks
+  std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until the current is 0: at least pulse_ticks
   std::uint8_t rounds = 8;        ///< n, the number of rounds; at least two
   std::uint8_t certain =
-      6;  ///< least ratio of signal to noise; without a signal, noise reaches 6 once in e^18
-          ///< rounds
+      6;  ///< least ratio of a harmonic to the noise; noise alone reaches 6 once in e^18 results
   std::uint16_t amplifiers = 20;  ///< largest difference of gain between two amplifiers, 1/1000
   bool operator==(const PulsePositionConfig&) const = default;
 };
@@ -63,7 +62,7 @@ struct PulsePositionState {
 
 struct PulsePositionReading {
   bool seen = false;           ///< true: north was found
-  bool axis_seen = false;      ///< true: saliency gives the angle, which is the more exact result
+  bool axis_seen = false;      ///< true: saliency determines the angle, which is more exact
   BinaryAngle electrical = 0;  ///< theta_e, electrical angle of the rotor
   std::uint8_t sector = no_sector;
   std::uint32_t north_16 = 0, axis_16 = 0;  ///< ratios of the two signals to the noise, in 16ths
@@ -71,7 +70,7 @@ struct PulsePositionReading {
 
 namespace detail {
 
-/// Sector whose pair is pulsed at a step of a round. The opposite sector follows each sector.
+/// Sector whose pair is pulsed at a step of a round. Each sector is followed by the opposite sector.
 constexpr std::uint8_t pulsed_sector(std::uint8_t step) {
   return static_cast<std::uint8_t>((step / 2 + (step % 2) * 3) % 6);
 }
@@ -175,7 +174,7 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   std::int64_t y[6]{}, total_y = 0, total_I = 0;
   for (std::uint8_t s = 0; s < 6; ++s) {
     if (state.sum[s] < std::int64_t{512} * n)
-      return reading;  // less than 32 counts per phase: an open wire, or almost no pulse
+      return reading;  // less than 32 counts per phase: a wire is open, or the pulse is too short
     y[s] = detail::divided<std::int64_t>(std::int64_t{1} << 46, state.sum[s]);
     total_y += y[s];
     total_I += state.sum[s];
@@ -191,8 +190,8 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   reading.axis_seen =
       reading.axis_16 >= certain_16 && axis_20 * 1000 > static_cast<std::int64_t>(config.amplifiers) << 20;
   if (!reading.seen) return reading;
-  // The inductance is least along d. The angle is relative to the axis of sector 0's pair, which is at -30
-  // degrees; theta_e is 150 degrees ahead of theta_d.
+  // The inductance is least along d. The angle is relative to the axis of sector 0's pair, at -30 degrees.
+  // theta_e is 150 degrees ahead of theta_d.
   BinaryAngle d = vector_angle(-north.c, -north.s);
   if (reading.axis_seen) {
     const BinaryAngle half = vector_angle(axis.c, axis.s) / 2;

@@ -2,13 +2,12 @@
 // Starts a drive without a rotor position sensor. Six pulses first find the rotor (pulse_position.hpp):
 //
 //   off -> catching -> pulses -> ramping        north was found: the ramp begins in the rotor's sector,
-//   without
-//                                               alignment or swing
-//                           '---> aligning      north was not found: the start of sensorless.hpp without
-//                                               pulses
+//                                               without alignment or oscillation
+//                           '---> aligning      north was not found: the drive starts as without pulses
+//                                               (sensorless.hpp)
 //
-// Call these functions instead of the functions of sensorless_drive.hpp. With pulse_ticks = 0 both drives
-// behave alike.
+// Call these functions instead of the functions of sensorless_drive.hpp. With pulse_ticks = 0 the result is
+// that of sensorless_drive.hpp.
 #pragma once
 #include "sixstep/control/commissioning/pulse_position.hpp"
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
@@ -36,7 +35,8 @@ struct PulsedDriveInput {
   std::uint16_t current_counts[3]{};
 };
 
-/// Begins the ramp in the sector of `electrical`, with the field at the rotor's angle within this sector.
+/// Begins the ramp in the sector of `electrical`, with the field's angle equal to the rotor's angle within
+/// this sector.
 template <class Scalar>
 constexpr void sensorless_ramp_from(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                     BinaryAngle electrical, std::uint32_t now) {

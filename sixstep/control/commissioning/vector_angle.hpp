@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the angle of a vector by rotating it onto the axis in ever smaller steps (CORDIC), with integers
-// and no division. After 24 steps the error is 2^-24 rad plus 24 roundings, together below 1e-5 degrees.
+// Computes the angle of a vector: rotates the vector onto the x axis in decreasing steps (CORDIC), with
+// integers and without division. After 24 steps the error is 2^-24 rad plus 24 rounding errors, in total
+// below 1e-5 degrees.
 #pragma once
 #include "sixstep/control/commissioning/field_vector.hpp"
 
@@ -19,7 +20,7 @@ constexpr BinaryAngle vector_angle(std::int64_t x, std::int64_t y) {
     y = -y;
     angle = half_turn;
   }
-  // `most` times sqrt 2 and times 1.65, the gain of the steps, fits into an int64.
+  // Multiplied by sqrt 2 and by 1.65, the gain of the steps, `most` still fits into an int64.
   constexpr std::int64_t most = std::int64_t{1} << 60;
   while (x < most / 4 && y < most / 4 && y > -most / 4) {
     x *= 2;

@@ -2,14 +2,13 @@
 // Finds the direction of a turning magnet from its flux in the winding (Boldea, Paicu and Andreescu, Active
 // Flux Concept for Motion-Sensorless Unified AC Drives, IEEE Trans. PE 23, 2008). In the stator's frame, for
 // any saliency:
-// stator's frame, for any saliency:
 //
 //   lambda = integral(u - R i) dt        the winding's total flux
-//   psi_a  = lambda - L_q i              vector along the magnet, of length psi + (L_d - L_q) i_d
+//   psi_a  = lambda - L_q i              active flux: along the magnet, of length psi + (L_d - L_q) i_d
 //
-// u and i are voltage and current, psi is the magnet's flux linkage. An integral keeps its initial error. In
-// each period lambda therefore moves towards the flux of a magnet in the assumed direction theta^, by a
-// fraction g of the difference:
+// u and i are voltage and current, psi is the magnet's flux linkage. An integral keeps its initial error
+// forever. In each control period T, lambda therefore moves towards the flux of a magnet in the assumed
+// direction theta^, by a fraction g of the difference:
 //
 //   lambda[n] = lambda[n-1] + T (u - R (i[n] + i[n-1])/2) + g (L_q i + psi_a(theta^) - lambda)
 //
@@ -22,7 +21,7 @@
 
 namespace sixstep::control {
 
-/// With the default the result is 0.
+/// Default: the result is 0.
 template <class Scalar>
 struct ActiveFluxConfig {
   Gain<Scalar> period_s{};        ///< T, control period
@@ -40,8 +39,8 @@ struct ActiveFluxState {
   Scalar along{}, across{};     ///< psi_a at the last sample along and across the given direction, V s
 };
 
-/// One sample; `magnet` is the assumed direction. Returns the angle by which the magnet is ahead of that
-/// direction: approximately in radians, |x| <= 1.
+/// One sample; `magnet` is the assumed direction. Returns the angle by which the magnet is ahead of the
+/// assumed direction: approximately in rad, limited to -1..1.
 template <class Scalar>
 constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, ActiveFluxState<Scalar>& state,
                                   const AlphaBeta<Scalar>& mean_V, const AlphaBeta<Scalar>& i,
@@ -60,7 +59,7 @@ constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, Active
   state.across = seen.q;
   const Scalar size = magnitude(seen.d) + magnitude(seen.q);
   if (!(size > Scalar{})) return Scalar{};
-  // Approximately the sine of the angle. Beyond 90 degrees: 1, with the sign of the shorter rotation.
+  // Approximately the sine of the angle. Beyond 90 degrees: 1 or -1, the sign of the shorter rotation.
   const Scalar part = seen.q / size;
   return seen.d < Scalar{} ? (seen.q < Scalar{} ? -one<Scalar> : one<Scalar>) : part;
 }

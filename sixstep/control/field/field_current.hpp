@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the currents along the magnet (d) and across it (q). The rotation couples the two axes (model.md
-// 11):
+// Controls the currents along the magnet (d) and across it (q). The rotor's rotation couples the two axes
+// (model.md 11):
 //
 //   v_d = R i_d + L_d di_d/dt - w_e L_q i_q              e_d = -w p L_q i_q
 //   v_q = R i_q + L_q di_q/dt + w_e (L_d i_d + psi)      e_q =  w (p L_d i_d + p psi)
 //
-// v, i: phase voltage and current, w: mechanical speed, w_e = p w, psi: the magnet's flux linkage. Each axis
-// has a PI (pi.hpp). With decoupling, e is added to the PI's output: the PI then controls a winding of R and
-// L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The voltage has one of two
-// limits:
+// v, i: phase voltage and current, e: coupling voltage, w: mechanical speed, w_e = p w, psi: the magnet's
+// flux linkage. Each axis has a PI (pi.hpp). With decoupling, e is added to the PI's output. The PI then
+// controls a winding of R and L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The
+// voltage has one of two limits:
 //
-//   axes     each axis has the limit of its own PI
-//   circle   |v| <= U_s/sqrt 3, the longest vector that three legs produce in every direction. d has
-//   priority,
-//            because it weakens the field when the bus is too low. q is limited to sqrt(U_s^2/3 - v_d^2).
+//   axes     the limit of each axis is `limit` of the axis's PI
+//   circle   |v| <= U_s/sqrt 3, the longest vector that three legs produce in every direction at the bus
+//            voltage U_s. v_d has priority, because i_d weakens the field when the bus voltage is too low.
+//            v_q is limited to sqrt(U_s^2/3 - v_d^2).
 //
 // In both cases the PI's state is its output after the limit, minus e. The state therefore cannot wind up,
-// although the bound changes with the speed and with the other axis.
+// although the bound changes with the speed and with the voltage of the second axis.
 //
-// If the rotation needs more than 0.9 of the available voltage, v_q would be too small if d had priority. The
-// magnet would then drive a current that needs even more v_d: up to twice psi/L_d. In this case v moves back
-// to the circle along the line to the voltage that holds the reference, and the integrals rest. A drive that
-// does not decouple its axes then decouples only the deviation from the reference (reachable_current.hpp).
+// If the rotation needs more than 0.9 of the available voltage, v_q would be too small if v_d had priority.
+// The magnet would then drive a current that needs even more v_d, up to a current of twice psi/L_d. In this
+// case v moves back to the circle, along the line to the voltage that a constant current at the reference
+// needs. The integrals do not change. A drive without decoupling then decouples only the deviation from the
+// reference (reachable_current.hpp).
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/pi.hpp"
@@ -31,16 +32,18 @@ namespace sixstep::control {
 
 enum class VoltageLimit : std::uint8_t { axes, circle };
 
-/// With the defaults the voltage is 0.
+/// Default: the voltage is 0.
 template <class Scalar>
 struct FieldCurrentConfig {
-  PiConfig<Scalar> d{}, q{};  ///< A -> V of a phase; their `limit` applies to VoltageLimit::axes only
+  /// They convert the current error in A to a phase voltage in V. Their `limit` applies to VoltageLimit::axes
+  /// only.
+  PiConfig<Scalar> d{}, q{};
   VoltageLimit limit = VoltageLimit::circle;
   bool decouples = false;
   Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s of the coupling to q
   Gain<Scalar> q_V_s_A{};     ///< p L_q: V per A and mechanical rad/s of the coupling to d
   Gain<Scalar> magnet_V_s{};  ///< p psi: V per mechanical rad/s, the back-EMF's fundamental
-  Gain<Scalar> R_ohm{};       ///< resistance of a phase, for the voltage that holds a constant current
+  Gain<Scalar> R_ohm{};       ///< resistance of a phase, for the voltage of a constant current
   bool operator==(const FieldCurrentConfig&) const = default;
 };
 
@@ -50,7 +53,7 @@ struct FieldCurrentState {
   Dq<Scalar> voltage{};  ///< last output, V of a phase
 };
 
-/// e, V: voltage that couples the axes when the rotor turns, at the measured current, with a sine's back-EMF.
+/// e, V: coupling voltage of the rotation at the measured current, for a sinusoidal back-EMF.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -81,7 +84,7 @@ constexpr Scalar voltage_reach(const FieldCurrentConfig<Scalar>& config, Scalar 
   return config.limit == VoltageLimit::circle ? voltage_circle(bus_V) : config.q.limit;
 }
 
-/// Voltage that holds a constant current, V.
+/// Voltage at which the current `current` is constant, V.
 template <class Scalar>
 constexpr Dq<Scalar> holding_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -97,8 +100,8 @@ constexpr bool is_within(const Dq<Scalar>& v, Scalar radius) {
   return !(v.d * v.d + v.q * v.q > radius * radius);
 }
 
-/// Where the line from a point within the circle to a point outside of it meets the circle, as a fraction of
-/// the line.
+/// Intersection of the circle with the line from a point inside to a point outside, as a fraction of the
+/// line.
 template <class Scalar>
 constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar radius) {
   const Dq<Scalar> way{to.d - from.d, to.q - from.q};
@@ -121,7 +124,8 @@ constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scala
          !is_within(holding_voltage(config, measured, speed_rad_s), radius);
 }
 
-/// Sum of the PI's output and e, within +-most; at the limit it is exactly the limit.
+/// Sum of the PI's output and e, limited to +-most. A limited sum is exactly the limit, without a rounding
+/// error.
 template <class Scalar>
 constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar e,
                               Scalar most) {
@@ -130,7 +134,7 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
   return u == high ? most : u == low ? -most : u + e;
 }
 
-/// Coupling voltage of the deviation from the reference, V.
+/// Coupling voltage of the measured current minus coupling voltage of the reference, V.
 template <class Scalar>
 constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                                   const Dq<Scalar>& measured, Scalar speed_rad_s) {
@@ -139,9 +143,9 @@ constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, cons
   return {is.d - to.d, is.q - to.q};
 }
 
-/// Voltage while the bus is too low: the outputs of both loops. If they lie outside of the circle, the
-/// integrals keep their last state, and the output moves to the circle along the line to the voltage that
-/// holds the reference.
+/// Voltage while the bus voltage is too low: the outputs of both loops. If the outputs are outside of the
+/// circle, the integrals keep their last state. The output then moves to the circle, along the line to the
+/// voltage at which the reference current is constant.
 template <class Scalar>
 constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, FieldCurrentState<Scalar>& state,
                                    const Dq<Scalar>& reference, const Dq<Scalar>& error, const Dq<Scalar>& e,
@@ -165,7 +169,8 @@ constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, Fie
 
 }  // namespace detail
 
-/// One control tick with a given e. Returns the phase voltages to apply, V, in the rotor's frame.
+/// One control tick with a given coupling voltage e. Returns the phase voltages to apply, V, in the rotor's
+/// frame.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar>& config,
                                                  FieldCurrentState<Scalar>& state,

@@ -6,7 +6,7 @@
 //
 // n: periods between the sample and the begin of its output, T: control period, w_e: electrical speed. An
 // output that is rotated into the stator's frame by theta_d instead of theta_d' lags by (n + 1/2) T w_e. With
-// a lag of 90 degrees all of v_q would act along d.
+// a lag of 90 degrees v_q would act along d only.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/sensing/binary_angle.hpp"
@@ -22,7 +22,7 @@ struct FieldDirections {
   BinaryAngle angle = 0;  ///< `sampled` as an angle, for quantities that depend on the angle itself
 };
 
-/// With the default there is no advance.
+/// Default: no advance.
 template <class Scalar>
 struct FieldAdvanceConfig {
   Gain<Scalar> rad_s{};  ///< (n + 1/2) T p: electrical rad per mechanical rad/s; clamped to 1 rad

@@ -4,17 +4,18 @@
 // field_drive_step() once per control tick; a Hall edge needs no call.
 //
 // The reference of Mode::current, and the output of the speed loop, is i_q: the amplitude of the phase
-// currents that produce torque, T = 3/2 p psi i_q for a round rotor. i_d* is the sum of two currents: the
-// current of most torque per ampere, and the current that weakens the field.
+// currents that produce torque. For a round rotor the torque is 3/2 p psi i_q, with pole pairs p and flux
+// linkage psi. The reference of i_d is the sum of two currents: the current of most torque per ampere, and
+// the current that weakens the field.
 //
-// If the back-EMF is no sine, i_d and i_q may follow its shape (harmonic_current.hpp). The reference is then
-// the constant i_q with the same mean torque. In a cascade the vector of i_d and i_q is limited to
-// current_limit_A. i_d has priority; the speed PI is limited to the rest, so that it does not wind up.
+// If the back-EMF is not sinusoidal, i_d and i_q may follow its shape (harmonic_current.hpp). The reference
+// is then the constant i_q with the same mean torque. In a cascade the vector of i_d and i_q is limited to
+// current_limit_A. i_d has priority. The remainder limits the speed PI, so that the PI does not wind up.
 //
 // Two PIs with symmetric space-vector modulation control the currents. Alternatively the drive chooses one of
 // the eight states of three legs (finite_set.hpp). The chopping, current loop and bus voltage of DriveConfig
-// are not used. Of its extras, only a slewed or profiled setpoint and another law of the speed loop are
-// possible.
+// are not used. Of DriveConfig's extras, only a slewed or profiled setpoint and another law of the speed loop
+// are used.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -28,10 +29,10 @@
 
 namespace sixstep::control {
 
-/// With the default configuration (Mode::off) the bridge is off.
+/// Default: Mode::off, the bridge is off.
 template <class Scalar>
 struct FieldDriveConfig {
-  DriveConfig<Scalar> drive{};  ///< mode and the loops around the currents
+  DriveConfig<Scalar> drive{};  ///< mode and outer loops (speed, position)
   FieldCurrentConfig<Scalar> current{};
   FieldWeakeningConfig<Scalar> weakening{};
   TorquePerAmpereConfig<Scalar> per_ampere{};
@@ -47,7 +48,7 @@ struct FieldDriveState {
   FieldCurrentState<Scalar> current{};
   FieldWeakeningState<Scalar> weakening{};
   FiniteSetState<Scalar> finite_set{};
-  Dq<Scalar> measured{}, reference{};  ///< currents at the last tick, rotor's frame, A
+  Dq<Scalar> measured{}, reference{};  ///< currents at the last tick, in the rotor's frame, A
   LegCommands<Scalar> command{};       ///< command of the last tick
 };
 
@@ -59,7 +60,7 @@ struct FieldDriveInput {
 
 namespace detail {
 
-/// Limit of i_q, A: the rest of the current limit beside i_d.
+/// Limit of i_q, A: the part of the current limit that i_d does not use.
 template <class Scalar>
 constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state) {
   const Scalar limit = config.drive.current_limit_A;
@@ -67,9 +68,9 @@ constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const Fiel
   return config.harmonic.least * circle_rest(limit, ScalarTraits<Scalar>::signal(state.weakening.i_d));
 }
 
-/// Coupling of the axes, V. For a shape that is no sine it is computed for the instant at which the output
-/// acts. It then uses the magnet's voltage at that instant, and the measured current plus the change of the
-/// reference until then.
+/// Coupling of the axes, V. For a back-EMF that is not sinusoidal, the coupling is computed for the instant
+/// at which the output acts. It then uses the magnet's voltage at this instant, and the measured current plus
+/// the reference's change until this instant.
 template <class Scalar>
 constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state,
                              BinaryAngle magnet, Scalar speed_rad_s, Scalar i_q, Scalar weakening) {
@@ -85,7 +86,7 @@ constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const Field
   return {e.d + to.voltage.d, e.q + to.voltage.q};
 }
 
-/// Voltage, V, that a magnet at angle `magnet` induces along itself and across.
+/// Voltage, V, that the magnet at angle `magnet` induces along its axis and across.
 template <class Scalar>
 constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, BinaryAngle magnet,
                                     Scalar speed_rad_s) {
@@ -118,8 +119,8 @@ constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>&
   return state.command;
 }
 
-/// Reference of i_q, A. It is limited to the rest of the current limit beside i_d and, if the field is
-/// weakened, by the voltage.
+/// Reference of i_q, A. Two limits apply: the part of the current limit that i_d does not use and, if the
+/// field is weakened, the available voltage.
 template <class Scalar>
 constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                                 const Measurement<Scalar>& measured, Scalar value,
@@ -147,8 +148,7 @@ constexpr Scalar slewed(const DriveConfig<Scalar>& drive, DriveState<Scalar>& st
                          measured_value(drive.mode, measured, i_q), measured.speed_rad_s);
 }
 
-/// Results of the loops around the currents, A: the part of state.reference for the torque and the part that
-/// weakens the field.
+/// Results of the outer loops, A: the torque part of state.reference, and the part that weakens the field.
 template <class Scalar>
 struct FieldAsked {
   Scalar i_q{}, weakening{};
@@ -185,9 +185,9 @@ constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config
 
 }  // namespace detail
 
-/// One control tick. Returns state.command, valid until the next call. Mode::duty is not possible: the bridge
-/// is off then. Inlining lets the compiler remove unused parts of a constant configuration, which saves 2 KB
-/// on a Cortex-M4.
+/// One control tick. Returns state.command, valid until the next call. In Mode::duty, which is not possible
+/// with three legs, the bridge is off. Inlining lets the compiler remove unused parts of a constant
+/// configuration, which saves 2 KB on a Cortex-M4.
 template <class Scalar>
 [[gnu::always_inline]] constexpr const LegCommands<Scalar>& field_drive_step(
     const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
@@ -207,8 +207,8 @@ template <class Scalar>
   return state.command;
 }
 
-/// Replaces the configuration between two ticks (retune.hpp). Loops that did not run in the old mode begin at
-/// rest.
+/// Replaces the configuration between two ticks (retune.hpp). Loops that the old mode did not use start with
+/// zero state.
 template <class Scalar>
 constexpr void retune(FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                       const FieldDriveConfig<Scalar>& next) {

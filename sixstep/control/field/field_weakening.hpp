@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Field weakening: where the back-EMF is above the bus, a current along the magnet lowers its field. The
-// voltage reserve of the current loops controls this current (Kim and Sul, Speed Control of Interior
-// Permanent Magnet Synchronous Motor Drive for the Flux Weakening Operation, IEEE Trans. IA 33, 1997):
+// Field weakening: if the back-EMF exceeds the available voltage, a current along the magnet's axis reduces
+// the field. The voltage reserve of the current loops controls this current (Kim and Sul, Speed Control of
+// Interior Permanent Magnet Synchronous Motor Drive for the Flux Weakening Operation, IEEE Trans. IA 33,
+// 1997):
 //
 //   i_d[n+1] = i_d[n] + K (m U_s/sqrt 3 - |v[n]|), clamped to [-I, 0]
 //
-// The law needs neither psi nor L. While |v| is above the fraction m of the voltage circle, i_d falls; while
-// |v| is below, i_d returns to 0. The clamped i_d is the state, so that it does not wind up. |v| is about
-// v_q, and v_q changes by w_e L_d per ampere of i_d. The law's own pole is therefore 1 - K w_e L_d. K is
-// designed at one speed. The law is stable at electrical speeds below 2/(K L_d) if the inner loops are much
-// faster (design/loops/field_current.hpp).
+// K is the gain, v the voltage of the current loops, U_s the bus voltage, I the largest weakening current.
+// The law needs neither the flux linkage psi nor the inductance. While |v| is above the fraction m of the
+// voltage circle, i_d falls. While |v| is below, i_d returns to 0. The state is the clamped i_d, so that it
+// does not wind up. |v| is about v_q, and v_q changes by w_e L_d per ampere of i_d. The law therefore has its
+// pole at 1 - K w_e L_d. K is designed at one speed. The law is stable at electrical speeds below 2/(K L_d)
+// if the inner loops are much faster (design/loops/field_current.hpp).
 //
-// A current above psi/L_d would reverse the field, and a larger current would need more voltage: I is at most
-// psi/L_d. The voltage also bounds i_q. For a round rotor with i_d = -psi/L_d the bound is exactly
+// I is at most psi/L_d, because a larger current would reverse the field and need more voltage again. The
+// voltage also limits i_q. For a round rotor with i_d = -psi/L_d the limit is exactly
 //
 //   |i_q| <= m U_s/sqrt 3/(w_e L_q)
 //
-// A reference beyond this bound would need the whole voltage circle along d, and neither current would be
-// controlled.
+// With a larger reference, v_d would need the whole voltage circle, and neither current would be controlled.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 
 namespace sixstep::control {
 
-/// The default does not weaken the field.
+/// Default: the field is not weakened.
 template <class Scalar>
 struct FieldWeakeningConfig {
   Gain<Scalar> K_A_per_V{};  ///< K, A per V and sample
   Gain<Scalar> part{};       ///< m, fraction of the voltage circle
-  Scalar most_A{};           ///< I, largest current against the magnet
+  Scalar most_A{};           ///< I, largest current against the magnet's field
   bool operator==(const FieldWeakeningConfig&) const = default;
 };
 
@@ -50,8 +51,8 @@ constexpr Scalar field_weakening_step(const FieldWeakeningConfig<Scalar>& config
   return T::signal(state.i_d);
 }
 
-/// Bound of the current across the magnet, A, that the voltage allows at this speed: at most `most` >= 0.
-/// Returns `most` if the field is not weakened.
+/// Largest i_q, A, that the voltage allows at this speed, but at most `most` >= 0. Returns `most` if the
+/// field is not weakened.
 template <class Scalar>
 constexpr Scalar voltage_bound(const FieldWeakeningConfig<Scalar>& config,
                                const FieldCurrentConfig<Scalar>& current, Scalar speed_rad_s, Scalar bus_V,

@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the currents without a modulator. Three legs, each high or low for a whole period, give seven
-// different voltages. The controller applies the voltage that brings the current nearest to the reference
-// (Rodriguez et al., Predictive current control of a voltage source inverter, IEEE Trans. IE 54, 2007).
+// Controls the currents without a modulator. With three legs, each high or low for a whole period, seven
+// different voltages are possible. The controller applies the voltage that brings the current nearest to the
+// reference (Rodriguez et al., Predictive current control of a voltage source inverter, IEEE Trans. IE 54,
+// 2007).
 //
 // If the output acts one period late, the controller first predicts the current at the begin of that period,
 // from the voltage that acts until then (Cortes et al., Delay compensation in model predictive current
 // control of a three-phase inverter, IEEE Trans. IE 59, 2012).
 //
-// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. The computation uses the
-// magnet's frame in the middle of the period, at rest. In this frame the winding is R and L with the coupling
-// of the rotation (field_current.hpp):
+// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. The computation uses a
+// frame at rest: the magnet's frame in the middle of the period. In this frame the winding has R, L and the
+// coupling voltage of the rotation (field_current.hpp):
 //
-//   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
-//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or the shape's back-EMF
-//                                                              (harmonic_current.hpp)
+//   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d
+//   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or harmonic_current.hpp
+//   per axis: i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
 //
 // i is rotated back by x/2, advanced by a period, and rotated back by x/2 again. For a round rotor this is
-// exact except for e: the rotation of e by +-x/2 about its mean causes an error of x^2/24 of e. The
-// controller chooses the state of least cost among the eight:
+// exact except for e. During the period e rotates by +-x/2 about its mean, which causes an error of x^2/24 of
+// e. The controller chooses the state of least cost among the eight:
 //
 //   J = |i* - i'|^2 + s^2 (number of legs that change)
 //
-// i* is the reference, i' the current one period later. s is the current error, in A, that costs as much as
-// one switching leg. A current beyond the bound `most_A` is worse than every current within it; of several
-// currents beyond it, the shortest is best. Among states of equal cost, the state that changes fewer legs is
-// chosen. This rule selects one of the two zero vectors.
+// i* is the reference, i' the current one period later. s is the current error, in A, whose cost equals that
+// of one switching leg. A state whose current exceeds the bound `most_A` is worse than every state within the
+// bound. Among states beyond the bound, the state with the least current is best. Among states of equal cost,
+// the state that changes fewer legs is chosen. This rule selects one of the two zero vectors.
 //
-// A leg switches at most once per period, with a frequency that varies up to 1/(2 T). If the bus suffices, i'
-// is within 2/(3 sqrt 3) b U of i*: this is the circumradius of the triangles between the seven currents.
-// There is no integral: errors of the model, such as dead time and a diode's drop, cause an error of the mean
-// current.
+// A leg switches at most once per period, with a frequency that varies up to 1/(2 T). If the bus voltage U
+// suffices, i' is within 2/(3 sqrt 3) b U of i*. This is the circumradius of the triangles between the seven
+// possible currents. The controller has no integral. Errors of the model, such as dead time and a diode's
+// drop, therefore cause an error of the mean current.
 //
 // This control exists in floating point only, because its scaling is not proved.
 #pragma once
@@ -40,7 +41,7 @@
 
 namespace sixstep::control {
 
-/// Off by default.
+/// Default: off.
 template <class Scalar>
 struct FiniteSetConfig {
   bool on = false;
@@ -61,12 +62,12 @@ using LegBits = std::uint8_t;
 template <class Scalar>
 struct FiniteSetState {
   LegBits legs = 0;       ///< legs of the last output
-  Dq<Scalar> foretold{};  ///< predicted current at the end of that period, in the magnet's frame at that
-                          ///< instant
+  Dq<Scalar> foretold{};  ///< predicted current at the end of the commanded period, in the magnet's frame at
+                          ///< this end
 };
 
-/// Inputs of a tick. `e` belongs to the period that has begun, `e_next` to the period to be commanded; each
-/// is taken at the magnet's direction in the middle of its period.
+/// Inputs of a tick. `e` is the back-EMF of the period that has begun, `e_next` that of the commanded period.
+/// Each is the back-EMF at the magnet's direction in the middle of the period.
 template <class Scalar>
 struct FiniteSetInput {
   Dq<Scalar> reference{}, measured{};
@@ -75,8 +76,8 @@ struct FiniteSetInput {
   Dq<Scalar> e{}, e_next{};
 };
 
-/// The phase voltages of three legs as a vector, V. The voltage of phase a against the star point is
-/// U (2 a - b - c)/3, with a, b, c = 1 for a high leg.
+/// The phase voltages of three legs as a vector, V. The voltage of phase a relative to the star point is U (2
+/// a - b - c)/3. a, b, c are 1 for a high leg and 0 for a low leg, and U is the bus voltage.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> legs_voltage(LegBits legs, Scalar bus_V) {
   const auto side = [&](unsigned k) { return (legs >> k & 1u) != 0 ? bus_V : Scalar{}; };
@@ -122,7 +123,7 @@ constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<
           T::product(i.q, config.q_decay) - T::product(x_q, config.q_A_per_V)};
 }
 
-/// Change of i', A, by a voltage v in the same frame.
+/// Change of i', A, that a voltage v in the same frame causes.
 template <class Scalar>
 constexpr Dq<Scalar> driven_by(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& v) {
   using T = ScalarTraits<Scalar>;
@@ -161,8 +162,8 @@ constexpr Judged<Scalar> judged(const FiniteSetConfig<Scalar>& config, const Dq<
 
 }  // namespace detail
 
-/// The current one period later, A, with constant legs. `middle`: the magnet's direction in the middle of the
-/// period. `half`: the magnet's rotation in half a period.
+/// The current one period later, A, if the legs do not switch meanwhile. `middle`: the magnet's direction in
+/// the middle of the period. `half`: the magnet's rotation in half a period.
 template <class Scalar>
 constexpr Dq<Scalar> foretold(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
                               const AlphaBeta<Scalar>& voltage_V, const Direction<Scalar>& middle,

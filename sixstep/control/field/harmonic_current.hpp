@@ -1,39 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes currents for a back-EMF that is no sine: the torque is the same at every angle, with the least
-// copper loss. In the magnet's frame the back-EMFs of the three phases are a vector w p psi g(theta). w:
-// mechanical speed, psi: flux linkage. For a sine g = (0, 1). For other shapes the direction and length of g
-// vary with the sixth harmonic and its multiples. The torque is
+// Computes currents for a back-EMF that is not sinusoidal: the torque is the same at every angle, with the
+// least copper loss. In the magnet's frame the back-EMFs of the three phases are a vector w p psi g(theta).
+// w: mechanical speed, p: pole pairs, psi: flux linkage, g: shape vector. For a sinusoidal back-EMF g = (0,
+// 1). For other shapes the direction and length of g vary with the sixth harmonic and its multiples. The
+// torque is
 //
 //   T = 3/2 p psi (g_d i_d + g_q i_q)
 //
-// With a constant i_q the torque varies as g_q does. Of the currents with T = 3/2 p psi I at an angle, the
-// shortest has the direction of g (Hung and Ding, Design of currents to reduce torque ripple in brushless
-// permanent magnet motors, IEE Proc. B 140, 1993):
+// With a constant i_q the torque is proportional to g_q. Among the current vectors with T = 3/2 p psi I at an
+// angle, the shortest vector has the direction of g (Hung and Ding, Design of currents to reduce torque
+// ripple in brushless permanent magnet motors, IEE Proc. B 140, 1993):
 //
 //   i* = I g/|g|^2
 //
 // The star point is not connected and carries no current. A part of the back-EMF that is common to the three
-// phases therefore causes no torque and no loss, and g does not contain it. A current i_w that weakens the
-// field would cause torque along g. Therefore only its component across g is used, (i_w g_q/|g|^2) (g_q,
-// -g_d), which causes no torque. The sum of both currents is within I_max if |I| <= min|g| sqrt(I_max^2 -
+// phases therefore causes no torque and no loss, and g does not contain it. The component along g of a
+// current i_w that weakens the field would cause torque. Therefore only its component across g is used, (i_w
+// g_q/|g|^2) (g_q, -g_d). The sum of i* and this component is within I_max if |I| <= min|g| sqrt(I_max^2 -
 // i_w^2).
 //
 // If phases and half waves are alike, g has a period of 60 electrical degrees. g is stored as a table of 32
-// points with straight lines between them. The corners of a trapezoid of 120 degrees are points of the table,
-// and curved parts are exact to 1.6e-4. A Fourier series converges only with the square of the order: 32
-// coefficients have an error of 0.7 % at the corners and need four times as many products.
+// points and interpolated linearly. The corners of a trapezoid of 120 degrees are points of the table, and
+// curved parts have an error of at most 1.6e-4. The error of a Fourier series falls only with the square of
+// the order. With 32 coefficients it is 0.7 % at the corners, and the series needs four times as many
+// products.
 //
 // A loop without feed-forward lags. If the loop decouples the axes, the sixth harmonic of the current is fed
-// forward with the coupling. Besides w p psi g the fed voltage v changes the current, in the output's period,
-// from i* at the begin to i* at the end. i* is the current for the angle at the sample, like the measured
-// current:
+// forward with the coupling. In addition to w p psi g, the voltage v is fed forward. v changes the current,
+// during the output's period, from i* at the begin to i* at the end of the period:
 //
 //   v = L (i*(theta' + x/2) - i*(theta' - x/2))/T + R (i*(theta') - (i_w, I)),   x = w_e T
 //
-// theta' is the magnet's angle in the middle of the period. The loop then corrects only the errors of the
-// model, as long as the voltage suffices. If the loop does not decouple the axes, i* is computed for the
-// magnet's angle at the later instant at which the current has followed. The lag is then 0 to the first order
-// of 6 w_e over the loop's bandwidth, and the rest grows with the square of this ratio.
+// theta' is the magnet's angle in the middle of the period, T the period, w_e the electrical speed. The loop
+// then corrects only the errors of the model, as long as the voltage suffices. If the loop does not decouple
+// the axes, i* is computed for a later angle of the magnet: its angle when the current has followed. Let r be
+// 6 w_e divided by the loop's bandwidth. The remaining lag then has no part proportional to r and grows with
+// r^2.
 //
 // This control exists in floating point only, because its scaling is not proved.
 #pragma once
@@ -44,7 +46,7 @@ namespace sixstep::control {
 
 inline constexpr std::uint8_t shape_points = 32;
 
-/// The default is the current for a sine: only i_q.
+/// Default: the current for a sinusoidal back-EMF, i_q only.
 template <class Scalar>
 struct HarmonicCurrentConfig {
   bool on = false;
@@ -62,7 +64,8 @@ struct HarmonicCurrentConfig {
 /// g at an angle of the magnet.
 template <class Scalar>
 constexpr Dq<Scalar> shape_at(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet) {
-  const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // overflows where the shape repeats
+  const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // wraps after 60 electrical degrees, the
+                                                                // period of the shape
   const auto n = static_cast<std::uint8_t>(in_sixth >> 27);
   const auto rest = static_cast<std::int32_t>((in_sixth << 5) >> 1);
   const Scalar part = AngleTraits<Scalar>::half_turns(rest);
@@ -89,8 +92,8 @@ constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& confi
                                weakening);
 }
 
-/// i*, A, of a period, and the voltage, V, that changes i* within the period. `magnet` is the magnet's angle
-/// in the middle of the period.
+/// i*, A, in the middle of a period, and the voltage, V, that changes the current from i* at its begin to i*
+/// at its end. `magnet` is the magnet's angle in the middle of the period.
 template <class Scalar>
 struct TakenAlong {
   Dq<Scalar> current{}, voltage{};
@@ -111,7 +114,8 @@ constexpr TakenAlong<Scalar> taken_along(const HarmonicCurrentConfig<Scalar>& co
            T::product(end.q - begin.q, config.slope_V_A) + T::product(middle.q - I, config.R_ohm)}};
 }
 
-/// w p psi g, V: the magnet's back-EMF along itself and across. For a sine it is (0, w p psi).
+/// w p psi g, V: the back-EMF along the magnet's axis and across. For a sinusoidal back-EMF it is (0, w p
+/// psi).
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_voltage(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Gain<Scalar> magnet_V_s) {

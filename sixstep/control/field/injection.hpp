@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the magnet's axis, also at standstill. A voltage along the assumed axis is +V in one PWM period and
-// -V in the next. The response of the current is evaluated. If the rotor's axis is ahead of the assumed axis
-// by the angle e, and the period T is so short that R does not matter (symbols of model.md 7):
+// -V in the next period. The current's response shows the angle e by which the rotor's axis is ahead of the
+// assumed axis. The period T is so short that R has no effect (symbols of model.md 7):
 //
-//   change in an up period minus change in a down period, halved:
+//   half of the difference between the current's change in a +V period and in a -V period:
 //     h_d = V T (Y_S + Y_D cos 2e),   h_q = V T Y_D sin 2e
 //   Y_S = (1/L_d + 1/L_q)/2,   Y_D = (1/L_d - 1/L_q)/2
 //
@@ -12,12 +12,13 @@
 // Square-Wave-Type Voltage Injection, IEEE Trans. IA 47, 2011). The response shows the axis, but not which of
 // its ends is north (polarity.hpp).
 //
-// The drive's own currents change too; a step of the current changes them by more than the pulse does. D[n]
-// is the change of the current in period n. (D[n] - 2 D[n-1] + D[n-2])/4 is the part that alternates with the
-// pulse. It is one period old, and a current that follows a parabola does not contribute to it. The mean of
-// two consecutive samples does not contain the pulse. The current loops use this mean, which is half a period
-// old. Samples are at the begin of a period, because the pulse's current is zero in the middle of a period.
-// This method exists in floating point only, because its scaling is not proved.
+// The current loops also change the currents. A step of the reference changes the current more than the pulse
+// does. D[n] is the change of the current in period n. (D[n] - 2 D[n-1] + D[n-2])/4 is the part that
+// alternates with the pulse. It is one period old. A current that follows a parabola does not contribute to
+// this part. The mean of two consecutive samples does not contain the pulse. The current loops use this mean,
+// which is half a period old. The currents are sampled at the begin of a period, because the pulse's current
+// is 0 in the middle of a period. This method exists in floating point only, because its scaling is not
+// proved.
 #pragma once
 #include <cstdint>
 
@@ -26,7 +27,7 @@
 
 namespace sixstep::control {
 
-/// With the default nothing is injected.
+/// Default: no injection.
 template <class Scalar>
 struct InjectionConfig {
   Scalar voltage_V{};        ///< V, of a phase; 0: no injection
@@ -37,12 +38,12 @@ struct InjectionConfig {
 template <class Scalar>
 struct InjectionState {
   AlphaBeta<Scalar> current{};      ///< current at the last sample, A
-  Dq<Scalar> change{};              ///< change of the current since the sample before, A, in its period's
-                                    ///< frame
-  Dq<Scalar> turn{};                ///< half of `change` minus the change before, A
-  Direction<Scalar> answered[3]{};  ///< directions of the pulses of the last ticks, the newest first
-  std::uint8_t up = 0;              ///< bit n: the output of n ticks ago pulsed up
-  std::uint8_t pulses = 0;          ///< bit n: the output of n ticks ago pulsed
+  Dq<Scalar> change{};              ///< change of the current since the previous sample, A, in the frame of
+                                    ///< the period between
+  Dq<Scalar> turn{};                ///< half of (`change` minus the previous change), A
+  Direction<Scalar> answered[3]{};  ///< directions of the pulses in the last ticks, newest first
+  std::uint8_t up = 0;              ///< bit n is 1: the output of n ticks ago had a pulse of +V
+  std::uint8_t pulses = 0;          ///< bit n is 1: the output of n ticks ago had a pulse
 };
 
 namespace detail {
@@ -73,7 +74,7 @@ constexpr Dq<Scalar> injection_response(InjectionState<Scalar>& state, const Alp
   return ((state.up >> n) & 1u) != 0 ? h : Dq<Scalar>{-h.d, -h.q};
 }
 
-/// Voltage of the pulse in this tick's output, along the axis at which the output acts: V or -V by turns.
+/// Voltage of the pulse in this tick's output, alternately V and -V. `along`: the axis when the output acts.
 template <class Scalar>
 constexpr Scalar injected_voltage(const InjectionConfig<Scalar>& config, InjectionState<Scalar>& state,
                                   const Direction<Scalar>& along, bool on) {

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the direction of the magnet without a sensor. At standstill and low speed it uses the current's
 // response to a pulsing voltage (injection.hpp). At higher speed it uses the magnet's flux in the winding
-// (active_flux.hpp). Each method gives an error: the angle by which the magnet is ahead of the estimate. One
-// tracking loop (sensing/tracking.hpp) follows the mean of both errors, weighted by speed:
+// (active_flux.hpp). The error of the estimate is the angle by which the magnet is ahead of the estimate.
+// Each method measures this error. One tracking loop (sensing/tracking.hpp) follows the mean of both errors,
+// weighted by speed:
 //
 //   error = (1 - m) e_injection + m e_flux,   m = (|w| - w_low)/(w_high - w_low) within 0..1
 //
-// Above w_high no voltage is injected. The start:
+// w is the speed. Above w_high no voltage is injected. The phases of the start:
 //
-//   with injection      axis -> north -> following      the rotor is found at standstill and does not move
+//   with injection      axis -> north -> following      the magnet is found while the rotor is at rest
 //                                '-----> unseen         the iron does not saturate: the drive stops
-//   without injection   aligning -> ramping -> following     a current turns the rotor at first
-//                            '--------'---------'--> unseen  too many failed starts in a row
+//   without injection   aligning -> ramping -> following     at first a current vector turns the rotor
+//                            '--------'---------'--> unseen  too many consecutive failed starts
 //
-// Without injection a voltage along an axis pulls the rotor, then a voltage a quarter turn ahead: with the
-// first voltage only, the rotor could rest opposite to it, where the torque is 0. Then a current vector
-// accelerates the rotor constantly, up to a speed at which the flux can be followed. A rotor that becomes
-// slower than w_low is started again. The estimator exists in floating point only.
+// Without injection, a voltage along an axis pulls the rotor, then a voltage a quarter turn ahead of this
+// axis. With the first voltage only, the rotor could rest opposite to the axis, where the torque is 0. Then a
+// current vector turns with constant acceleration, up to a speed at which the flux can be followed. A rotor
+// that becomes slower than w_low is started again. The estimator exists in floating point only.
 #pragma once
 #include "sixstep/control/field/active_flux.hpp"
 #include "sixstep/control/field/injection.hpp"
@@ -29,25 +30,27 @@ namespace sixstep::control {
 
 enum class EstimatorPhase : std::uint8_t { axis, north, aligning, ramping, following, unseen };
 
-/// Start by a current that turns the rotor until it can be followed. The default starts nothing.
+/// Start by a turning current vector that moves the rotor until the estimator can follow it. Default: no
+/// start.
 template <class Scalar>
 struct TurnStartConfig {
   Scalar current_A{};             ///< current along the vector
   std::uint32_t align_ticks = 0;  ///< duration of the alignment
-  std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 turn per tick
-  std::int64_t enough = 0;        ///< speed from which the flux is followed, 2^-48 turn per tick
-  std::uint32_t good_ticks = 0;   ///< ticks of following after which the start has succeeded
-  std::uint8_t retries = 3;       ///< failed starts in a row before the drive stops
+  std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 electrical turns per tick
+  std::int64_t enough = 0;        ///< speed from which the flux is followed, 2^-48 electrical turns per tick
+  std::uint32_t good_ticks = 0;   ///< ticks in phase `following` after which the start counts as successful
+  std::uint8_t retries = 3;       ///< number of consecutive failed starts after which the drive stops at the
+                                  ///< next failure
   bool operator==(const TurnStartConfig&) const = default;
 };
 
-/// Off by default.
+/// Default: off.
 template <class Scalar>
 struct EstimatorConfig {
   bool on = false;
   TrackingConfig tracking{};     ///< tracking loop of the electrical angle
   Gain<Scalar> rad_s{};          ///< mechanical rad/s per unit of tracking_speed()
-  std::uint32_t axis_ticks = 0;  ///< ticks from the begin until the axis counts as found
+  std::uint32_t axis_ticks = 0;  ///< ticks after the begin until the axis counts as found
   std::uint8_t late = 0;         ///< n: ticks from an output to the begin of its period
   bool in_middle = false;        ///< true: samples are in the middle of a period, so that injection is not
                                  ///< possible
@@ -73,16 +76,16 @@ struct EstimatorState {
   NorthState<Scalar> north{};
   ActiveFluxState<Scalar> flux{};
   Dq<Scalar> current{};               ///< current at the last sample, A, in the frame at that sample
-  AlphaBeta<Scalar> answered_V[4]{};  ///< voltages of the last ticks' outputs, V, the newest first
+  AlphaBeta<Scalar> answered_V[4]{};  ///< voltages of the last ticks' outputs, V, newest first
 };
 
-/// True while a current turns a rotor that the estimator cannot follow yet.
+/// True while the start's current vector turns the rotor, before the estimator follows it.
 template <class Scalar>
 constexpr bool estimator_turns(const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::aligning || state.phase == EstimatorPhase::ramping;
 }
 
-/// Reference of the current along the axis, A, in the phases in which the estimator sets it.
+/// Reference of the current along the axis, A, in the phases in which the estimator determines the current.
 template <class Scalar>
 constexpr Scalar estimator_reference_d(const EstimatorConfig<Scalar>& config,
                                        const EstimatorState<Scalar>& state) {
@@ -128,15 +131,16 @@ constexpr Scalar flux_weight(const EstimatorConfig<Scalar>& config, Scalar speed
   return past >= wide ? one<Scalar> : past > Scalar{} ? past / wide : Scalar{};
 }
 
-/// Call it if north is the other end of the axis: rotates the frame and the current stored in it by half a
-/// turn.
+/// Rotates the estimated frame and the stored current by half a turn, because north is the opposite end of
+/// the axis.
 template <class Scalar>
 constexpr void turn_round(EstimatorState<Scalar>& state) {
   state.tracking.angle += half_turn;
   state.current = {-state.current.d, -state.current.q};
 }
 
-/// Rotates the current vector, and the estimate with it. The rotor's real angle has no influence.
+/// Rotates the current vector of the start and sets the estimate equal to its angle. The rotor's real angle
+/// has no influence.
 template <class Scalar>
 constexpr void turn_on(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state) {
   const TurnStartConfig<Scalar>& start = config.start;
@@ -165,21 +169,21 @@ constexpr void find_north(const EstimatorConfig<Scalar>& config, EstimatorState<
   if (state.north.phase == NorthPhase::opposite) turn_round(state);
   if (state.north.phase != NorthPhase::opposite && state.north.phase != NorthPhase::found) return;
   state.phase = EstimatorPhase::following;
-  // Replaces the flux that was estimated before north was known.
+  // Replaces the flux, because it was estimated before north was found.
   const Direction<Scalar> magnet = direction_of<Scalar>(state.tracking.angle);
   state.flux.flux = {config.flux.magnet_Vs * magnet.cos + config.flux.L_q_H * state.flux.current.alpha,
                      config.flux.magnet_Vs * magnet.sin + config.flux.L_q_H * state.flux.current.beta};
 }
 
-/// True if there is no injection and the rotor is too slow for the flux to be followed.
+/// True if nothing is injected and the rotor is too slow to follow its flux.
 template <class Scalar>
 constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::following && !(config.injection.voltage_V > Scalar{}) &&
          magnitude(state.speed_rad_s) < config.low_rad_s;
 }
 
-/// Starts a lost rotor again. This counts as a failed start only if the setpoint requires a speed at which
-/// the rotor can be followed.
+/// Starts the rotor again if the estimator cannot follow it. This counts as a failed start only if the
+/// setpoint requires a speed at which the flux can be followed.
 template <class Scalar>
 constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                            bool reversed, bool turns) {
@@ -197,9 +201,9 @@ constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState
 
 }  // namespace detail
 
-/// One control tick with its currents. Returns the currents in the frame of the assumed magnet, A, without
-/// the pulse. `reversed`: a start turns the rotor backward. `turns`: the setpoint requires a speed at which
-/// the rotor can be followed.
+/// One control tick with its currents. Returns the currents in the estimated magnet's frame, A, without the
+/// current of the pulse. `reversed`: a start turns the rotor backward. `turns`: the setpoint requires a speed
+/// at which the rotor can be followed.
 template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                                     const AlphaBeta<Scalar>& current, bool reversed, bool turns) {

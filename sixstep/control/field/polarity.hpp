@@ -4,8 +4,8 @@
 //
 //   L_d(i_d) = L_d (1 - i_d/I_sat),   h_d = V T/L_d(i_d)
 //
-// and the response h_d to the pulse is then larger. A current I along the assumed axis flows first, then -I.
-// h+ and h- are the responses:
+// and the response h_d to the pulse is then larger. V is the pulse's voltage, T its period. First the current
+// I flows along the assumed axis, then -I. h+ and h- are the two responses:
 //
 //   (h+ - h-)/(h+ + h-) = +-I/I_sat
 //
@@ -23,9 +23,9 @@ enum class NorthPhase : std::uint8_t { forth, back, found, opposite, unseen };
 template <class Scalar>
 struct PolarityConfig {
   Scalar current_A{};              ///< I, current along the axis
-  Gain<Scalar> certain{};          ///< smallest |(h+ - h-)/(h+ + h-)| that is accepted
-  std::uint16_t settle_ticks = 0;  ///< ticks until the current is constant, after each change
-  std::uint16_t look_ticks = 0;    ///< ticks over which h_d is summed after that
+  Gain<Scalar> certain{};          ///< least accepted |(h+ - h-)/(h+ + h-)|
+  std::uint16_t settle_ticks = 0;  ///< ticks after each change until the current is constant
+  std::uint16_t look_ticks = 0;    ///< ticks after settle_ticks over which h_d is summed
   bool operator==(const PolarityConfig&) const = default;
 };
 

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces a current reference that the available voltage V cannot hold at a speed. In the rotor's frame a
-// constant current i needs (symbols of model.md 11)
+// Replaces a current reference if the available voltage V is too small for it at the present speed. In the
+// rotor's frame a constant current i needs the voltage v (symbols of model.md 11)
 //
 //   v = Z i + E,   Z = [R, -w_e L_q; w_e L_d, R],   E = (0, w_e psi)                  |v| <= V
 //
 // The possible currents fill a disc (an ellipse if the rotor is salient) around -Z^-1 E, the current with
-// shorted terminals. Above the speed at which |E| is V, the disc does not contain i = 0: for every reference
-// a current of at least (|E| - V)/|Z| flows. A reference outside of the disc is changed in two steps:
+// shorted terminals. Above the speed at which |E| is V, the disc does not contain i = 0: a current of at
+// least (|E| - V)/|Z| flows at every reference. A reference outside of the disc is changed in two steps:
 //
-//   1  the driving torque is reduced: i_q falls towards 0 at the same i_d, as far as the voltage requires
-//   2  if step 1 is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: i moves along the line
-//   to
-//      the disc's centre, up to its rim
+//   1  if the torque drives, |i_q| is reduced at the same i_d, as far as the voltage requires
+//   2  if step 1 is not sufficient, or the torque brakes, i' = i - (1 - V/|v|) Z^-1 v: i moves along the
+//      line to the disc's centre, until it is on the rim
 //
-// For a round rotor step 2 gives the nearest current. The distance between two points is not increased by
-// their projection onto a disc. |i'| is therefore at most |i| plus the least current that flows.
+// For a round rotor step 2 results in the nearest current of the disc. A projection onto a disc does not
+// increase the distance between two points. |i'| is therefore at most |i| plus the least possible current.
 //
-// A voltage beyond the circle is moved back along the line to a voltage that holds the reference, Z i' + E. x
-// is the deviation of the measured current from i', k the gain of the loops. A fraction s remains of the
-// voltage that the loops add, w_e L j x - k x. The first term rotates x and does no work on it; the second
-// term shortens x. |x|^2 therefore falls by 2 s k |x|^2/L and by the loss in R, however small s is. If the
-// voltage is moved back in another direction (v_d first, or along v itself), |x|^2 need not fall.
+// A voltage beyond the circle is moved back along the line to Z i' + E, the voltage of a constant current i'.
+// x is the deviation of the measured current from i', and k the gain of the loops. The loops add the voltage
+// w_e L j x - k x, of which the fraction s remains. The first term rotates x and does not change |x|. The
+// second term reduces |x|. |x|^2 therefore falls at the rate 2 s k |x|^2/L plus the loss in R, for every s >
+// 0. If the voltage is moved back in another direction (v_d first, or along v), |x|^2 may grow.
 //
 // In fixed point w p L and R must be below one volt per ampere of the bases.
 #pragma once
@@ -28,7 +27,7 @@
 
 namespace sixstep::control {
 
-/// Returns the reference itself, or the current, A, that replaces it if the voltage cannot hold it.
+/// Returns the reference, or the current, A, that replaces it if the voltage is too small for the reference.
 template <class Scalar>
 constexpr Dq<Scalar> reachable_current(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& wanted,
                                        Scalar speed_rad_s, Scalar bus_V) {

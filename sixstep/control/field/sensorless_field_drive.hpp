@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the field-oriented drive (field_drive.hpp) without a rotor position sensor: magnet_estimator.hpp gives
-// the magnet's direction and speed. Until both are known, the estimator sets the current, and setpoint and
-// speed loop have no effect. With the estimator off, this drive equals the drive of field_drive.hpp. With the
-// estimator on, a modulator always makes pulses and finite_set.hpp is not used. If the estimator does not
-// find north, or the rotor does not follow the current that turns it, the drive stops with a fault.
+// Runs the field-oriented drive (field_drive.hpp) without a rotor position sensor: magnet_estimator.hpp
+// estimates the magnet's direction and speed. Until it follows the rotor, the estimator determines the
+// current, and setpoint and speed loop have no effect. With the estimator off, this drive equals the drive of
+// field_drive.hpp. With the estimator on, the space-vector modulator is always used, never finite_set.hpp.
+// The drive stops with a fault if the estimator does not find north, or if the rotor does not follow the
+// start's current vector.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/field/magnet_estimator.hpp"
@@ -46,8 +47,8 @@ constexpr void field_anew(FieldDriveState<Scalar>& state) {
   state.reference = {};
 }
 
-/// Bus voltage, V, reduced so that the pulse fits beside the loops' voltage. A clipped pulse gives no
-/// information.
+/// Bus voltage, V, minus the part that the pulse needs. The loops' voltage is limited to the rest, because a
+/// clipped pulse would falsify the estimate.
 template <class Scalar>
 constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V) {
   constexpr auto root_3 = static_cast<Gain<Scalar>>(1.7320508075688772);
@@ -55,8 +56,8 @@ constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V)
   return left > Scalar{} ? left : Scalar{};
 }
 
-/// Voltage that pulls the rotor to the axis. It is a voltage and not a controlled current, because a voltage
-/// damps the rotor's swing. When the axis begins to turn, the current loop continues from this voltage.
+/// Voltage that pulls the rotor to the axis. A constant voltage damps the rotor's oscillation; a controlled
+/// current would not. When the axis begins to turn, the current loop continues from this voltage.
 template <class Scalar>
 constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>& config,
                                              FieldCurrentState<Scalar>& state) {
@@ -66,7 +67,7 @@ constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>
   return state.voltage;
 }
 
-/// Voltage in phases in which the estimator sets the current reference.
+/// Voltage in the phases in which the estimator determines the current reference.
 template <class Scalar>
 constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& config,
                                         SensorlessFieldState<Scalar>& state,

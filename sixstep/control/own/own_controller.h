@@ -14,9 +14,9 @@
  * SIXSTEP_REAL names (-DSIXSTEP_REAL=float). A literal like 0.5 is a double; write (sixstep_real)0.5, so that a
  * chip computes in float. tools/own_cost.sh counts instructions, flash and RAM on the chip.
  *
- * The result must depend only on config, state and the arguments: runs are repeated, resumed, copied and run
- * side by side. State is copied as bytes, so it must not contain a pointer into itself. No function may
- * allocate, block, throw or end the program. */
+ * The result must depend only on config, state and the arguments, because the program repeats, resumes and
+ * copies runs, and executes several runs at once. State is copied as bytes, so the state must not contain a
+ * pointer into itself. No function may allocate, block, throw or end the program. */
 #ifndef SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 #define SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 
@@ -49,11 +49,14 @@ enum { SIXSTEP_ANSWERS_PAIR = 0, SIXSTEP_ANSWERS_LEGS = 1 };
 /* One sample of the scenario's sensors. */
 typedef struct {
   sixstep_real current_A[3]; /* currents of phases a, b, c, into the motor */
-  sixstep_real speed_rad_s;  /* mechanical; of a linear motor m/s */
-  sixstep_real position_deg; /* mechanical, counted over turns; of a linear motor 180/pi per m */
+  sixstep_real speed_rad_s;  /* mechanical; for a linear motor m/s */
+  /* Mechanical; does not wrap after a full turn. For a linear motor: position in m times 180/pi. */
+  sixstep_real position_deg;
   sixstep_real bus_V;
-  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; with Hall codes only, of the sector's middle */
-  uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
+  /* Cosine and sine of the magnet's electrical angle from phase a's axis. With Hall codes only: of the angle of the
+   * middle of the sector. */
+  sixstep_real magnet_cos, magnet_sin;
+  uint8_t hall; /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
 } sixstep_measured;
 
 typedef struct {
@@ -62,8 +65,8 @@ typedef struct {
   sixstep_real duty; /* 0..1, used with SIXSTEP_LEG_PWM */
 } sixstep_leg;
 
-/* Output of a step. A pair: source, sink, duty, overlap, chopping, chopped. Legs: leg. Before the first step it is zero,
- * all gates off; later it contains the last output. */
+/* Output of a step. For a pair set source, sink, duty, overlap, chopping, chopped; for three legs set leg. Before the
+ * first step all members are 0 (all gates off); later they contain the last output. */
 typedef struct {
   uint8_t enabled; /* 0: all six gates off */
   uint8_t fault;   /* not 0: the controller stops the drive, and the run ends with exit code 3 */
@@ -78,24 +81,24 @@ typedef struct {
 } sixstep_answer;
 
 /* Data for the design: the nominal motor's data sheet, the board, and the loops that the library would use for this
- * scenario (gains of u[n] = u[n-1] + d1 e[n] + d0 e[n-1]; 0 if the mode has no such loop). */
+ * scenario. d1 and d0 are the gains of u[n] = u[n-1] + d1 e[n] + d0 e[n-1]; 0 if the mode does not use the loop. */
 typedef struct {
   uint8_t mode;
-  uint8_t delay_periods; /* periods from an output until it acts */
+  uint8_t delay_periods; /* number of periods until an output takes effect */
   uint8_t sampled_in_middle;
   uint8_t chopping;
   sixstep_real period_s;
   sixstep_real bus_V;
   sixstep_real pole_pairs;
   sixstep_real R_ohm, L_H;             /* resistance and inductance of a phase */
-  sixstep_real K_t_Nm_A;               /* N m per A of a driven pair, and V s/rad between two terminals */
-  sixstep_real magnet_Vs;              /* peak flux linkage of the magnet with a phase, fundamental */
+  sixstep_real K_t_Nm_A;               /* torque constant: N m per A of a driven pair, equal to V s/rad between two terminals */
+  sixstep_real magnet_Vs;              /* peak of the flux linkage of the magnet with one phase, fundamental */
   sixstep_real J_kg_m2, B_Nm_s;        /* inertia and friction of the shaft with the load */
   sixstep_real current_d1, current_d0; /* V per A */
   sixstep_real speed_d1, speed_d0;     /* fraction of the full torque per rad/s */
   sixstep_real full_torque_Nm, full_current_A;
   sixstep_real current_limit_A;
-  sixstep_real position_gain_rad_s_per_deg, speed_limit_rad_s; /* bound of a position loop's speed reference */
+  sixstep_real position_gain_rad_s_per_deg, speed_limit_rad_s; /* limit of the position loop's speed reference */
 } sixstep_given;
 
 typedef struct {
@@ -109,12 +112,12 @@ typedef struct {
   uint32_t interface; /* SIXSTEP_OWN_INTERFACE */
   uint32_t answers;   /* SIXSTEP_ANSWERS_PAIR or SIXSTEP_ANSWERS_LEGS */
   const char* name;   /* short name for tables */
-  const char* sentence; /* how it differs from other controllers, a verb first: "counts in mA" */
+  const char* sentence; /* property of this controller, beginning with a verb: "counts in mA" */
   uint32_t config_bytes, state_bytes; /* up to 65536 each */
   uint32_t parameters;                /* number of parameters, up to 64 */
   const sixstep_parameter* parameter;
   /* Fills config, which is zero before the call, from the given data and one value per parameter. Returns a null
-   * pointer, or the problem as half a sentence: "needs a higher voltage than the bus has". */
+   * pointer, or the problem as a clause: "needs a higher voltage than the bus has". */
   const char* (*design)(const sixstep_given* given, const sixstep_real* values, void* config);
   /* Fills state, which is zero before the call. May be null. */
   void (*start)(const void* config, void* state);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step commutation for a controller that only computes a signed duty. The functions return the current of
-// the Hall code's pair, set the pair (exchanged for a negative duty), and convert the answer to a timer's
-// command.
+// Six-step commutation for a controller that only computes a signed duty. The functions compute the current
+// of the Hall code's pair, set the pair (exchanged for a negative duty), and convert answers and commands.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Represents angles as integers, 2^32 to a turn. Sums wrap exactly at a full turn. The difference of two
-// angles, as a signed integer, is the shorter rotation. Every core computes the same bits. One unit is 8.4e-8
-// degrees. Names distinguish electrical from mechanical angles. The mechanical angle times the pole pairs,
-// with wrapping, is the electrical angle.
+// Represents angles as integers in units of 2^-32 turn. Sums wrap exactly at a full turn. The difference of
+// two angles, as a signed integer, is the shorter rotation. Every core computes the same bits. One unit is
+// 8.4e-8 degrees. Names distinguish electrical from mechanical angles. The mechanical angle times the pole
+// pairs, with wrapping, is the electrical angle.
 #pragma once
 #include <cstdint>
 
@@ -15,20 +15,20 @@ using BinaryAngle = std::uint32_t;
 
 inline constexpr BinaryAngle quarter_turn = 0x40000000u, half_turn = 0x80000000u;
 
-/// The shorter rotation between two angles, -2^31 to 2^31 - 1; half a turn is negative.
+/// The shorter rotation from one angle to another, -2^31 to 2^31 - 1. For half a turn the result is negative.
 constexpr std::int32_t way_between(BinaryAngle from, BinaryAngle to) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(to - from));
 }
 
-/// theta_e = p theta_m + offset (model.md 1).
+/// Electrical angle: mechanical angle times pole pairs, plus offset (model.md 1).
 constexpr BinaryAngle electrical_angle(BinaryAngle mechanical, std::uint8_t pole_pairs,
                                        BinaryAngle offset = 0) {
   return static_cast<BinaryAngle>(mechanical * pole_pairs + offset);
 }
 
 /// An angle in degrees as a binary angle, |degrees| below 2^22. Use it for constants and on the host. The
-/// result is rounded to nearest where double has 64 bits; where double has 32 (AVR), its relative error is up
-/// to 2^-24.
+/// result is rounded to nearest where double has 64 bits. Where double has 32 bits (AVR), the relative error
+/// is up to 2^-24.
 constexpr BinaryAngle binary_degrees(double degrees) {
   const double turns = degrees / 360.0;
   const auto whole = static_cast<std::int32_t>(turns);
@@ -38,7 +38,7 @@ constexpr BinaryAngle binary_degrees(double degrees) {
       static_cast<std::uint64_t>(detail::nearest<std::int64_t>(rest * 4294967296.0)));
 }
 
-/// Begin of electrical sector n = 0..5: the first integer angle at or after 60 n degrees (model.md 3).
+/// Begin of electrical sector n = 0..5: the least integer angle that is at least 60 n degrees (model.md 3).
 constexpr BinaryAngle sector_angle(std::uint8_t n) {
   constexpr BinaryAngle begins[6] = {0u, 715827883u, 1431655766u, 2147483648u, 2863311531u, 3579139414u};
   return begins[n % 6];
@@ -59,14 +59,14 @@ constexpr BinaryAngle quantised(BinaryAngle angle, std::uint8_t bits) {
   return (angle >> drop) << drop;
 }
 
-/// Whole turns, and the angle within the last turn; both together do not wrap.
+/// Number of whole turns, and the angle within the present turn. Together they do not wrap.
 struct UnwrappedAngle {
   BinaryAngle angle = 0;
   std::int32_t turns = 0;
   bool operator==(const UnwrappedAngle&) const = default;
 };
 
-/// Changes to a new angle by the shorter rotation, and counts whole turns.
+/// Sets a new angle, reached by the shorter rotation, and counts whole turns.
 constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
   const std::int32_t way = way_between(state.angle, angle);
   if (way >= 0 && angle < state.angle) ++state.turns;
@@ -76,8 +76,8 @@ constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
 
 namespace detail {
 
-/// Number of bits of x, by halving the width: on processors that cannot count zeros, a loop over the bits
-/// becomes a library call.
+/// Number of bits of x, computed by halving the width. Compilers would convert a loop over the bits to a
+/// library call on processors without an instruction that counts zeros.
 constexpr std::uint8_t bit_width(std::uint32_t x) {
   std::uint8_t bits = 0;
   for (std::uint8_t half = 16; half != 0; half = static_cast<std::uint8_t>(half >> 1)) {
@@ -90,17 +90,17 @@ constexpr std::uint8_t bit_width(std::uint32_t x) {
 
 }  // namespace detail
 
-/// A turn divided into whole parts. With it angle_of_parts() multiplies instead of dividing; the error is at
-/// most 2 units plus rounding.
+/// Factor for a turn of `whole` parts. With this factor, angle_of_parts() multiplies instead of dividing. The
+/// error is at most 2 units plus rounding.
 struct TurnParts {
-  std::uint32_t mantissa = 0;  ///< 2^(30+n)/whole, n the number of bits of whole; exact if whole is a power
-                               ///< of two
+  std::uint32_t mantissa = 0;  ///< 2^(30+n)/whole, with n the number of bits of `whole`; exact if `whole` is
+                               ///< a power of two
   std::uint8_t right = 0;      ///< n - 2
   bool operator==(const TurnParts&) const = default;
 };
 
-/// Divides a turn into `whole` parts. This costs one division of 64 bits: call it once per Hall edge, or at
-/// compile time. Fewer than two parts give 0.
+/// The factor for a turn of `whole` parts; 0 for fewer than two parts. The function needs a 64-bit division:
+/// call it at most once per Hall edge, or at compile time.
 constexpr TurnParts turn_in_parts(std::uint32_t whole) {
   if (whole < 2) return {};
   const std::uint8_t bits = detail::bit_width(whole);
@@ -119,7 +119,7 @@ constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) 
 /// point.
 template <class Scalar>
 struct AngleTraits {
-  /// mantissa/2^right, with a mantissa of 31 bits: the same constant also where double has 32 bits.
+  /// mantissa/2^right, with a mantissa of 31 bits. The constant has the same bits where double has 32 bits.
   static constexpr Gain<Scalar> constant(std::int32_t mantissa, std::int8_t right) {
     return static_cast<Scalar>(static_cast<double>(mantissa) /
                                static_cast<double>(detail::two_to<std::int64_t>(right)));
@@ -172,7 +172,8 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
         down >= 0 ? detail::with_sign(detail::magnitude_down(p.size, down), p.negative)
                   : detail::magnitude_up<Wide>(p.size, p.negative, -down));
   }
-  /// Adds and doubles bit by bit of n, because a 64-bit product with its overflow check would need a library.
+  /// Multiplies by additions, one per bit of n, because a 64-bit product with an overflow check would need a
+  /// library function.
   static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
     TickRatio<Scalar> sum{};
     for (; n != 0; n >>= 1) {

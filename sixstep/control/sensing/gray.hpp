@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Absolute encoder in Gray code, with up to 20 tracks: decodes angle, turns and speed. A motion that is too
-// fast for the rotor's inertia is a fault. The faulty track is named if it can be determined.
+// Absolute encoder in Gray code, with up to 20 tracks: decodes angle, turns and speed. A motion that the
+// rotor's inertia makes impossible is a fault. The faulty track is reported if it is unambiguous.
 //
 //   binary = g ^ g >> 1 ^ g >> 2 ^ ...,   angle = binary 2^(32-n),   w = (angle - angle k ticks ago)/(k T)
 //
-// g: code, n: number of tracks, T: control period. A wrong track j inverts all bits from j down: the angle is
+// g: code, n: number of tracks, T: control period. A wrong track j inverts the bits j to 0: the angle is
 // mirrored within 2^(j+1) counts. When the rotor leaves these counts, the angle seems to jump by up to
 // 2^(j+1) counts. Each angle is therefore compared with the prediction from the last two angles. If the
-// difference exceeds the effects of acceleration and rounding, the faulty track is the track whose inversion
-// gives the predicted angle.
+// difference exceeds the effects of acceleration and rounding, the code is faulty. The faulty track is the
+// track whose inversion results in the predicted angle.
 //
-// Mirrored motion is detected at a jump, or if it is faster per tick than the tolerance. With a slow rotor
-// the fault is not detected before the jump. The mirrored range of the top track has no border: its fault is
-// never detected.
+// Mirrored motion is detected at a jump, or if it exceeds the tolerance in one tick. With a slow rotor the
+// fault is not detected before the jump. A fault of the top track is never detected, because the mirrored
+// range of this track has no border.
 #pragma once
 #include <cstdint>
 
@@ -22,23 +22,24 @@ namespace sixstep::control {
 
 inline constexpr std::uint8_t no_track = 0xff;
 
-/// The default reads 0.
+/// Default: the angle is 0.
 template <class Scalar>
 struct GrayConfig {
   std::uint8_t bits = 0;          ///< n, 1..20; bit 0 of a code is the finest track
   BinaryAngle tolerance = 0;      ///< largest error of the predicted angle: 2 counts plus the effect of
                                   ///< acceleration, below an eighth of a turn; 0: not checked
-  std::uint8_t patience = 0;      ///< number of consecutive bad codes that the prediction replaces; the code
-                                  ///< after them is accepted
+  std::uint8_t patience = 0;      ///< number of consecutive bad codes that the prediction replaces; the next
+                                  ///< code is accepted
   std::uint8_t span = 1;          ///< k, 1..8 ticks over which the speed is measured
-  Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) over the base of speeds, k = span; fixed: raw digits
+  Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) divided by the base of speeds, with k = span; in fixed
+                                  ///< point: raw digits
   bool operator==(const GrayConfig&) const = default;
 };
 
 struct GrayState {
-  BinaryAngle past[9]{};  ///< angles of the last ticks, the latest first
+  BinaryAngle past[9]{};  ///< angles of the last ticks, newest first
   UnwrappedAngle position{};
-  std::uint8_t known = 0;    ///< valid entries of `past`
+  std::uint8_t known = 0;    ///< number of valid entries of `past`
   std::uint8_t bad = 0;      ///< consecutive bad codes
   std::uint32_t faults = 0;  ///< bad codes in total
 };
@@ -47,9 +48,9 @@ template <class Scalar>
 struct GrayReading {
   UnwrappedAngle position{};
   Scalar speed{};                 ///< 0 until span + 1 codes were read
-  bool jump = false;              ///< this code was impossible; the prediction replaces at most `patience`
-                                  ///< codes
-  std::uint8_t track = no_track;  ///< the faulty track, if exactly one explains the jump
+  bool jump = false;              ///< true: this code was impossible; the prediction replaces at most
+                                  ///< `patience` codes
+  std::uint8_t track = no_track;  ///< the faulty track, if exactly one track explains the jump
 };
 
 /// Converts a Gray code to binary. Bits from `bits` upwards are ignored.
@@ -72,14 +73,14 @@ constexpr bool within(BinaryAngle angle, BinaryAngle of, BinaryAngle tolerance) 
   return absolute(way_between(of, angle)) <= tolerance;
 }
 
-/// The only track whose inversion explains the code; no_track if there is no such track, or more than one.
-/// Wrong earlier codes within the tolerance may have changed the prediction. The track must therefore be the
-/// only track that explains the code within four times the tolerance.
+/// The only track whose inversion results in the predicted angle; no_track if no track or more than one track
+/// does. Wrong earlier codes within the tolerance may have changed the prediction. The track must therefore
+/// be the only track that explains the code within four times the tolerance.
 ///
 /// Test with 12 tracks that break at 4 to 20 counts per tick, with a tolerance of 3 counts: two of three
-/// faults are found from the fifth track on, and none of the finer tracks. In 8820 faults no wrong track is
-/// named (tests/control/sensing/gray_test.cpp); within three times the tolerance 42 wrong tracks would be
-/// named.
+/// faults are identified from the fifth track on, none in the finer tracks. In 8820 faults no wrong track is
+/// identified (tests/control/sensing/gray_test.cpp). With three times the tolerance, 42 wrong tracks would be
+/// identified.
 constexpr std::uint8_t wrong_track(std::uint32_t gray, std::uint8_t bits, BinaryAngle foretold,
                                    BinaryAngle tolerance) {
   std::uint8_t found = no_track;
@@ -109,7 +110,7 @@ constexpr GrayReading<Scalar> gray_step(const GrayConfig<Scalar>& config, GraySt
     if (state.bad <= config.patience)
       angle = foretold;
     else
-      state.known = 0;  // the prediction has failed: restart with this code
+      state.known = 0;  // the prediction has failed: restarts with this code
   } else {
     state.bad = 0;
   }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the electrical angle between Hall edges, and the speed from the true widths of the sectors.
+// Computes the electrical angle between Hall edges, and the speed from the measured widths of the sectors.
 //
-//   at an edge n        theta = edge[n] +- h, + forward: half of the hysteresis, h, delays the edge
+//   at an edge n        theta = edge[n] + h forward, edge[n] - h backward; h: half of the hysteresis, which
+//                       delays the edge
 //   between edges       theta + way, way = 2^32 since/turn_ticks, up to the next edge and a margin; plus the
 //                       rotation within the delay of an edge, 2^32 delay/turn_ticks
-//   turn_ticks          ticks over the last k sectors x 2^32/(width of these sectors, as calibrated)
+//   turn_ticks          ticks of the last k sectors x 2^32/(calibrated width of these sectors)
 //   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor just before its next
 //                       edge
 //
 // Default edges are 60 degrees apart (model.md 3); hall_calibration.hpp measures the true edges. Edge n is
-// the border between the sectors n-1 and n. With true widths one sector (k = 1) suffices for the speed; more
-// sectors average jitter, but the speed is then older. While no speed is known (at the start, after a
-// reversal or a time-out), the angle is the sector's middle, with an error of at most 30 degrees.
+// the border between the sectors n-1 and n. With true widths, one sector (k = 1) suffices for the speed. More
+// sectors average jitter but delay the speed. While the speed is unknown (at the start, after a reversal or a
+// time-out), the angle is the sector's middle, with an error of at most 30 degrees.
 #pragma once
 #include <cstdint>
 
@@ -29,7 +30,7 @@ struct HallEdges {
   bool operator==(const HallEdges&) const = default;
 };
 
-/// With the default no speed is measured, and the angle stays in the middle of each sector.
+/// Default: the speed is always 0, and the angle is the middle of the sector.
 template <class Scalar>
 struct HallAngleConfig {
   HallEdges edges{};
@@ -40,7 +41,7 @@ struct HallAngleConfig {
   std::uint32_t timeout_ticks = 0;       ///< ticks without an edge after which the rotor counts as at rest;
                                          ///< below 2^31
   std::uint32_t delay_ticks = 0;         ///< delay of an edge: filter, glitch suppression, interrupt
-  std::uint8_t span = 1;                 ///< k, sectors over which the speed is measured, 1..6
+  std::uint8_t span = 1;                 ///< k, number of sectors over which the speed is measured, 1..6
   bool operator==(const HallAngleConfig&) const = default;
 };
 
@@ -48,7 +49,7 @@ struct HallAngleState {
   HallSpeedState times{};
   std::uint8_t sector = no_sector;
   std::uint8_t edge = 0;         ///< the last edge passed
-  std::uint32_t turn_ticks = 0;  ///< ticks of an electrical turn; 0: no speed is known
+  std::uint32_t turn_ticks = 0;  ///< ticks of an electrical turn; 0: the speed is unknown
   TurnParts turn{};              ///< turn_in_parts(turn_ticks)
 };
 
@@ -58,7 +59,7 @@ struct HallAngle {
   Scalar speed{};         ///< mechanical rad/s
 };
 
-/// Distance from edge `from` to the edge that lies `sectors`, 1..5, ahead in `direction`; always positive.
+/// Distance from edge `from` to the edge `sectors` sectors (1..5) further in `direction`; always positive.
 constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, std::int8_t direction,
                                      std::uint8_t sectors) {
   const std::uint8_t to = static_cast<std::uint8_t>((from + (direction < 0 ? 6 - sectors : sectors)) % 6);
@@ -67,7 +68,7 @@ constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, 
 
 namespace detail {
 
-/// Ticks of a turn, if `width` of it lasts `ticks`: ticks 2^32/width, rounded to nearest, saturated.
+/// Ticks of a turn, if the angle `width` lasts `ticks`: ticks 2^32/width, rounded to nearest, saturated.
 constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
   if (width == 0) return 0xffffffffu;
   const std::uint64_t turn = ((static_cast<std::uint64_t>(ticks) << 32) + width / 2) / width;
@@ -76,8 +77,8 @@ constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
 
 }  // namespace detail
 
-/// Processes the result of hall_step. Call it in the interrupt of an edge, with the captured time. A new code
-/// without an edge, or a fault, clears the history of times.
+/// Processes the result of hall_step. Call it in the interrupt of an edge, with the captured time. A fault,
+/// or a new sector without an edge, clears the history of times.
 template <class Scalar>
 constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                std::uint8_t sector, std::int8_t moved, std::uint32_t time) {
@@ -101,7 +102,7 @@ constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleS
 }
 
 /// Angle and speed at counter reading `now`. Call it at least once per timeout_ticks, because only this call
-/// clears the history.
+/// detects standstill.
 template <class Scalar>
 constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                        std::uint32_t now) {
@@ -120,8 +121,8 @@ constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, Ha
   if (way > width + config.margin) way = width + config.margin;
   way += angle_of_parts(state.turn, config.delay_ticks);
   way += edges.half_hysteresis;
-  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge was up to one tick later than its
-                                                          // reading
+  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge occurred up to one timer tick after the
+                                                          // captured reading
   const bool late = past >= state.turn_ticks || angle_of_parts(state.turn, past) > width;
   const std::uint32_t at_least = late ? detail::ticks_of_turn(past, width) : 0;
   const Scalar w = ScalarTraits<Scalar>::per_ticks(config.turn_rad_s_ticks,

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the angles of the six Hall edges from their times, while the rotor turns steadily.
+// Measures the angles of the six Hall edges from the edge times, while the rotor turns at constant speed.
 //
-//   fraction of the turn at edge j = sum over n turns of (t_j - t_0)/sum of the turns' times
+//   fraction of the turn at edge j = (sum over n turns of (t_j - t_0))/(sum of the turns' times)
 //   deviation[j] = angle of this fraction - 60 j degrees, minus the mean of all deviations
 //
-// t_j is the time of the j-th edge after the turn's first edge. The times cannot show an angle that is common
-// to all edges: the probes' common offset, hysteresis and delay shift all edges alike. This common angle is
-// therefore an input of hall_edges(). It is measured from the back-EMF, or by aligning the rotor: one mean of
-// the measured edges for each direction,
+// t_j is the time of the j-th edge after the turn's first edge. The times do not show an angle that is common
+// to all edges, because common offset, hysteresis and delay shift all edges alike. This common angle is
+// therefore an input of hall_edges(). It is measured from the back-EMF, or by aligning the rotor. For each
+// direction of rotation the mean of the measured edges is
 //
 //   forward = offset + h + w t_d,   backward = offset - (h + w t_d)
 //
 // with h half of the hysteresis, w the electrical speed and t_d the delay. A run in each direction separates
 // offset and h + w t_d. Differences of the hysteresis between edges cancel in the mean of both runs. The
-// resulting h contains w t_d at the speed of the run: run slowly, or set hall_angle's delay to 0.
+// resulting h contains w t_d at the speed of the runs. Therefore run slowly, or set the delay of
+// hall_angle.hpp to 0.
 //
-// Requirement: the time of each turn differs from the time of the first turn by at most 1/steady of it, or
-// the run is rejected. A drift d of the turn's time over the run changes the angles by at most d/(8 n) turns
-// (0.022 degrees for steady 64, n 32). Speed ripple that repeats with the edges is measured as displaced
-// edges: let the rotor coast, or run it fast enough. If the magnets differ from pole to pole, choose n as a
-// multiple of the pole pairs.
+// The run is rejected if the time of a turn differs from the time of the first turn by more than the fraction
+// 1/steady. If the turn's time changes by the fraction d during the run, the angles change by at most d/(8 n)
+// turns (0.022 degrees for steady = 64, n = 32). Speed ripple that repeats with the edges is measured as
+// displaced edges. To avoid it, let the rotor coast, or run it fast enough. If the magnets differ from pole
+// to pole, choose n as a multiple of the pole pairs.
 #pragma once
 #include <cstdint>
 
@@ -29,7 +30,8 @@ namespace sixstep::control {
 
 struct HallCalibrationConfig {
   std::uint16_t turns = 32;   ///< n, electrical turns
-  std::uint16_t steady = 64;  ///< a turn may differ from the first turn by 1/steady of its time
+  std::uint16_t steady = 64;  ///< reciprocal of the largest allowed relative difference between the time of a
+                              ///< turn and that of the first turn
   bool operator==(const HallCalibrationConfig&) const = default;
 };
 
@@ -41,24 +43,25 @@ enum class HallCalibration : std::uint8_t {
 };
 
 struct HallCalibrationState {
-  std::uint64_t after[6]{};  ///< sums over the turns of the ticks from the turn's first edge to the j-th edge
-                             ///< after it; [0]: to the turn's end
+  std::uint64_t after[6]{};  ///< [j]: ticks from a turn's first edge to the j-th edge after it, summed over
+                             ///< the turns; [0]: ticks of whole turns
   std::uint32_t began = 0;   ///< time of the present turn's first edge
   std::uint32_t first = 0;   ///< ticks of the first turn
-  std::uint16_t turns = 0;   ///< whole turns so far
+  std::uint16_t turns = 0;   ///< number of completed turns
   std::uint8_t start = no_sector;  ///< the edge at which turns begin
-  std::uint8_t passed = 0;         ///< edges that have passed in the present turn
+  std::uint8_t passed = 0;         ///< number of edges in the present turn
   std::int8_t direction = 0;
   HallCalibration result = HallCalibration::running;
 };
 
-/// Signed angles by which the edges are ahead of 60 n degrees; their mean is 0 to one unit.
+/// Signed angles by which the edges n are ahead of 60 n degrees. The mean of the angles is 0, with an error
+/// of at most one unit.
 struct HallDeviations {
   std::int32_t at[6]{};
 };
 
 /// Adds an edge in `direction` (+1, -1) at counter reading `time`; `edge` is its number as in hall_angle.hpp.
-/// After `done` or a rejection the state does not change; begin again with a new state.
+/// After `done` or a rejection the state does not change. For a new run use a new state.
 constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, HallCalibrationState& state,
                                          std::uint8_t edge, std::int8_t direction, std::uint32_t time) {
   if (state.result != HallCalibration::running || edge > 5) return state.result;
@@ -107,8 +110,8 @@ constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   return deviations;
 }
 
-/// Edges from a run in one direction. `offset`: mean angle by which the six edges are ahead of 60 n degrees,
-/// each edge taken halfway between both directions. The data sheet gives the hysteresis.
+/// Edges from a run in one direction. `offset`: mean angle by which the six edges n are ahead of 60 n
+/// degrees, averaged over both directions. The hysteresis is from the data sheet.
 constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t offset,
                                BinaryAngle half_hysteresis) {
   HallEdges edges{};
@@ -120,7 +123,7 @@ constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t of
 }
 
 /// Edges from one run in each direction at the same speed. seen_forward, seen_backward: mean angle by which
-/// the edges are ahead of 60 n degrees in each run.
+/// the edges n are ahead of 60 n degrees in this run.
 constexpr HallEdges hall_edges(const HallDeviations& forward, const HallDeviations& backward,
                                std::int32_t seen_forward, std::int32_t seen_backward) {
   HallDeviations mean{};

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Incremental encoder: decodes the lines A, B and Z to four counts per line, a direction and an angle.
 //
-//   A = [frac(N theta_m/2 pi) < 1/2], B a quarter of a line later (model.md 10): AB = 10, 11, 01, 00 forward
+//   A = 1 while frac(N theta_m/(2 pi)) < 1/2; B lags A by a quarter of a line (model.md 10)
+//   AB forward: 10, 11, 01, 00
 //
-// A change of both lines at once is invalid: one step was missed, or a line is disturbed. The decoder then
-// adds two counts in the last direction, so that the count stays consistent with the lines. `illegal` counts
-// these changes.
+// N is the number of lines, theta_m the mechanical angle. A change of A and B at once is invalid: one step
+// was missed, or a line is disturbed. The decoder then adds two counts in the last direction, so that the
+// count stays consistent with the lines. `illegal` counts these changes.
 //
-// Z is high over one line, beginning at theta_m = 0. Z is evaluated in one of the four quarters of that line,
-// by default in the third: there an edge of Z may be nearly two counts early or late. The first index defines
-// zero. Each later index shows whether counts were missed, and corrects them.
+// Z is high over one line, beginning at theta_m = 0. Z is evaluated in one of the four quarters of this line.
+// Default: the third quarter, where an edge of Z may be nearly two counts early or late. The first index
+// defines zero. At each later index, missed counts are detected and corrected.
 //
 // On a chip whose timer counts in hardware, call quadrature_moved() and quadrature_index() instead.
 #pragma once
@@ -19,7 +20,7 @@
 
 namespace sixstep::control {
 
-/// With the default nothing is counted. quadrature_of_lines() returns a configuration.
+/// Default: nothing is counted. quadrature_of_lines() returns a configuration.
 struct QuadratureConfig {
   std::uint32_t counts = 0;        ///< counts of a turn, 4 N
   TurnParts turn{};                ///< turn_in_parts(counts)
@@ -33,15 +34,15 @@ constexpr QuadratureConfig quadrature_of_lines(std::uint32_t lines) {
 }
 
 struct QuadratureState {
-  std::uint32_t in_turn = 0;  ///< 0..counts-1; counted from the start's position, after the first index from
-                              ///< zero
+  std::uint32_t in_turn = 0;  ///< 0..counts-1; relative to the initial position; after the first index
+                              ///< relative to zero
   std::int32_t turns = 0;
   std::uint8_t quarter = 0xff;    ///< quarter of the line, 0..3; 0xff before the first reading
   std::int8_t direction = 0;      ///< direction of the last step
-  bool referenced = false;        ///< an index was found
-  std::uint32_t illegal = 0;      ///< number of changes of both lines at once
-  std::uint32_t corrections = 0;  ///< number of indexes that found counts missing
-  std::int32_t missed = 0;        ///< true counts minus counted counts at the last index
+  bool referenced = false;        ///< true: an index was found
+  std::uint32_t illegal = 0;      ///< number of simultaneous changes of A and B
+  std::uint32_t corrections = 0;  ///< number of indexes at which counts were missing
+  std::int32_t missed = 0;        ///< true count minus counted value at the last index
 };
 
 /// Adds `moved` counts; |moved| must be less than the counts of a turn.
@@ -83,7 +84,7 @@ constexpr std::uint8_t quarter_of_line(bool a, bool b) {
   return a ? (b ? std::uint8_t{1} : std::uint8_t{0}) : (b ? std::uint8_t{2} : std::uint8_t{3});
 }
 
-/// One reading of the lines. Call it at each edge of A and B, or so often that at most one edge occurs
+/// One reading of the lines. Call it at each edge of A and B, or often enough that at most one edge occurs
 /// between two calls. Returns the counts since the last call, -2..2; the first call returns 0.
 constexpr std::int8_t quadrature_step(const QuadratureConfig& config, QuadratureState& state, bool a, bool b,
                                       bool z) {

@@ -3,7 +3,7 @@
 //
 //   V_c = k V sin(w_x t + d) cos phi,   V_s = (1 + a) k V sin(w_x t + d) sin(phi + q),   phi = p_r theta_m
 //
-//   demodulated   x = +-(this sample - the sample half a period before)/2: the converter's offset cancels. x
+//   demodulated   x = +-(this sample - the sample half a period before)/2, without the converter's offset. x
 //                 is valid for the middle between both samples, a quarter of a period ago.
 //   corrected     c = g_c x_c - o_c,   s = g_s x_s - o_s - tan q c,   g_s = g_c/((1 + a) cos q)
 //   detected      with an estimate theta:  along = c cos theta + s sin theta = A cos(phi - theta)
@@ -12,8 +12,9 @@
 //   tracked       tracking.hpp
 //
 // V_c, V_s: voltages of the windings, V, w_x, d: amplitude, frequency and phase of the excitation, k: ratio,
-// a, q: errors of amplitude and angle, p_r: pole pairs. Beyond 45 degrees (90 without normalising) the error
-// is 1 with the sign of the shorter rotation, so that the loop cannot settle with an error of half a turn.
+// a, q: errors of amplitude and angle, p_r: pole pairs. g_c, g_s are gains, o_c, o_s offsets. Beyond 45
+// degrees (90 without normalising) the error is 1 with the sign of the shorter rotation. The loop therefore
+// cannot settle with an error of half a turn.
 #pragma once
 #include <cstdint>
 
@@ -25,17 +26,19 @@ namespace sixstep::control {
 /// In fixed point choose an amplitude of at most 0.7: its square then fits, with a margin for faults.
 template <class Scalar>
 struct ResolverConfig {
-  Gain<Scalar> cos_per_count{};  ///< g_c/2, per count of difference between two samples; fixed: raw digits
+  Gain<Scalar> cos_per_count{};  ///< g_c/2, per count of difference between two samples; in fixed point: raw
+                                 ///< digits
   Gain<Scalar> sin_per_count{};  ///< g_s/2, like cos_per_count
   Scalar cos_offset{};           ///< o_c, the offset that remains after demodulation
   Scalar sin_offset{};           ///< o_s, like cos_offset
-  Gain<Scalar> skew{};           ///< tan q, of windings that are not at right angles
+  Gain<Scalar> skew{};           ///< tan q, for windings that are not at right angles
   bool normalise = true;         ///< true: divides by the measured amplitude; false: assumes the amplitude 1
   TrackingConfig loop{};
   Scalar least_square{};        ///< least c^2 + s^2; below it a winding or the excitation is broken
   Scalar greatest_square{};     ///< greatest c^2 + s^2; above it the windings are shorted to each other; 0:
                                 ///< not checked
-  std::uint8_t lost_after = 1;  ///< consecutive results outside of these bounds until `lost`
+  std::uint8_t lost_after = 1;  ///< number of consecutive results outside of the two bounds after which
+                                ///< `lost` is true
   bool operator==(const ResolverConfig&) const = default;
 };
 
@@ -53,19 +56,19 @@ struct ResolverState {
   ResolverCounts last{};
   TrackingState loop{};
   std::uint8_t outside = 0;
-  bool begun = false;  ///< true: a sample was taken before
+  bool begun = false;  ///< true: `last` contains a sample
 };
 
 template <class Scalar>
 struct ResolverReading {
-  BinaryAngle angle = 0;   ///< angle in the resolver's turn (p_r per mechanical turn), at the middle between
-                           ///< two samples
+  BinaryAngle angle = 0;   ///< angle within the resolver's turn (p_r turns per mechanical turn), in the
+                           ///< middle between the two samples
   std::int32_t speed = 0;  ///< units of 2^-32 turn per call
   Scalar square{};         ///< c^2 + s^2
   bool lost = false;
 };
 
-/// Signals from two consecutive samples. positive_peak: `now` was sampled at the positive peak.
+/// Signals from two consecutive samples. positive_peak: true if `now` was sampled at the positive peak.
 template <class Scalar>
 constexpr ResolverSignals<Scalar> resolver_signals(const ResolverConfig<Scalar>& config,
                                                    const ResolverCounts& before, const ResolverCounts& now,
@@ -89,16 +92,16 @@ constexpr std::int32_t resolver_error(const ResolverSignals<Scalar>& x, BinaryAn
   const Scalar along = x.c * d.cos + x.s * d.sin;
   const Scalar across = x.s * d.cos - x.c * d.sin;
   const Scalar limit = normalise ? magnitude(across) : Scalar{};
-  // along must be strictly greater: otherwise a resolver without signals (0/0) would give an error of 1.
-  // Without signals the error is 0.
+  // `along` must be strictly greater: otherwise a resolver without signals (0/0) would have an error of 1
+  // instead of 0.
   if (along > limit) return angle_of_rad(normalise ? across / along : across);
   if (along == Scalar{} && across == Scalar{}) return 0;
   return angle_of_rad(across < Scalar{} ? -one<Scalar> : one<Scalar>);
 }
 
 /// One sample. Call it once per peak of the excitation. Alternatively call it once per period with
-/// `positive_peak` always true, and give the negative peak's counts to resolver_hold. Before the second
-/// sample the reading is 0.
+/// `positive_peak` always true, and call resolver_hold with the negative peak's counts. At the first sample
+/// the reading is 0.
 template <class Scalar>
 constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& config, ResolverState& state,
                                                 const ResolverCounts& counts, bool positive_peak) {
@@ -123,7 +126,7 @@ constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& co
   return {angle, tracking_speed(state.loop), square, state.outside >= patience};
 }
 
-/// Stores the counts of the other peak, for a loop that runs once per period.
+/// Stores the counts of the negative peak, for a loop that is executed once per period.
 constexpr void resolver_hold(ResolverState& state, const ResolverCounts& counts) {
   state.last = counts;
   state.begun = true;

@@ -5,7 +5,7 @@
 //   sin(a + d) = sin a + d cos a - d^2/2 sin a,   cos(a + d) = cos a - d sin a - d^2/2 cos a,   |d| <= pi/256
 //
 // The next term is at most (pi/256)^3/6 = 3.1e-7. In double the error is this term plus 1e-9 from the table.
-// In fixed point of 16 bits rounding adds two digits. The table is computed in integers at compile time: it
+// In fixed point of 16 bits rounding adds two digits. The table is computed in integers at compile time and
 // has the same bits on every core. With 16-bit entries it needs 130 bytes.
 #pragma once
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace sixstep::control {
 
 namespace detail {
 
-/// sin(n pi/128) 2^30 for n = 0..64, by Taylor's polynomial of degree 15 in units of 2^-31; exact to one
-/// unit.
+/// sin(n pi/128) 2^30 for n = 0..64, by Taylor's polynomial of degree 15 in units of 2^-31, with an error of
+/// at most one unit.
 constexpr std::int32_t sine_entry(std::uint8_t n) {
   constexpr std::uint64_t pi_31 = 6746518852u;  // pi 2^31
   const std::uint64_t x = (n * pi_31 + 64) / 128, x2 = (x * x) >> 31, one_31 = std::uint64_t{1} << 31;
@@ -32,8 +32,8 @@ template <class Scalar>
 struct SineTable {
   Scalar entry[65]{};
   constexpr SineTable() {
-    // 2^31 does not fit into a signed number. The number below it still rounds to 1 in every format that
-    // contains 1.
+    // 2^31 does not fit into a signed number. shifted_up() saturates to 2^31 - 1, which rounds to 1 in every
+    // format that contains 1.
     for (std::uint8_t n = 0; n < 65; ++n)
       entry[n] = AngleTraits<Scalar>::half_turns(shifted_up(sine_entry(n), 1));
   }

@@ -1,38 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the zero crossing by comparators. Three lines show whether each terminal is above its reference. The
-// timer captures the lines' edges.
+// Finds the zero crossing by comparators. Three comparator lines show whether each terminal is above its
+// reference. The timer captures the edges of the lines.
 //
 //   virtual star   u_f - (u_a + u_b + u_c)/3 = (2 u_f - u_s - u_k)/3     y/3 of zero_crossing.hpp, at any time
 //   half the bus   u_f - U/2 = (2 u_f - u_s - u_k)/2                     only while the pair is on, where u_s + u_k = U
 //
 // u_f is the voltage of the floating leg, u_s and u_k are the voltages of the driven legs, U is the bus, T
-// the PWM period. Samples show a crossing once per period; the time of an edge is exact to a count of the
-// timer. Samples, line and edge therefore have different tasks:
+// the PWM period. y is the voltage that zero_crossing.hpp evaluates. A sample is taken once per period; the
+// time of an edge is exact to one timer count. Samples, lines and edges therefore have different tasks:
 // - The samples show whether the leg's old current has ended, and whether the driven legs follow the command
-//   (zero_crossing.hpp), which gives the cause of a loss.
-// - The line shows on which side of its reference the leg is.
-// - The edge shows since when.
+//   (zero_crossing.hpp).
+// - The line shows whether the leg is above or below its reference.
+// - The edge shows the time of the crossing.
 //
-// An edge is used only after the first sample without the old current: earlier edges belong to the freewheel.
-// The freewheel also charges the low-pass tau in front of each comparator, and the line stays on the wrong
-// side for a while. If the crossing occurs before the line has returned, the samples give its time.
+// An edge is used only after the first sample without the old current: the freewheel of the old current
+// causes earlier edges. The freewheel also charges the low-pass (time constant tau) in front of each
+// comparator, so that the line has the wrong level for some time. If the crossing occurs before the line has
+// the right level again, the samples determine the crossing's time.
 //
-// Against the virtual star the low-pass may, and should, be about as slow as a PWM period. In soft and
-// complementary chopping a diode holds a negative e_f at zero outside of the pulse, where the star is at zero
-// too. A current then flows in the leg and pulls it to the rail when the pulse begins, until the current has
-// ended. The mean of 3 L di/dt over a period is zero. The mean of y is therefore right, but up to a pause
-// late. An edge is late by
+// With the virtual star as the reference, tau should be about a PWM period. In soft and complementary
+// chopping a diode clamps a negative back-EMF e_f at zero outside of the pulse, where the star is at zero
+// too. A current then flows in the leg. When the pulse begins, this current pulls the leg to the rail until
+// the current has ended. The mean of 3 L di/dt over a period is zero. The mean of y is therefore right, but
+// delayed by up to a pause. The delay t of an edge is (d: duty)
 //   hard chopping   t = tau                 soft, complementary   tau <= t <= tau + (1 - d) T
 //
 // The lead of commutation_clock.hpp compensates the part tau of this delay.
 //
-// Against half the bus, soft and complementary chopping pull the leg below its reference outside of each
-// pulse: the filter must settle within half a pulse. Only two signals are used: the line at the sample in the
-// pulse's middle, and an edge within the same pulse. The pulse itself causes an edge outside of the pulse.
-// The crossing then occurred in the pause, and the middle of the pause is used as its time.
+// With half the bus as the reference, soft and complementary chopping pull the leg below its reference
+// outside of each pulse. The filter must settle within half a pulse. Only two signals are used: the line at
+// the sample in the middle of the pulse, and an edge within the same pulse. If the last edge is outside of
+// the pulse, the pulse itself has caused it. The crossing then occurred in the pause, and the middle of the
+// pause is used as its time.
 //
-// An offset shifts a crossing by the offset divided by the slope of the voltage. A hysteresis delays it by
-// half of the hysteresis divided by the slope.
+// A comparator's offset shifts a crossing by the offset divided by the slope of the voltage. A hysteresis
+// delays a crossing by half of the hysteresis divided by the slope.
 //
 // K. Iizuka et al., Microcomputer control for sensorless brushless motor, IEEE Trans. Industry Applications
 // 21 (1985) 595: filtered terminals against a star point of three resistors. All numbers are integers, as in
@@ -44,13 +46,13 @@
 
 namespace sixstep::control {
 
-/// With the default the samples give the crossing.
+/// Default: the samples determine the crossing.
 struct CapturedCrossingConfig {
   bool follows = false;
   std::uint32_t lag_ticks = 0;     ///< lag of the low-pass, which delays an edge but not a sample
   std::uint32_t period_ticks = 0;  ///< PWM period if half the bus is the reference; 0: the reference is the
                                    ///< virtual star
-  /// If half the bus is the reference: time from a pulse's edge until its filter has settled.
+  /// If half the bus is the reference: time from a pulse's edge until the filter has settled.
   std::uint32_t settle_ticks = 0;
   bool operator==(const CapturedCrossingConfig&) const = default;
 };
@@ -73,8 +75,8 @@ constexpr void capture_lines(CapturedLines& state, std::uint8_t lines, std::uint
 
 namespace detail {
 
-/// Time of the crossing for an edge. `on` is the pulse's length in ticks, around the sample. If the edge is
-/// in the pause before this pulse, the pulse itself causes it, and the result is the middle of the pause.
+/// Time of the crossing for an edge. `on` is the length of the pulse around the sample, in ticks. If the edge
+/// is in the pause before this pulse, the pulse itself causes it, and the result is the middle of the pause.
 constexpr std::uint32_t edge_at(const CapturedCrossingConfig& config, std::uint32_t edge, std::uint32_t now,
                                 std::uint32_t on) {
   if (on + 1 >= config.period_ticks) return edge;
@@ -110,8 +112,8 @@ constexpr CrossingReading look_at_line(const CapturedCrossingConfig& config,
 
 }  // namespace detail
 
-/// One sample, with the lines captured before it. `on` as for zero_crossing_step(). `on_ticks`: time for
-/// which the pair is on around the sample; used only against half the bus.
+/// One sample, with the lines that were captured before the sample. `on` as for zero_crossing_step().
+/// `on_ticks`: on-time of the pair around the sample; used only if half the bus is the reference.
 constexpr CrossingReading captured_crossing_step(const CapturedCrossingConfig& config,
                                                  const ZeroCrossingConfig& crossing, ZeroCrossingState& state,
                                                  CapturedLines& captured, const TerminalSample& s, bool on,

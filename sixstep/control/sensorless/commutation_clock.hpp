@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the time of the next commutation from the times of the zero crossings (zero_crossing.hpp):
 //
-//   T = mean of the last k intervals between crossings; only the last interval if it differs from the mean by
-//       more than a quarter
-//   t = crossing + T (1/2 - advance) - lead,     not before the crossing itself
+//   T = mean of the last k intervals between crossings; if the last interval differs from the mean by more
+//       than a quarter, only the last interval
+//   t = crossing + T (1/2 - advance) - lead,     not before the crossing
 //
-// A crossing that was not found is stored at its expected time. When the next crossing is found, the stored
-// time changes to the middle between the neighbours. A guess therefore changes T no more than the measured
-// crossings do.
+// For a crossing that was not found, the expected time is stored. When the next crossing is found, the stored
+// time changes to the middle between the times before and after it. A wrong guess therefore has little effect
+// on T.
 //
 // A crossing is in the middle of its sector, and the commutation follows 30 degrees later. The advance is an
 // angle. The lead is a time: it compensates a phase's L/R and the delay of filters and converters. Times are
@@ -30,11 +30,12 @@ struct CommutationClockConfig {
 struct CommutationClockState {
   HallSpeedState crossings{};  ///< times of the crossings, stored like times of Hall edges
   std::uint32_t next = 0;      ///< time of the next commutation
-  bool scheduled = false;      ///< `next` is valid
-  bool guessed = false;        ///< the last crossing was not found
+  bool scheduled = false;      ///< true: `next` is valid
+  bool guessed = false;        ///< true: the last crossing was not found, and its time is a guess
 };
 
-/// True if counter reading `a` is before `b`; their distance must be less than half of the counter's range.
+/// True if counter reading `a` is before `b`. The difference of the two readings must be less than half of
+/// the counter's range.
 constexpr bool comes_before(std::uint32_t a, std::uint32_t b) {
   return a != b && static_cast<std::uint32_t>(b - a) < 0x80000000u;
 }
@@ -57,14 +58,14 @@ constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32
   state.guessed = true;
 }
 
-/// The last interval between two crossings in one direction, ticks; 0: none yet.
+/// The last interval between two crossings in one direction, ticks; 0: no interval yet.
 constexpr std::uint32_t last_interval(const CommutationClockState& state) {
   return state.crossings.known < 2
              ? 0
              : static_cast<std::uint32_t>(state.crossings.times[0] - state.crossings.times[1]);
 }
 
-/// T in ticks; 0: not known yet.
+/// T in ticks; 0: not available yet.
 constexpr std::uint32_t sector_ticks(const CommutationClockConfig& config,
                                      const CommutationClockState& state) {
   const std::uint8_t k = hall_speed_edges(config.crossings, state.crossings.known);

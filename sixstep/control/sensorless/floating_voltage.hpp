@@ -7,23 +7,25 @@
 // the star point: the switches determine the sum of the driven legs' voltages, and the terminal shows the
 // floating leg's voltage.
 //
-//   no current    3 w = 2 u_f - u_s - u_k of the sample, which is 3 g: the same in the pulse and in the freewheel
-//   a current     a diode holds the leg at a rail for the whole period: 3 w = 2 u_f - d U (soft,
-//                 complementary) or 2 u_f - U (hard)
+//   no current    3 w = 2 u_f - u_s - u_k of the sample, which is 3 g, in the pulse and in the freewheel
+//   a current     a diode clamps the leg to a rail for the whole period:
+//                 3 w = 2 u_f - d U (soft, complementary) or 2 u_f - U (hard)
 //
-// d is the duty, U the bus. The second line is used while the motor is driven and the old current decays: at
-// the lower rail if the back-EMF falls, at the upper rail if it rises. The leg is at the other rail, which
-// has the sign of the back-EMF, in two cases: the motor is braked, or soft chopping at a small duty drives a
-// current in its freewheel that ends during the next pulse. The mean voltage is then unknown; the period is
-// skipped without harm.
+// d is the duty, U the bus. The second line is used while the motor is driven and the old current decays. The
+// leg is then at the lower rail if the back-EMF falls, at the upper rail if the back-EMF rises. In two cases
+// the leg is at the opposite rail:
+// - the motor is braked,
+// - in soft chopping at a small duty a current flows during the off-time and ends in the next pulse.
+// The mean voltage is then unknown, and the period is skipped.
 //
-// The back-EMF of the driven legs is not used. At small currents their diodes stop conducting within the
-// period, and their voltage is not duty times bus. The voltage drops of the devices count as part of R.
+// The back-EMF of the driven legs is not used. At small currents the diodes of these legs stop conducting
+// within the period, and the legs' voltage is not duty times bus voltage. The voltage drops of the devices
+// count as part of R.
 //
 // While the old current decays, L di/dt is several times the back-EMF of a slow rotor. An error of 30 % in L
-// gives the estimate a wrong sign; so does a pair that was exchanged against its current. By default these
-// periods are skipped, and the estimate of the sector before is kept. Set through_freewheel only with a
-// measured inductance.
+// results in a wrong sign of the estimate. A pair that was exchanged against its current has the same effect.
+// By default these periods are skipped, and the estimate of the previous sector is kept. Set
+// through_freewheel only with a measured inductance.
 #pragma once
 #include <cstdint>
 
@@ -32,20 +34,21 @@
 
 namespace sixstep::control {
 
-/// With the default the voltage reads 0.
+/// Default: the voltage is 0.
 template <class Scalar>
 struct FloatingVoltageConfig {
-  Gain<Scalar> third_per_count{};  ///< V/3 per count of the converter; fixed: raw units
-  std::uint16_t rail_counts = 0;   ///< a diode or a switch holds a terminal this near to a rail
-  bool through_freewheel = false;  ///< true: also uses periods at the rail, because L and each phase's
-                                   ///< current are known
+  Gain<Scalar> third_per_count{};  ///< V/3 per count of the converter; in fixed point: raw units
+  std::uint16_t rail_counts = 0;   ///< a terminal within this distance from a rail counts as clamped by a
+                                   ///< diode or a switch
+  bool through_freewheel = false;  ///< true: also uses periods at the rail, if L and each phase's current are
+                                   ///< measured
   bool operator==(const FloatingVoltageConfig&) const = default;
 };
 
 template <class Scalar>
 struct FloatingVoltage {
   Scalar w_V{};
-  bool held = false;   ///< true: the old current holds the terminal at a rail
+  bool held = false;   ///< true: the old current clamps the terminal to a rail
   bool known = false;  ///< true: w is the phase's mean voltage
 };
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks by the zero crossing of each sector whether the commutation still follows the rotor, and names the
-// cause of a loss. A loss is detected within two commutations of its cause.
+// Checks by the zero crossing of each sector whether the commutation still follows the rotor, and determines
+// the cause of a loss. A loss is detected within two commutations of its cause.
 //
 //   masked crossing        no crossing within `window` of the sector's expected time
-//   long demagnetisation   the old current hid the crossing, in `tolerated` sectors in a row or for a whole
-//                          window
+//   long demagnetisation   the old current hid the crossing, in `tolerated` consecutive sectors or for a
+//                          whole window
 //   wrong sector           one of these:
-//                          - in `tolerated` sectors in a row the terminal showed a crossing too early
-//                          - in `tolerated` sectors in a row the time between crossings was below 5/8 or
-//                            above
-//                            8/5 of the time before, or shorter than this motor can reach on this bus
-//                          - in `unlike_samples` samples in a row the back-EMF had returned after its
-//                            crossing, or was larger than at the assumed speed: 2 u_f - u_s - u_k times T is
-//                            at most 3 K_e (pi/3)/p
+//                          - in `tolerated` consecutive sectors the crossing had already passed when the old
+//                            current had ended
+//                          - in `tolerated` consecutive sectors the time between crossings was below 5/8
+//                            or above 8/5 of the previous time, or shorter than possible at this bus voltage
+//                          - in `unlike_samples` consecutive samples the back-EMF had its old sign again
+//                            after the crossing, or was larger than at the assumed speed:
+//                            2 u_f - u_s - u_k times T is at most 3 K_e (pi/3)/p
 //   terminals              the driven legs' terminals contradict the command: a divider or its wire is broken
-//   start                  the ramp ended without trusted crossings
+//   start                  the ramp ended without enough trusted crossings
 #pragma once
 #include <cstdint>
 
@@ -36,11 +36,13 @@ struct LockConfig {
   std::uint8_t window_eighths = 16;          ///< window in eighths of a sector, from crossing to crossing
   std::uint8_t tolerated = 2;                ///< consecutive sectors without a crossing at which a loss is
                                              ///< reported
-  std::uint8_t unlike_samples = 4;           ///< consecutive samples that contradict the command until a loss
+  std::uint8_t unlike_samples = 4;           ///< number of consecutive contradicting samples at which a loss
+                                             ///< is reported
   std::uint32_t shortest_ticks = 0;          ///< shortest possible sector, at the largest speed
-  std::uint32_t longest_ticks = 0xffffffff;  ///< longest sector: a slower rotor cannot be followed
+  std::uint32_t longest_ticks = 0xffffffff;  ///< longest sector of a rotor that can be followed
   std::uint32_t most_flux = 0xffffffff;      ///< largest y times T of a rotor, counts times ticks
-  std::int32_t threshold = 0x7fffffff;       ///< counts of |y| above which y is a voltage and not noise
+  std::int32_t threshold = 0x7fffffff;       ///< counts of |y| above which y counts as a voltage, not as
+                                             ///< noise
   std::uint8_t retries = 3;                  ///< consecutive losses and failed starts before the drive stops
   std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which the count of losses is
                                              ///< reset
@@ -49,11 +51,11 @@ struct LockConfig {
 
 struct LockState {
   std::uint8_t hidden = 0;  ///< consecutive sectors whose crossing the old current hid
-  std::uint8_t early = 0;   ///< consecutive sectors whose crossing had passed before it could be found
+  std::uint8_t early = 0;   ///< consecutive sectors whose crossing had passed before it could be detected
   std::uint8_t odd = 0;     ///< consecutive samples that are impossible in this sector at this speed
   std::uint8_t jumps = 0;   ///< consecutive sectors whose time differed too much from the sector before
   std::uint8_t losses = 0;  ///< consecutive losses
-  std::uint16_t held = 0;   ///< sectors since the last loss
+  std::uint16_t held = 0;   ///< number of sectors since the last loss
   LockLoss last = LockLoss::none;
 };
 
@@ -71,9 +73,9 @@ constexpr bool follows_on(std::uint32_t interval, std::uint32_t T) {
   return interval / 5 >= T / 8 && interval / 8 <= T / 5;
 }
 
-/// Checks a sector whose crossing was found, or had passed. `interval`: ticks since the crossing before. T:
-/// ticks of a sector, 0 if the crossing before was not found. `hidden`: the old current still decayed at the
-/// crossing.
+/// Checks a sector whose crossing was found, or had passed. `interval`: ticks since the previous crossing. T:
+/// ticks of a sector, 0 if the previous crossing was not found. `hidden`: the old current still decayed at
+/// the crossing.
 constexpr LockLoss lock_crossing(const LockConfig& config, LockState& state, Crossing crossing,
                                  std::uint32_t interval, std::uint32_t T, bool hidden) {
   if (crossing == Crossing::seen && interval >= config.shortest_ticks) {

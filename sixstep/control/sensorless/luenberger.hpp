@@ -7,11 +7,12 @@
 //   eps = i - i_p,   i^ = i_p + l eps,   e^ = e^ - h eps
 //   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      two poles p1, p2 in z
 //
-// w is the mean over the period that ends with the sample of i. With both poles at p, the estimate of a
-// back-EMF that grows as a ramp is 2 p/(1 - p) periods late. The mean adds half a period, because it is valid
-// for the middle of its period. The sum is a time that is the same at every speed; observer.hpp subtracts it.
-// A phase without current has w = e: R and L then only determine how the old estimate decays, by the factor p
-// in each period.
+// i^, e^ are the estimates of current and back-EMF, a, b, l, h constants of LuenbergerConfig. w is the mean
+// voltage of the period that ends with the sample of i. With both poles at p, the estimate of a back-EMF that
+// grows as a ramp is 2 p/(1 - p) periods late. The mean w adds half a period, because it is valid for the
+// middle of the period. This total delay is the same at every speed; observer.hpp subtracts it. In a phase
+// without current w = e. R and L then only determine how an error of the estimate decays: by the factor p in
+// each period.
 //
 // D. G. Luenberger, Observing the state of a linear system, IEEE Trans. Military Electronics 8 (1964) 74.
 #pragma once
@@ -20,7 +21,7 @@
 
 namespace sixstep::control {
 
-/// With the default nothing is estimated.
+/// Default: the estimate is 0.
 template <class Scalar>
 struct LuenbergerConfig {
   Gain<Scalar> decay{};    ///< a, decay of the current over a period
@@ -50,8 +51,8 @@ constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, Luenber
   return T::signal(state.e_V);
 }
 
-/// Begins a sector, in which the next leg floats. The signs are again chosen so that its back-EMF falls: the
-/// estimate begins at minus its last value.
+/// Begins a sector, in which the next leg floats. The signs are again chosen so that the back-EMF falls: the
+/// new estimate is minus the last estimate.
 template <class Scalar>
 constexpr void luenberger_begin(LuenbergerState<Scalar>& state) {
   state.e_V = -state.e_V;

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the source of the back-EMF: the terminal (zero_crossing.hpp), or an observer, which averages the
-// converters' noise and has a known delay. Call it once per control tick with terminals, currents and the
-// command in effect.
+// Selects the source of the back-EMF: the terminal (zero_crossing.hpp), or an observer. An observer averages
+// the converters' noise and has a known delay. Call observer_step once per control tick.
 //
 // The observer returns the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, like
 // zero_crossing.hpp, so that lock, clock and thresholds need no change. While the leg's old current decays
 // the observer has no input. The first sample after this time sets the estimate. A crossing during this time
-// is reported as passed, as for the terminal's back-EMF.
+// is reported as passed, as without an observer.
 //
 //   luenberger     crossing of the estimate, minus the estimate's lag; commutation half a sector later by the
 //                  clock
 //   sliding mode   as luenberger
 //   flux           crossing of the mean back-EMF; commutation when the flux linkage has fallen by its level
 //
-// One observer serves all legs: its estimate passes from one floating leg to the next. Samples are in the
-// middle of a centred pulse, and commands take effect half a period later. The mean voltage from sample to
-// sample is therefore the mean of the two samples. If the pair changed or the diode stopped conducting within
-// a period, the period has no known mean and leaves the estimate unchanged.
+// One observer is used for all legs: at a commutation its estimate continues with the next floating leg.
+// Samples are in the middle of a centred pulse, and commands take effect half a period later. The mean
+// voltage from sample to sample is therefore the mean of the two samples. If the pair changed or the diode
+// stopped conducting within a period, the mean is unknown and the estimate does not change.
 #pragma once
 #include <cstdint>
 
@@ -28,14 +27,15 @@
 
 namespace sixstep::control {
 
-/// Source of the crossings. comparators: the comparators' edges (captured_crossing.hpp), without an observer.
+/// Source of the crossings. `comparators`: edges of the comparators (captured_crossing.hpp), without an
+/// observer.
 enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux, comparators };
 
 constexpr bool observes(Follow follow) {
   return follow != Follow::crossings && follow != Follow::comparators;
 }
 
-/// With the default the terminal's crossings are used, which costs one branch.
+/// Default: the terminal's crossings are used, at the cost of one branch.
 template <class Scalar>
 struct ObserverConfig {
   Follow follow = Follow::crossings;
@@ -43,7 +43,7 @@ struct ObserverConfig {
   LuenbergerConfig<Scalar> luenberger{};
   SlidingModeConfig<Scalar> sliding_mode{};
   FluxLinkageConfig<Scalar> flux{};
-  Gain<Scalar> counts_per_V{};  ///< 3 counts of the converter per V; fixed: raw units
+  Gain<Scalar> counts_per_V{};  ///< 3 counts of the converter per V; in fixed point: raw units
   std::uint32_t lag_ticks = 0;  ///< delay of the estimate, ticks of the timer
   bool operator==(const ObserverConfig&) const = default;
 };
@@ -63,18 +63,18 @@ struct ObserverState {
 /// Result of the observer for the drive.
 struct Observed {
   bool follows = false;         ///< true: the observer's crossing is used; false: the terminal's crossing
-  bool blind = false;           ///< the old current still hides the back-EMF
-  std::int32_t y = 0;           ///< y, counts, with the sign with which it falls through zero
+  bool blind = false;           ///< true: the old current still hides the back-EMF
+  std::int32_t y = 0;           ///< y, counts; its sign is chosen so that y falls through zero
   std::uint32_t lag_ticks = 0;  ///< age of y
-  bool by_level = false;        ///< the flux linkage determines the commutation
-  bool due = false;             ///< the commutation is due within the next period
-  /// Ticks from now to the commutation, at least 1. A compare match changes the pair exactly then.
+  bool by_level = false;        ///< true: the flux linkage determines the commutation
+  bool due = false;             ///< true: the commutation is due within the next period
+  /// Ticks from now to the commutation, at least 1. A compare match changes the pair at this time.
   std::uint32_t due_ticks = 0;
 };
 
 namespace detail {
 
-/// A number truncated to an integer; in fixed point the raw number.
+/// The number truncated to an integer. In fixed point: the raw number.
 template <class Scalar>
 constexpr std::int32_t as_counts(Scalar x) {
   if constexpr (requires { x.raw; })
@@ -162,7 +162,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const bool blind = state.runs_out && now.held && !config.voltage.through_freewheel;
   const bool released = state.runs_out && !now.held && now.known && state.before.held && !moved;
   if (now.known && !now.held) state.runs_out = false;
-  // After the crossing the freewheel of soft chopping holds the leg at the same rail again, and the terminal
+  // After the crossing the freewheel of soft chopping clamps the leg to the same rail again, and the terminal
   // does not show the back-EMF.
   const bool known = !moved && !blind && now.known && state.before.known && now.held == state.before.held &&
                      !(now.held && state.crossed);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the source of the commutation: Hall probes, or the back-EMF. Both are followed all the time. The
-// drive can therefore change the source while it turns, if both agree, and can change to the back-EMF if a
-// Hall line fails.
+// Selects the source of the commutation: Hall probes, or the back-EMF. The drive always follows both. It can
+// therefore change the source while the motor turns, if both sources agree, or if a Hall line fails.
 //
-//   Hall to back-EMF   `agreed` sectors in a row, each with a crossing found between its two edges
-//   back-EMF to Hall   `agreed` edges in a row, each within a quarter of a sector of the commutation
-//   a line fails       (hall.hpp: an invalid code) at once; if no crossings were found before, by the phase
-//                      `catching` of sensorless.hpp
+//   Hall to back-EMF   `agreed` consecutive sectors with a crossing between the two Hall edges
+//   back-EMF to Hall   `agreed` consecutive Hall edges within a quarter of a sector from the commutation
+//   a line fails       (invalid code, hall.hpp) to the back-EMF at once; if no crossings were found before,
+//                      through the phase `catching` of sensorless.hpp
 #pragma once
 #include <cstdint>
 
@@ -17,7 +16,7 @@ namespace sixstep::control {
 
 enum class RotorSource : std::uint8_t { hall, back_emf };
 
-/// With the default there are no probes.
+/// Default: no probes.
 struct PositionSourceConfig {
   bool has_hall = false;
   RotorSource wanted = RotorSource::back_emf;
@@ -33,13 +32,13 @@ struct PositionSourceState {
   HallSpeedState edges{};  ///< times of the probes' edges
   std::uint8_t agreed = 0;
   std::uint8_t line = 0;  ///< 1..3: the line that failed; 0: none, or unknown
-  bool broken = false;    ///< true: a line has failed; stays true until the drive restarts
+  bool broken = false;    ///< true: a line has failed since the drive started
   bool started = false;
 };
 
 namespace detail {
 
-/// True if a Hall edge into `sector` agrees with the commutation by the back-EMF.
+/// True if a Hall edge into `sector` is within a quarter of a sector from the commutation by the back-EMF.
 template <class Scalar>
 constexpr bool edge_agrees(const SensorlessConfig<Scalar>& config, const SensorlessState& sensorless,
                            std::uint8_t sector, std::uint32_t now) {
@@ -98,8 +97,8 @@ constexpr bool source_hall_edge(const PositionSourceConfig& config,
   return true;
 }
 
-/// Call it once per control tick, before the steps. It selects the first source, and changes the source from
-/// Hall probes to the back-EMF.
+/// Call it once per control tick, before the steps. The first call selects the initial source. Later calls
+/// change the source from Hall probes to the back-EMF if this is requested.
 template <class Scalar>
 constexpr void source_step(const PositionSourceConfig& config,
                            const SensorlessConfig<Scalar>& sensorless_config, PositionSourceState& state,
@@ -117,7 +116,8 @@ constexpr void source_step(const PositionSourceConfig& config,
       sensorless_follow_edge(sensorless_config, sensorless, reading.sector, 0, now);
     return;
   }
-  // The change follows a crossing whose commutation is scheduled: this sector then needs no further crossing.
+  // The source changes only after a crossing whose commutation is scheduled. This sector then needs no
+  // further crossing.
   if (state.source != RotorSource::hall || config.wanted != RotorSource::back_emf) return;
   if (state.agreed < config.agreed || !sensorless.clock.scheduled) return;
   if (sector_ticks(sensorless_config.clock, sensorless.clock) > sensorless_config.start.trusted_ticks) return;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Position without a sensor: computes speed, position and the code of Hall probes from the terminal voltages.
-// drive.hpp uses the code as if the motor had probes; the timer's compare match replaces the Hall interrupt.
+// drive.hpp uses this code as a Hall code; the timer's compare match replaces the Hall interrupt.
 //
-//   off -> catching -> aligning -> ramping -> running        if a direction is wanted
-//           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than lock.retries in a row
-//           '-> running                                        if the rotor spins already (spin.hpp)
+//   off -> catching -> aligning -> ramping -> running        if the setpoint has a direction
+//           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than lock.retries losses
+//           '-> running                                        if the rotor already turns (spin.hpp)
 //
-// In phase `following` another source commutates. Crossings are only followed, so that the back-EMF can
-// replace the source while the motor turns.
+// In phase `following` the Hall probes commutate. Crossings are only recorded, so that the back-EMF can
+// replace the probes while the motor turns.
 //
 // Call sensorless_step once per control tick with the samples of that tick. Call sensorless_commutate when
 // the timer reaches state.clock.next while state.clock.scheduled. If a commutation is already due when its
@@ -24,7 +24,8 @@ namespace sixstep::control {
 template <class Scalar>
 struct SensorlessAnswer {
   bool drives = false;    ///< true: the drive is on; false: the bridge is off
-  bool by_start = false;  ///< the current loop holds start_A, in every mode and for any setpoint
+  bool by_start = false;  ///< true: the current loop controls the current to start_A, in every mode and for
+                          ///< any setpoint
   Scalar start_A{};       ///< current of the start, with the sign of its direction
 };
 
@@ -76,7 +77,7 @@ constexpr void sensorless_step(const SensorlessConfig<Scalar>& config, Sensorles
   if (state.clock.scheduled && !comes_before(now, state.clock.next)) sensorless_commutate(config, state, now);
 }
 
-/// Processes an edge into `sector` of another source, which commutates.
+/// Processes a Hall edge into `sector` while the Hall probes commutate.
 template <class Scalar>
 constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       std::uint8_t sector, std::int8_t moved, std::uint32_t now) {
@@ -87,7 +88,7 @@ constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, Se
   state.position.sectors += moved;
 }
 
-/// A control tick while another source commutates: finds crossings and schedules commutations as if the
+/// A control tick while the Hall probes commutate: finds crossings and schedules commutations as if the
 /// back-EMF commutated.
 template <class Scalar>
 constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, SensorlessState& state,
@@ -110,7 +111,7 @@ constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scal
     case SensorlessPhase::ramping:
       return {true, true, in_direction(start.current_A, state.direction)};
     case SensorlessPhase::running:
-      // A rotor that was caught while turning in the other direction is braked first.
+      // A rotor that already turns in the opposite direction is braked first.
       return {true, wanted == -state.direction, in_direction(start.current_A, wanted)};
     default:
       return {};
@@ -124,7 +125,7 @@ constexpr Scalar sensorless_speed(const SensorlessConfig<Scalar>& config, Sensor
   return hall_speed(config.speed, state.clock.crossings, now);
 }
 
-/// Mechanical position, degrees, counted in sectors from the start of the drive.
+/// Mechanical position, degrees, relative to the start of the drive: counted sectors, interpolated by time.
 template <class Scalar>
 constexpr Scalar sensorless_position(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                      std::uint32_t now) {

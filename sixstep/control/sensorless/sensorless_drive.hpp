@@ -2,13 +2,13 @@
 // Runs the drive of drive.hpp without a rotor position sensor. Firmware calls
 //   sensorless_drive_step       once per control tick
 //   sensorless_drive_commutate  when the timer reaches next_commutation
-//   sensorless_drive_hall       in the Hall interrupt of a motor that also has probes
+//   sensorless_drive_hall       in the Hall interrupt, if the motor also has probes
 //   sensorless_capture          (sensorless.hpp) in the interrupt of comparators
 //
-// During the start the current loop controls the start's current in every mode. At the hand-over the loops
-// continue from this state. A speed loop's output begins at the ramp's part of the start's current, because
-// the rest was a reserve. A current or duty setpoint is approached by a limited change per tick. This limit
-// applies later too, because a step of the setpoint could cause a current that hides the crossings.
+// During the start the current loop controls the start's current in every mode. At the end of the start the
+// loops continue from this state. The speed loop's output begins at the part of the start's current that the
+// ramp needed, because the rest was a reserve. A current or duty setpoint changes by a limited step per tick.
+// This limit always applies, because a step of the setpoint could cause a current that hides the crossings.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -22,11 +22,12 @@ struct SensorlessDriveConfig {
   SensorlessConfig<Scalar> sensorless{};
   PositionSourceConfig source{};
   ObserverConfig<Scalar> observer{};  ///< source of the back-EMF
-  Scalar start_output{};              ///< output of the speed loop at the hand-over, computed from the ramp's
-                                      ///< torque
+  Scalar start_output{};              ///< initial output of the speed loop after the start, computed from the
+                                      ///< ramp's torque
   SlewConfig<Scalar> duty{};          ///< change of a duty setpoint per tick; default: no limit
   SlewConfig<Scalar> current{};       ///< change of a current setpoint per tick; default: no limit
-  Scalar least_duty{};  ///< least duty while the rotor is followed: without an on-time no crossing is visible
+  Scalar least_duty{};  ///< least duty while the rotor is followed, because a crossing is visible only in the
+                        ///< on-time
   bool operator==(const SensorlessDriveConfig&) const = default;
 };
 
@@ -47,14 +48,14 @@ struct SensorlessDriveInput {
   Measurement<Scalar> measured{};
   TerminalSample terminals{};
   std::uint8_t hall_pins = 0;
-  bool on = false;             ///< the pair's switches are on at the sample
-  std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators against half
-                               ///< the bus
+  bool on = false;             ///< true: the pair's switches are on at the sample
+  std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators with half
+                               ///< the bus as the reference
 };
 
 namespace detail {
 
-/// Direction of the setpoint: 1, -1, or 0 for none.
+/// Direction of rotation that the setpoint requires: 1, -1, or 0 for standstill.
 template <class Scalar>
 constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar setpoint, Scalar position) {
   if (config.mode == Mode::off) return 0;
@@ -63,7 +64,7 @@ constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar
   return way > zero ? std::int8_t{1} : way < zero ? std::int8_t{-1} : std::int8_t{0};
 }
 
-/// Sets the loops' states so that they continue from the end of the start.
+/// Sets the states of the loops so that the loops continue from the end of the start.
 template <class Scalar>
 constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Scalar setpoint, bool forward, bool caught) {
@@ -82,7 +83,7 @@ constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, Sensorless
       speed_reference(drive, state.drive, drive.mode, setpoint, measured) - measured.speed_rad_s;
 }
 
-/// Lengthens a pulse so that a sample is possible within it.
+/// Raises the duty to least_duty, so that a sample is possible within the pulse.
 template <class Scalar>
 constexpr void keep_visible(Scalar least_duty, BridgeCommand<Scalar>& command) {
   if (command.enabled && command.watch == Watch::none && command.duty < least_duty) command.duty = least_duty;
@@ -127,7 +128,8 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, input.on_ticks, observed});
   const SensorlessAnswer<Scalar> answer = sensorless_answer(config.sensorless, rotor, wanted);
   measured.hall = hall_of_sector(rotor.sector);
-  // The speed estimate is valid at the earlier instant `told`: a crossing after `told` cannot be missing yet.
+  // The observer reports a crossing only after lag_ticks. The speed is therefore computed for the earlier
+  // instant `told`, at which the next crossing is not yet overdue.
   const std::uint32_t told = now - observed.lag_ticks, last = rotor.clock.crossings.times[0];
   measured.speed_rad_s = sensorless_speed(config.sensorless, rotor, comes_before(told, last) ? last : told);
   measured.position_deg = sensorless_position(config.sensorless, rotor, now);
@@ -181,7 +183,7 @@ constexpr bool sensorless_drive_hall(const SensorlessDriveConfig<Scalar>& config
   return true;
 }
 
-/// Replaces the configuration between two ticks (retune.hpp). The rotor is followed without interruption.
+/// Replaces the configuration between two ticks (retune.hpp). The drive continues to follow the rotor.
 template <class Scalar>
 constexpr void retune(SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                       const SensorlessDriveConfig<Scalar>& next) {

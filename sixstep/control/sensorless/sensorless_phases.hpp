@@ -13,7 +13,7 @@ namespace sixstep::control {
 
 enum class SensorlessPhase : std::uint8_t { off, catching, aligning, ramping, running, following, gave_up };
 
-/// With the default the drive never starts. Choose speed.timeout_ticks above lock.longest_ticks.
+/// Default: the drive never starts. Choose speed.timeout_ticks above lock.longest_ticks.
 template <class Scalar>
 struct SensorlessConfig {
   ZeroCrossingConfig crossing{};
@@ -29,10 +29,10 @@ struct SensorlessConfig {
 
 struct SensorlessInput {
   TerminalSample terminals{};
-  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: rest or coast
-  bool on = false;             ///< the driven pair's switches are on at the sample
-  std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators against half
-                               ///< the bus
+  std::int8_t wanted = 0;      ///< required direction of rotation: 1, -1; 0: standstill or coasting
+  bool on = false;             ///< true: the driven pair's switches are on at the sample
+  std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators with half
+                               ///< the bus as the reference
   Observed observed{};         ///< the observer's result
 };
 
@@ -40,7 +40,7 @@ struct SensorlessState {
   SensorlessPhase phase = SensorlessPhase::off;
   std::int8_t direction = 1;
   std::uint8_t sector = 0;
-  bool settled = false;  ///< in phase catching: the currents have ended
+  bool settled = false;  ///< true: in phase `catching` the currents have ended
   std::uint32_t commutated_at = 0;
   ZeroCrossingState crossing{};
   CapturedLines captured{};
@@ -69,7 +69,7 @@ constexpr void begin_sector(const SensorlessConfig<Scalar>& config, SensorlessSt
   zero_crossing_begin(state.crossing, state.sector, since < half ? half - since : 0, now);
 }
 
-/// The crossing at the terminal after the start, from samples or from the comparators' edges.
+/// The crossing at the terminal, from samples or from the comparators' edges; not used during the start.
 template <class Scalar>
 constexpr CrossingReading crossing_of(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       const SensorlessInput& input) {
@@ -104,8 +104,8 @@ constexpr void lose(const SensorlessConfig<Scalar>& config, SensorlessState& sta
   if (ends) state.phase = SensorlessPhase::gave_up;
 }
 
-/// Time of a crossing that was not found. If the old current hid the crossing, this is its expected time;
-/// otherwise the middle between the commutation and now.
+/// Time of a crossing that was not found. If the old current hid the crossing, the result is the expected
+/// time, otherwise the middle between the commutation and now.
 template <class Scalar>
 constexpr std::uint32_t passed_at(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                   std::uint32_t now) {
@@ -191,7 +191,8 @@ constexpr void ramping_step(const SensorlessConfig<Scalar>& config, SensorlessSt
   if (reading.crossing == Crossing::seen) take_crossing(config, state, reading.at);
   const bool waits = state.crossing.armed && !state.crossing.done;
   if (ramp_step(config.start, state.start, reading, waits, state.clock.scheduled)) {
-    state.clock.crossings = HallSpeedState{};  // an interval that contains a missed crossing is not used
+    state.clock.crossings = HallSpeedState{};  // the next interval would contain a missed crossing, so the
+                                               // times are cleared
     begin_sector(config, state, state.direction, now);
     ramp_commutated(state.start);
     return;
@@ -219,8 +220,8 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
     if (loss != LockLoss::none) return lose(config, state, loss, now);
     if (reading.crossing == Crossing::seen) return take_crossing(config, state, at);
     commutation_clock_guess(state.clock, T, state.direction, now);
-    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // T is smaller now if the crossing
-                                                                           // came early
+    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // less than T if the crossing was
+                                                                           // early
     return schedule_commutation(state.clock, at + delay_ticks(config.clock, sooner < T ? sooner : T));
   }
   const std::uint32_t T = sector_ticks(config.clock, state.clock);
@@ -233,11 +234,11 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
                         state.crossing.unlike);
   if (loss == LockLoss::none) return;
   if (input.wanted == state.direction) return lose(config, state, loss, now);
-  catch_spin(state, now);  // the rotor coasted or was braked as commanded: this is no loss
+  catch_spin(state, now);  // the rotor coasted or was braked as commanded, so this is not a loss
 }
 
-/// After a crossing that was found, the flux linkage determines the commutation instead of the clock, if
-/// observed.by_level is set.
+/// If observed.by_level is set and the crossing was found, the flux linkage determines the commutation, not
+/// the clock.
 constexpr void commutate_by_level(SensorlessState& state, const SensorlessInput& input) {
   if (!input.observed.by_level || state.phase != SensorlessPhase::running) return;
   if (!state.crossing.done || state.clock.guessed) return;

@@ -7,10 +7,11 @@
 //   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass of z: the equivalent control
 //
 // If k is above every back-EMF, the error i^ - i moves into the layer. Inside the layer error[n+1] =
-// (a - b k/phi) error[n] + b e. A chip updates z once per period: with the sign function the error would
-// chatter over 2 b k. phi = k b/a is the narrowest layer without chatter: the error is constant after one
-// period, and z is a e of the period that has just ended. The low-pass is (1 - c)/c periods late, the mean
-// half a period. observer.hpp subtracts this time, which compensates the phase lag at every speed.
+// (a - b k/phi) error[n] + b e. A chip updates z once per period. With the sign function the error would
+// chatter with a width of 2 b k. phi = k b/a is the narrowest layer without chatter: the error is constant
+// after one period, and z is a times e of the last period. The low-pass delays by (1 - c)/c periods, the mean
+// w by half a period. observer.hpp subtracts this total delay, which compensates the phase lag at every
+// speed.
 //
 // V. I. Utkin, Variable structure systems with sliding modes, IEEE Trans. Automatic Control 22 (1977) 212; the layer:
 // J.-J. Slotine, S. S. Sastry, Int. J. Control 38 (1983) 465.
@@ -20,7 +21,7 @@
 
 namespace sixstep::control {
 
-/// With the default nothing is estimated.
+/// Default: the estimate is 0.
 template <class Scalar>
 struct SlidingModeConfig {
   Gain<Scalar> decay{};  ///< a, decay of the current over a period
@@ -56,8 +57,8 @@ constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, Slid
   return T::signal(state.e_V);
 }
 
-/// Begins a sector, in which the next leg floats. The signs are again chosen so that its back-EMF falls: the
-/// estimate begins at minus its last value.
+/// Begins a sector, in which the next leg floats. The signs are again chosen so that the back-EMF falls: the
+/// new estimate is minus the last estimate.
 template <class Scalar>
 constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.error_A = -state.error_A;

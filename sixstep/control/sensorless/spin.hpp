@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the motion of the rotor while the bridge is off. The signs of the three back-EMFs (terminals against
-// their mean) form six patterns, in the order of the codes of Hall probes. The pattern changes at the zero
-// crossings. Forward, the pattern of sector n begins in the middle of sector n. Backward, every back-EMF has
-// the opposite sign, and the change back to pattern m is in the middle of sector m + 4.
+// Finds the motion of the rotor while the bridge is off. The signs of the three back-EMFs (terminal voltages
+// minus their mean) form six patterns. The patterns follow each other like the codes of Hall probes. The
+// pattern changes at the zero crossings. Forward, the pattern of sector n begins in the middle of sector n.
+// Backward, every back-EMF has the opposite sign, and the change back to pattern m is in the middle of sector
+// m + 4.
 //
-//   3 e_k = 3 u_k - (u_a + u_b + u_c)      without current: the star point need not be connected
+//   3 e_k = 3 u_k - (u_a + u_b + u_c)      without current; needs no connection to the star point
 //
-// The order of the patterns gives the direction, and their times give the speed (commutation_clock.hpp). With
-// both the drive can take over a spinning rotor without stopping it.
+// The order of the patterns shows the direction, and their times show the speed (commutation_clock.hpp). With
+// both values the drive can continue from the speed of a turning rotor without stopping it.
 #pragma once
 #include <cstdint>
 
@@ -17,12 +18,12 @@
 namespace sixstep::control {
 
 struct SpinConfig {
-  std::int32_t threshold = 0x7fffffff;  ///< counts of |3 e_k| above which the value is a voltage and not
-                                        ///< noise
-  std::uint8_t crossings = 4;           ///< consecutive crossings at similar intervals in one direction that
-                                        ///< prove a spin
-  std::uint32_t settle_ticks = 0;       ///< time after turning the bridge off until currents have ended
-  /// Time without a crossing after which the rotor counts as standing; 0: the spin is not measured.
+  std::int32_t threshold = 0x7fffffff;  ///< counts of |3 e_k| above which the value counts as a voltage, not
+                                        ///< as noise
+  std::uint8_t crossings = 4;           ///< number of consecutive crossings at similar intervals in one
+                                        ///< direction after which the rotor counts as turning
+  std::uint32_t settle_ticks = 0;       ///< time from turning the bridge off until the currents have ended
+  /// Time without a crossing after which the rotor counts as at rest; 0: the motion is not measured.
   std::uint32_t listen_ticks = 0;
   bool operator==(const SpinConfig&) const = default;
 };
@@ -32,8 +33,8 @@ struct SpinState {
   std::uint32_t zero[3]{};  ///< time of the last change of each sign
   std::uint32_t at = 0;     ///< time of the last sample
   std::uint32_t since = 0;  ///< time of the last crossing, or of the begin
-  std::uint8_t signs = 0;   ///< signs as bits 2, 1, 0: positive back-EMF of a, b, c; 000: not known yet
-  std::uint8_t found = 0;   ///< crossings at similar intervals
+  std::uint8_t signs = 0;   ///< signs as bits 2, 1, 0: positive back-EMF of a, b, c; 000: not determined yet
+  std::uint8_t found = 0;   ///< number of consecutive crossings at similar intervals
   bool looked = false;
 };
 
@@ -51,15 +52,15 @@ constexpr void spin_begin(SpinState& state, std::uint32_t now) {
 
 namespace detail {
 
-/// Updates the signs. A sign changes when the voltage exceeds the threshold. The time of its change is the
-/// zero of the straight line between two samples.
+/// Updates the signs. A sign changes when the voltage exceeds the threshold. The time of the change is the
+/// zero of the straight line through two samples.
 constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, const TerminalSample& s) {
   std::uint8_t signs = state.signs;
   for (std::uint8_t k = 0; k < 3; ++k) {
     const std::int32_t e = above_neutral(s, k), before = state.e[k];
     if (!state.looked)
-      state.zero[k] = s.at;  // before the first sample the time of a crossing is unknown:
-                             // now is used
+      state.zero[k] = s.at;  // the time of a crossing before the first sample is unknown; the time of this
+                             // sample is used
     if (state.looked && before < 0 && e >= 0) state.zero[k] = crossed_at(state.at, -before, s.at, -e);
     if (state.looked && before >= 0 && e < 0)
       state.zero[k] = before == 0 ? state.at : crossed_at(state.at, before, s.at, e);
@@ -75,7 +76,7 @@ constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, co
 
 }  // namespace detail
 
-/// One sample with the bridge off and without currents. Writes the crossings' times to `clock`.
+/// Processes one sample with the bridge off and without currents. Writes the crossings' times to `clock`.
 constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, CommutationClockState& clock,
                                 const TerminalSample& s) {
   const std::uint8_t before = sector_of_hall(state.signs);

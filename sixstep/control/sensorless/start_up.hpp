@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts the motor from standstill until crossings can be trusted: alignment, then a ramp.
+// Starts the motor from standstill, until zero crossings are reliable: alignment, then a ramp.
 //
-// Alignment. A pair pulls the rotor to the angle at which the pair's torque is 0, two sectors ahead of the
-// pair's own sector s: 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too. A second pair,
-// one sector further, therefore follows: its torque is not 0 there.
+// Alignment. The pair of sector s pulls the rotor to the angle at which the pair's torque is 0: 60 (s + 2)
+// degrees, forward. At the opposite angle the torque is 0 too. Therefore a second pair, one sector further,
+// follows: its torque at the opposite angle is not 0.
 //
-// The rotor swings about its final angle with the frequency sqrt(p K_t I/J). Only friction damps this swing,
-// because the pair's back-EMF is 0 at this angle. The floating leg, however, shows the speed of the swing.
-// While this speed grows, the rotor moves towards the final angle, and the current is low. While the speed
-// falls, the rotor moves away, against the full current. Each half swing therefore reduces the energy by the
-// ratio of the two currents.
+// The rotor swings about its final angle with the frequency sqrt(p K_t I/J), with pole pairs p, torque
+// constant K_t, current I and inertia J. Only friction damps this swing, because the pair's back-EMF is 0 at
+// this angle. The floating leg's voltage, however, is proportional to the speed of the swing. While this
+// speed grows, the rotor moves towards the final angle, and the current is low. While the speed falls, the
+// rotor moves away from the final angle, against the full current. Each half swing therefore reduces the
+// energy by the ratio of the two currents.
 //
-// Ramp. The pair two sectors further then drives the rotor. The field turns by its own law,
+// Ramp. The pair two sectors further then drives the rotor. The field turns as a function of time,
 //
-//   w(t) = a t  (+ j t^2/2),    a commutation each 60 degrees
+//   w(t) = a t  (+ j t^2/2),    speed w, acceleration a, jerk j; a commutation each 60 degrees
 //
-// but only while the back-EMF shows no crossing.
+// but only until the back-EMF shows a crossing.
 // - If a crossing is found, the next commutation follows half a sector later.
 // - If a crossing is still expected, the drive waits for it, up to a whole sector.
-// - If a crossing had passed before it could be found, the drive commutates at once: the second time in a
-//   row, or after two crossings that were found.
+// - If a crossing had passed before it could be detected, the drive commutates at once. This applies to the
+//   second consecutive such sector, or after two detected crossings.
 #pragma once
 #include <cstdint>
 
@@ -28,22 +29,22 @@
 
 namespace sixstep::control {
 
-/// With the default the drive does not start. The ramp is counted in control ticks; 2^32 is one sector.
+/// Default: the drive does not start. The ramp is counted in control ticks; 2^32 is one sector.
 template <class Scalar>
 struct StartUpConfig {
   Scalar current_A{};                ///< current of the pair during alignment and ramp
   Scalar falling_A{};                ///< current of the alignment while the swing's speed grows
   std::uint32_t align_ticks = 0;     ///< duration of each of the two alignment steps, ticks of the timer
   std::uint8_t swing_shift = 4;      ///< 2^n control ticks: time constant of the swing's mean
-  std::int32_t swing_threshold = 0;  ///< counts of y above which y is a swing and not noise
+  std::int32_t swing_threshold = 0;  ///< counts of y above which y counts as a swing, not as noise
   std::uint32_t first_speed = 0;     ///< speed at the begin of the ramp, 2^-32 sectors per control tick
   std::uint32_t acceleration = 0;    ///< increase of the speed per tick, 2^-32 sectors per tick
   std::uint32_t jerk = 0;            ///< increase of the acceleration per tick, in 2^-48 sectors per tick^2;
-                                     ///< it adds up to at most 65535 units
+                                     ///< the sum of the increases is at most 65535 units of `acceleration`
   std::uint32_t last_speed = 0;      ///< speed at the end of the ramp, 2^-32 sectors per tick
   std::uint32_t longest_ticks = 0;   ///< longest duration of the ramp, ticks of the timer
   std::uint8_t trusted = 6;          ///< consecutive found crossings at which the ramp ends
-  /// Longest sector at which the ramp may end, ticks of the timer: at 5 % of rated speed.
+  /// Longest sector at which the ramp may end, ticks of the timer: the sector at 5 % of rated speed.
   std::uint32_t trusted_ticks = 0;
   bool operator==(const StartUpConfig&) const = default;
 };
@@ -58,9 +59,9 @@ struct StartUpState {
   std::uint32_t faster = 0;  ///< increase of the acceleration by the jerk, in 1/65536 of the unit of
                              ///< `acceleration`
   std::uint16_t ticks = 0;   ///< control ticks in the present sector
-  std::uint8_t waited = 0;   ///< whole sectors of waiting for a crossing
+  std::uint8_t waited = 0;   ///< number of whole sectors for which the ramp has waited for a crossing
   std::uint8_t trusted = 0;  ///< consecutive found crossings
-  std::uint8_t passed = 0;   ///< consecutive sectors whose crossing had passed before it could be found
+  std::uint8_t passed = 0;   ///< consecutive sectors whose crossing had passed before it could be detected
 };
 
 constexpr void align_begin(StartUpState& state, std::uint32_t now) {
@@ -121,8 +122,9 @@ constexpr bool ramp_turns(const StartUpConfig<Scalar>& config, StartUpState& sta
 
 }  // namespace detail
 
-/// One control tick of the ramp. Returns true if the field must commutate now by its own law. `scheduled`: a
-/// crossing that was found has scheduled the commutation.
+/// One control tick of the ramp. Returns true if the drive must commutate now because the field has turned by
+/// a sector, or because the crossing had already passed. `scheduled`: a crossing that was found has scheduled
+/// the commutation.
 template <class Scalar>
 constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& state,
                          const CrossingReading& reading, bool waits_for_crossing, bool scheduled) {
@@ -130,7 +132,7 @@ constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& stat
   if (reading.crossing == Crossing::seen) {
     state.passed = 0;
     if (state.trusted < 255) ++state.trusted;
-    // The field continues at the speed of half a sector per time since the commutation.
+    // The field continues at the measured speed: half a sector divided by the time since the commutation.
     const std::uint32_t seen =
         0x80000000u / (state.ticks == 0 ? 1u : static_cast<std::uint32_t>(state.ticks));
     if (seen > state.speed) state.speed = seen < config.last_speed ? seen : config.last_speed;

@@ -7,19 +7,20 @@
 // The voltages of star point and bus cancel in this sum. With the driven legs at both rails, by switches or
 // diodes, u_s + u_k is the bus; in a freewheel through two lower switches or diodes it is about zero. The
 // crossing is in the middle of a sector. The back-EMF falls in sectors 0, 2, 4 and rises in 1, 3, 5, in both
-// directions of rotation. y is the sum with the sign with which it falls: y > 0 before the crossing, y < 0
-// after it.
+// directions of rotation. y is this sum, with its sign reversed in sectors 1, 3, 5: y > 0 before the
+// crossing, y < 0 after it.
 //
-// After a commutation the leg's old current decays through a diode, and its terminal is at a rail. There are
-// three cases.
-//   driving motor    At this rail the crossing seems to have passed. Until the current has ended the sum has
-//                    no meaning (blanking). The duration of this time is measured.
-//   braking motor    At the opposite rail the crossing seems to be still to come: no blanking is needed.
+// After a commutation the floating leg's old current decays through a diode, and the terminal is at a rail.
+// There are three cases.
+//   driving motor    At this rail y has the sign after the crossing. Until the current has ended, y is
+//                    ignored (blanking). The duration of the blanking is measured.
+//   braking motor    At the opposite rail y has the sign before the crossing: no blanking is needed.
 //   small duty       In soft chopping a negative e_f drives a current through the leg's lower diode, and the
-//                    on-time is too short to end the current. This rail has the sign of e_f too.
+//                    on-time is too short to end this current. The leg is at the lower rail, which
+//                    corresponds to the sign of e_f.
 // The crossing is the zero of the straight line between the last sample with y > 0 and the first sample with
-// y <= 0. If the last sample with y > 0 was at the rail and shows no voltage, the crossing is halfway between
-// both.
+// y <= 0. If the last sample with y > 0 was at the rail, its value is unknown. The crossing is then halfway
+// between the two samples.
 //
 // All numbers are integers: counts of the converter, the same for terminals and bus, and counts of the timer.
 // Every arithmetic of the drive uses the same integers; this file therefore has no Scalar.
@@ -30,25 +31,26 @@
 
 namespace sixstep::control {
 
-/// Part of the PWM period in which the samples are taken. Soft chopping shows the star point in both parts,
-/// but in the freewheel only the positive half of the back-EMF. Hard chopping shows the star point in the
-/// on-time, and in the freewheel as long as current flows.
+/// Part of the PWM period in which the samples are taken. In soft chopping the samples of both parts show the
+/// star point, but in the freewheel only the positive half of the back-EMF. In hard chopping the samples show
+/// the star point in the on-time, and in the freewheel as long as current flows.
 enum class NeutralSeen : std::uint8_t { on_time, freewheel };
 
-/// Terminals and bus at one instant, through equal dividers.
+/// Voltages of terminals and bus at one instant, measured through equal dividers.
 struct TerminalSample {
   std::uint16_t u[3]{};   ///< a, b, c, counts
   std::uint16_t bus = 0;  ///< counts
   std::uint32_t at = 0;   ///< the timer's reading
 };
 
-/// With the default no crossing is found.
+/// Default: no crossing is found.
 struct ZeroCrossingConfig {
   NeutralSeen seen = NeutralSeen::on_time;
-  std::uint16_t rail_counts = 0;        ///< a diode or a switch holds a terminal this near to a rail
-  std::int32_t threshold = 0x7fffffff;  ///< counts of |y| above which y is a voltage and not noise
+  std::uint16_t rail_counts = 0;        ///< a terminal within this distance from a rail counts as clamped by
+                                        ///< a diode or a switch
+  std::int32_t threshold = 0x7fffffff;  ///< counts of |y| above which y counts as a voltage, not as noise
   std::int32_t below = 0x7fffffff;      ///< threshold for negative voltages; less in a freewheel, where a
-                                        ///< diode holds u_f
+                                        ///< diode clamps u_f
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
   std::uint32_t settle_ticks = 0;       ///< ticks from the commutation until filters have settled
   bool operator==(const ZeroCrossingConfig&) const = default;
@@ -57,37 +59,37 @@ struct ZeroCrossingConfig {
 struct ZeroCrossingState {
   std::uint8_t sector = no_sector;
   bool freewheels = false;      ///< true: the leg's old current may still flow
-  bool hidden = false;          ///< true: in this sector the old current was found to flow
+  bool hidden = false;          ///< true: a sample of this sector has shown the old current
   bool armed = false;           ///< true: y was above the threshold in this sector
-  bool done = false;            ///< true: the crossing is past
+  bool done = false;            ///< true: the crossing of this sector has been found, or had passed
   std::uint8_t unlike = 0;      ///< consecutive samples that contradict the command
   std::uint32_t began = 0;      ///< time of the commutation
   std::uint32_t earliest = 0;   ///< ticks since `began` before which no crossing is possible
   std::uint32_t blank = 0;      ///< ticks since `began` up to which samples are ignored
-  std::uint32_t freewheel = 0;  ///< ticks of the last freewheel, as far as samples show it
-  bool held = false;            ///< true: at the last sample a diode held the terminal
+  std::uint32_t freewheel = 0;  ///< ticks of the last freewheel, with the resolution of the samples
+  bool held = false;            ///< true: at the last sample a diode clamped the terminal
   std::uint32_t at = 0;         ///< time of the last y
   std::int32_t y = 0;           ///< value of y at the last evaluated sample
 };
 
 enum class Crossing : std::uint8_t {
   none,
-  seen,          ///< a crossing at a known time
-  passed_before  ///< a crossing between the commutation and `at`, before it could be found
+  seen,          ///< a crossing at the time `at`
+  passed_before  ///< a crossing between the commutation and `at` that could not be detected
 };
 
 struct CrossingReading {
   Crossing crossing = Crossing::none;
   std::uint32_t at = 0;
-  bool visible = false;  ///< the sample shows the star point
-  bool free = false;     ///< the sample also shows the back-EMF y, because no diode holds the terminal
+  bool visible = false;  ///< true: the sample shows the star point
+  bool free = false;     ///< true: the sample also shows the back-EMF y, because no diode clamps the terminal
   std::int32_t y = 0;    ///< valid if `visible`, also during the blanking
 };
 
 /// The leg, 0..2, that floats in a sector.
 constexpr std::uint8_t floating_leg(std::uint8_t sector) { return static_cast<std::uint8_t>(2 - sector % 3); }
 
-/// y of a leg against the two other legs, counts.
+/// Twice the voltage of `leg` minus the voltages of the two other legs, counts: y or -y.
 constexpr std::int32_t above_neutral(const TerminalSample& s, std::uint8_t leg) {
   const std::int32_t u = s.u[leg];
   return u + u + u - static_cast<std::int32_t>(s.u[0]) - static_cast<std::int32_t>(s.u[1]) -
@@ -133,7 +135,7 @@ constexpr std::uint32_t crossed_at(std::uint32_t from, std::int32_t y_from, std:
   std::uint32_t sum = before + static_cast<std::uint32_t>(-y_to);
   const std::uint32_t ticks = to - from;
   while (before > (ticks == 0 ? 0xffffffffu
-                              : 0xffffffffu / ticks)) {  // dropping digits of one factor lets the product fit
+                              : 0xffffffffu / ticks)) {  // drops bits of both numbers until the product fits
     before >>= 1;
     sum >>= 1;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the general plant against the laws of every run (model.md 5): the balances of plant/audit.hpp, and
-// the energy that only this kernel's parts store.
+// Checks the laws of every run (model.md 5) for the general plant. The balances of plant/audit.hpp are
+// extended by the energies that only the general kernel models.
 #pragma once
 #include "sixstep/plant/audit.hpp"
 #include "sixstep/plant/general/segment_energy.hpp"
@@ -56,8 +56,8 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
     start_ = end_ = begins;
     noise_ = c.amp_noise * c.amp_noise / c.inv_L + c.speed_noise * c.speed_noise / c.inv_J;
   }
-  // A clamp that closes on a turning shaft takes its kinetic energy, even if the clamp opens at the same
-  // instant.
+  // A clamp that closes on a turning shaft absorbs the shaft's kinetic energy, even if the clamp opens at the
+  // same instant.
   const auto& y = plant.expansion();
   const bool stopped = c.locked || (y.w[0] == 0 && plant::detail::abs(end_w_) > c.speed_noise);
   if (stopped && end_.moving > begins.moving) friction_.add(end_.moving - begins.moving);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents and torque of a machine with saliency or saturation: the flux lambda_d along the magnet's axis and
-// the flux lambda_q across it have their own laws (model.md 7), lambda_d = L_d i_d (1 - i_d/(2 I_sat)),
-// lambda_q = L_q i_q. The equations are solved in the stator's two axes. The newest coefficients of the
-// currents enter the fluxes linearly, multiplied by the incremental inductances, so that each order is a
-// linear equation for these coefficients.
+// Currents and torque of a machine with saliency or saturation. The flux along the magnet's axis is lambda_d
+// = L_d i_d (1 - i_d/(2 I_sat)), the flux across it lambda_q = L_q i_q (model.md 7). The equations are solved
+// in the stator's two axes. The newest coefficients of the currents appear in the fluxes linearly, multiplied
+// by the incremental inductances. Each order is therefore a linear equation for these coefficients.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -36,8 +35,8 @@ class AxesTerms {
 
   /// Computes the currents of order n + 1 from `drive`, which is u_k - R_k i_k - e_k of order n in the order
   /// of `leg`; f = h/(n + 1). The first `connected` entries of `leg` are the connected legs. Returns the
-  /// voltage that the flux's change adds to the pole voltage of a floating leg: 3/2 of the voltage induced in
-  /// that leg.
+  /// voltage that the change of the flux adds to the pole voltage of a floating leg: 3/2 of the voltage
+  /// induced in this leg.
   Real take_order(int n, Real f, const PerLeg<Real>& drive, int connected, const std::array<int, 3>& leg) {
     turn(n + 1);
     const Changes without = without_newest(n + 1);
@@ -50,8 +49,8 @@ class AxesTerms {
       y_.i[1][n + 1] = -alpha / 2 + Real(half_root3_l) * beta;
       y_.i[2][n + 1] = -alpha / 2 - Real(half_root3_l) * beta;
     } else if (connected == 2) {
-      // Flux along the pair: lambda_j - lambda_k = g . lambda. A current i from j to k is the vector (2/3) g
-      // i.
+      // Flux linkage of the pair: lambda_j - lambda_k = g . lambda, with the difference g of the axes of j
+      // and k. A current i from j to k is the vector (2/3) g i.
       const int j = leg[0], k = leg[1];
       const Real g_alpha = axis_alpha[j] - axis_alpha[k], g_beta = axis_beta[j] - axis_beta[k];
       const Real L = Real(2.0L / 3) *
@@ -126,7 +125,7 @@ class AxesTerms {
   const Constants<Real>& c_;
   Expansion<Real>& y_;
   Series<Real>& z_;
-  Coefficients cos_, sin_, alpha_, beta_, flux_d_, flux_q_;  ///< cos_ and sin_ are those of theta_d
+  Coefficients cos_, sin_, alpha_, beta_, flux_d_, flux_q_;  ///< cos_ and sin_ are cosine and sine of theta_d
   Real aa_ = 0, bb_ = 0, ab_ = 0, along_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values of the general plant's series at the nodes of a quadrature, and the losses of copper and devices
-// over a part of a segment. The audit uses them, and the plant itself when it simulates temperatures.
+// over a part of a segment. The audit uses them. The plant uses them when it simulates temperatures.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/series/quadrature.hpp"
@@ -27,7 +27,7 @@ struct AtNodes {
   }
 };
 
-/// Copper losses of phases and loop, J.
+/// Copper losses of the phases and of the current around a delta, J.
 template <int points, class Real>
 Real copper_energy(const AtNodes<points, Real>& at) {
   const auto& c = at.plant.constants();
@@ -44,7 +44,7 @@ Real copper_energy(const AtNodes<points, Real>& at) {
   return sum;
 }
 
-/// Losses of a connected leg's device, J.
+/// Losses of the conducting device of leg k, J.
 template <int points, class Real>
 Real device_energy(const AtNodes<points, Real>& at, std::size_t k) {
   const PoleTerms<Real>& terms = at.plant.constants().terms(k, at.plant.mode().legs[k]);

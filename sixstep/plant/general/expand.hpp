@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expands the general plant's series over one segment, order by order until the remaining terms are below
-// rounding. If the highest degree does not suffice, the segment is shortened.
+// Computes the general plant's series over one segment, order by order until the remaining terms are below
+// rounding level. If the highest degree is not sufficient, the segment is shortened.
 #pragma once
 #include "sixstep/plant/expand.hpp"
 #include "sixstep/plant/general/recurrence.hpp"
@@ -61,8 +61,8 @@ void begin(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, 
   }
 }
 
-/// Sets the last term of the quantities that follow from the states: the recurrence computes one term more
-/// for states.
+/// Sets the last term of the quantities that are not states to 0, because the recurrence computes one term
+/// more for the states.
 template <class Real>
 void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   const int n = y.degree;
@@ -75,15 +75,14 @@ void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   if (!c.elastic) z.load_w[n] = c.inv_gear * y.w[n];
 }
 
-/// False for a plain star on a stiff bus, with a trapezoid and a rigid shaft: only currents and speed change
-/// then.
+/// False if only currents and speed change: for a star on a stiff bus, with a trapezoid and a rigid shaft.
 template <class Real>
 bool moves_more(const Constants<Real>& c) {
   return c.inv_C > 0 || c.inv_L_b > 0 || c.has_loop || c.elastic || c.mains_peak > 0 || c.rotations > 0 ||
          c.gravity != 0;
 }
 
-/// Part of size_of() for the quantities other than currents and speed.
+/// The part of size_of() for all quantities except currents and speed.
 template <class Real>
 [[gnu::noinline]] Real size_of_more(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
                                     int n) {
@@ -100,7 +99,8 @@ template <class Real>
   return size;
 }
 
-/// Size of term n of all states together, relative to their rounding level. `more`: result of moves_more().
+/// Sum of the sizes of term n of all states, each relative to its rounding level. `more`: result of
+/// moves_more().
 template <class Real>
 [[gnu::always_inline]] inline Real size_of(const Constants<Real>& c, const Expansion<Real>& y,
                                            const Series<Real>& z, int n, bool more) {
@@ -122,7 +122,7 @@ void for_each_series(const Constants<Real>& c, Expansion<Real>& y, Series<Real>&
   for (std::size_t r = 0; r < c.rotations; ++r) visit(z.cos[r]), visit(z.sin[r]);
 }
 
-/// Halves the length until the last two terms are below rounding (plant/expand.hpp).
+/// Halves the length until the last two terms are below rounding level (plant/expand.hpp).
 template <class Real>
 void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   int halvings = 0;
@@ -141,8 +141,8 @@ void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   y.h *= half;
 }
 
-/// Bounds of the changes. By x_(n+1) = p h w_n/(n + 1), with angle x, speed w, pole pairs p and length h, the
-/// terms of x after the first are at most p h/2 times the change of the speed.
+/// Bounds of the changes within the segment. With angle x, speed w, pole pairs p and length h, x_(n+1) = p h
+/// w_n/(n + 1). The terms of x after the first are therefore at most p h/2 times the change of the speed.
 template <class Real>
 [[gnu::always_inline]] inline void note_reach(const Constants<Real>& c, const Mode& mode,
                                               Expansion<Real>& y) {
@@ -162,8 +162,8 @@ template <class Real>
   ShaftTerms<Real> shaft(c, mode, m.load.value, y, z);
   Recurrence<Real> recurrence(c, mode, y, z);
   const bool more = moves_more(c);
-  // At rest and without current some terms are zero by symmetry: a zero term does not show that the series
-  // converged.
+  // At rest and without current some terms are zero by symmetry, so that a zero term does not show
+  // convergence.
   const bool from_nothing = s.w == 0 && s.i[0] == 0 && s.i[1] == 0;
   Real last = 0, before = 0;
   bool reached = false;
@@ -193,18 +193,18 @@ void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Rea
   Recurrence<Real>(c, mode, y, z).take_order(0, shaft);
 }
 
-/// Expands the state in the given mode over `wanted`, s, or over less where full accuracy requires it.
+/// Expands the state in the given mode over the time `wanted`, s, or over less if the accuracy requires it.
 template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real wanted,
             Expansion<Real>& y, Series<Real>& z) {
   detail::grow(c, s, m, mode, wanted, y, z);
 }
 /// The version for double is compiled once for any x86-64 processor and once for processors with AVX
-/// (plant/expand.hpp); the results are the same to the bit.
+/// (plant/expand.hpp); both versions return the same bits.
 void expand(const Constants<double>& c, const State<double>& s, const More<double>& m, Mode& mode,
             double wanted, Expansion<double>& y, Series<double>& z);
 
-/// `wanted`, s, or half of the fastest time constant if this is less.
+/// The smaller of `wanted`, s, and half of the fastest time constant.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& s, Real wanted) {
   const Real rate = c.steady_rate + c.turning_rate * plant::detail::abs(s.w);

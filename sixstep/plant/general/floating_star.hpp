@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltage that the model assumes for an unconnected star point (plant/circuit.hpp), also with broken wires.
+// Voltage that the model assumes for the star point if no leg is connected (plant/circuit.hpp), also with
+// broken wires.
 #pragma once
 #include <cstddef>
 
@@ -11,9 +12,9 @@ struct StarEnds {
   std::size_t high = 0, low = 0;
 };
 
-/// Legs with the highest and the lowest terminal; u_n = (U_s - e_high - e_low)/2 centres both between the
-/// rails. A terminal behind a broken wire (`dead`, a mask of legs) cannot conduct to a rail and does not
-/// count. If all wires are broken, all three count.
+/// Legs with the highest and the lowest back-EMF. The star point's voltage (U_s - e_high - e_low)/2 centres
+/// their terminals between the rails. A terminal with a broken wire (`dead`, a mask of legs) cannot conduct
+/// to a rail and is ignored. If all wires are broken, no terminal is ignored.
 template <class Real>
 constexpr StarEnds star_ends(const PerLeg<Real>& e, unsigned dead) {
   if (dead == 0b111) dead = 0;

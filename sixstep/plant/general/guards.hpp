@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guards of the general plant: values that stay >= 0 while a mode holds, from the same series as its dynamics
-// (plant/guards.hpp). A floating leg stays between the two voltages at which it would begin to conduct.
-// Without a gate its diodes set both voltages; for an IGBT with a gate its transistor sets one of them
-// (model.md 2).
+// Guards of the general plant: values that are >= 0 as long as a mode is valid (plant/guards.hpp). They use
+// the same series as the dynamics. A floating leg's guards compare its voltage with the two voltages at which
+// the leg would begin to conduct. Without a gate the diodes determine both voltages. In an IGBT leg with a
+// gate on, the transistor determines one of them (model.md 2).
 #pragma once
 #include "sixstep/plant/general/expand.hpp"
 #include "sixstep/plant/general/leg_connections.hpp"
@@ -12,7 +12,7 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// sign (pole voltage of connection `at` without current - u), V, as a series.
+/// The series sign (u_0 - u), V, with the pole voltage u_0 of connection `at` without current.
 template <class Real>
 series::Coefficients<Real> beyond(const PoleTerms<Real>& at, const Expansion<Real>& y,
                                   const series::Coefficients<Real>& u, Real sign) {
@@ -33,8 +33,8 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
     for (unsigned j = 0; j < 3; ++j)
       for (unsigned k = 0; k < 3; ++k) {
         if (j == k || (dead >> j & 1) != 0 || (dead >> k & 1) != 0) continue;
-        // The guard is >= 0 while e_j - e_k is too small to drive a current into the motor at leg k and out
-        // of it at leg j.
+        // The guard is >= 0 while e_j - e_k is too small to drive a current that enters the motor at leg k
+        // and leaves it at leg j.
         series::Coefficients<Real> g = beyond(c.terms(j, ways[j].negative), y, z.pole[j], Real(1));
         const series::Coefficients<Real> low = beyond(c.terms(k, ways[k].positive), y, z.pole[k], Real(-1));
         for (int n = 0; n <= y.degree; ++n) g[n] += low[n];
@@ -75,7 +75,8 @@ void friction_guards(const Constants<Real>& c, const Mode& mode, const Expansion
   visit(guard::breakaway_backward, affine(z.backward, y.degree, Real(1), c.breakaway), y.degree, noise);
 }
 
-/// Guards of from <= of <= to for one piece of a table; the table's first and last piece are open outwards.
+/// Guards of from <= of <= to for one piece of a table. The table's first piece has no lower bound, the last
+/// piece no upper bound.
 template <class Real, class Pieces, class Visit>
 void piece_guards(const Pieces& pieces, std::size_t at, const series::Coefficients<Real>& of, int degree,
                   int up, int down, Real noise, Visit&& visit) {
@@ -100,7 +101,8 @@ void shaft_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
                  visit);
 }
 
-/// Without L_b the limit of the current is a limit of the voltage: the bus stays below V_0 + R_b I_sink.
+/// Guard of the source's current limit I_sink. Without L_b this limit is a limit of the bus voltage: V_0 +
+/// R_b I_sink.
 template <class Real, class Visit>
 void source_guard(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, const Series<Real>& z,
                   Real slack, Visit&& visit) {
@@ -131,7 +133,7 @@ void supply_guards(const Constants<Real>& c, const Mode& mode, const Expansion<R
           noise_of(Real(1), Real(1)));
 }
 
-/// |i_d| <= I_sat/2, beyond which the law of the flux is not valid.
+/// Guards of |i_d| <= I_sat/2, the range in which the formula of the saturated flux is valid.
 template <class Real, class Visit>
 void saturation_guards(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
                        Visit&& visit) {
@@ -165,7 +167,7 @@ void mode_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode,
   if (c.axes.inv_I_sat > 0) detail::saturation_guards(c, y, z, visit);
 }
 
-/// Guards of the present piece of the back-EMF: the rotor stays within it.
+/// Guards of the present piece of the back-EMF: >= 0 while the rotor is within the piece.
 template <class Real, class Visit>
 void edge_guards(const Piece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
   const Real noise = noise_of(Real(base::sector_rad), Real(1));

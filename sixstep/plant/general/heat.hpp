@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Temperatures of copper, magnets and channels (model.md 8). Losses are summed over thermal steps. At the end
-// of each step the two bodies, winding and housing, are solved exactly with the step's mean powers. R, K_e
-// and R_on then follow the new temperatures.
+// of each step the temperatures of two bodies, winding and housing, are computed exactly from the step's mean
+// powers. R, K_e and R_on are then set for the new temperatures.
 #pragma once
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace sixstep::plant::general {
 
 struct HeatGiven {
-  bool motor = false, devices = false;  ///< true: simulated
+  bool motor = false, devices = false;  ///< true: the temperatures of motor or switches are simulated
   double step_s = 1e-3;
   // The motor: resistances K/W, time constants s, temperatures degC.
   double winding_housing_K_W = 0.0, housing_ambient_K_W = 0.0, winding_s = 0.0, motor_s = 0.0;
@@ -20,17 +20,17 @@ struct HeatGiven {
   double copper_per_K = 0.0, magnet_per_K = 0.0, given_at_degC = 25.0;  ///< temperature at which R, K_e and
                                                                         ///< R_on are given
   double own_coulomb_Nm = 0.0,
-         own_B_Nm_s = 0.0;  ///< the motor's part of the friction, which heats its housing
+         own_B_Nm_s = 0.0;  ///< the motor's part of the friction, which heats the housing
   // The devices.
   bool igbt = false;
   SwitchingLaw switching{};
   double sink_degC = 25.0, junction_K_W = 0.0, on_per_K = 0.0;
 };
 
-/// Losses over a part of a run.
+/// Losses in a part of a run.
 struct StretchLosses {
   double dt_s = 0.0, copper_J = 0.0;
-  double square = 0.0, travel = 0.0;  ///< integral of w^2, rad^2/s; angle turned, rad
+  double square = 0.0, travel = 0.0;  ///< integral of the squared speed, rad^2/s; rotation, rad
 };
 
 class Heat {
@@ -48,8 +48,8 @@ class Heat {
     copper_.add(of.copper_J);
     friction_.add(friction_J(of));
   }
-  /// True at the end of a thermal step. Instants are whole ps, but the sum of the durations, s, has a
-  /// rounding error.
+  /// True at the end of a thermal step. Instants are whole ps, but the sum of durations, s, has a rounding
+  /// error, for which 1e-9 s is a margin.
   bool due() const { return on() && elapsed_.value > given_.step_s - 1e-9; }
   void take_step();
 
@@ -60,8 +60,9 @@ class Heat {
   double on_R_on(std::size_t leg, bool upper) const {
     return 1 + given_.on_per_K * (junction_[leg][upper ? 0 : 1] - given_.given_at_degC);
   }
-  /// Temperatures of winding and housing, degC, after the mean powers since the last thermal step, which
-  /// include the further losses `more`. At the end of a step they equal the step's result.
+  /// Temperatures of winding and housing, degC, computed from the mean powers since the last thermal step.
+  /// These powers include the additional losses `more`. At the end of a step the temperatures equal the
+  /// step's result.
   BodyTemperatures bodies_degC(const StretchLosses& more = {}) const;
   /// Hottest junction at the last thermal step, degC. A junction has no heat capacity.
   double hottest_junction_degC() const {

@@ -5,8 +5,7 @@
 
 namespace sixstep::plant::general {
 
-/// Connections that a leg without current can take with its gates, if a positive or a negative current
-/// begins.
+/// Connections that a leg without current changes to when a positive or a negative current begins.
 struct LegConnections {
   Connection positive = Connection::low_diode, negative = Connection::high_diode;
 };
@@ -16,8 +15,8 @@ inline LegConnections ways_of(const Devices& devices, bool gate_high, bool gate_
   return {};
 }
 
-/// Direction of the current in a connection: 1 or -1 if it can carry only one direction, 0 for a MOSFET's
-/// channel, which carries both.
+/// Direction of the current in a connection: 1 or -1 for a device that conducts only one direction, 0 for a
+/// MOSFET's channel or a floating leg.
 inline int direction_of(const Devices& devices, Connection c) {
   if (c == Connection::low_diode) return 1;
   if (c == Connection::high_diode) return -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general kernel. It has the members of plant::Plant, for machines, shafts, bridges and supplies that the
-// lean kernel does not model (model.md 7 to 9). A run chooses one of the two kernels at its start.
+// The general kernel. It has the same interface as plant::Plant, and simulates machines, shafts, bridges and
+// supplies that the lean kernel does not model (model.md 7 to 9). A run selects one of the two kernels at its
+// start.
 #pragma once
 #include <utility>
 
@@ -19,7 +20,7 @@ class Plant {
   Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
         const Start& start, const HeatGiven& heat = {});
 
-  /// Returns false, and changes nothing, if both switches of a leg would be on: a shoot-through.
+  /// Sets the gates. Returns false, without a change, if both switches of a leg would be on (shoot-through).
   bool set_gates(const Gates& wanted) {
     const Gates gates{(wanted.high & ~failed_.open.high) | failed_.shorted.high,
                       (wanted.low & ~failed_.open.low) | failed_.shorted.low};
@@ -29,20 +30,20 @@ class Plant {
     stale_ = true;
     return true;
   }
-  /// Sets the load torque at the load's side. From then on it grows by rate_Nm_s per second.
+  /// Sets the load torque at the load's side. The torque then grows by rate_Nm_s per second.
   void set_load(double torque_Nm, double rate_Nm_s = 0.0) {
     more_.load.set(static_cast<Real>(torque_Nm));
     constants_.load_rate = static_cast<Real>(rate_Nm_s);
     stale_ = true;
   }
-  /// Sets the speed that a dynamometer imposes at the load's side. From then on it grows by rate_rad_s2 per
+  /// Sets the speed that a dynamometer imposes at the load's side. The speed then grows by rate_rad_s2 per
   /// second.
   void set_speed(double speed_rad_s, double rate_rad_s2);
   void set_locked(bool locked);
   /// Requires a steady source.
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
-  /// Sets the factors of temperature on the given R and K_e. Currents and speed continue without a jump.
+  /// Sets the factors by which temperature changes the given R and K_e. Currents and speed do not jump.
   void set_warmth(double on_R, double on_K_e);
   /// True if temperatures are simulated: the control tick that ends a thermal step then changes R, K_e and
   /// R_on.
@@ -53,22 +54,22 @@ class Plant {
   BodyTemperatures bodies_degC(Real s) const {
     return heat_.given().motor ? heat_.bodies_degC(losses_up_to(s)) : heat_.bodies_degC();
   }
-  /// Breaks the wire of leg k: it opens at the next zero of its current.
+  /// Breaks the wire of leg k. The wire opens at the next zero of its current.
   void break_wire(int k) {
     breaking_ |= 1U << k;
     stale_ = true;
   }
-  /// The upper or lower switch of leg k fails: permanently on (`shorted`), or permanently off while its diode
-  /// still works. The gates change with the next set_gates().
+  /// The upper or lower switch of leg k fails. With `shorted` it is permanently on, otherwise permanently off
+  /// with an intact diode. The fault takes effect at the next set_gates().
   void fail_switch(int k, bool high, bool shorted) {
     Gates& gates = shorted ? failed_.shorted : failed_.open;
     (high ? gates.high : gates.low).set(static_cast<std::size_t>(k));
   }
-  /// Mask of the broken wires that have not yet opened.
+  /// Mask of the legs whose wire is broken but not yet open.
   unsigned breaking() const { return breaking_; }
   /// Mask of the legs whose wire is open.
   unsigned dead() const { return dead_; }
-  /// True if a current left the range in which the law of saturation is valid.
+  /// True if a current has left the range in which the formula of saturation is valid.
   bool beyond_model() const { return beyond_model_; }
 
   double expand(double wanted);
@@ -77,7 +78,7 @@ class Plant {
     mode_guards(constants_, gates_, mode_, dead_, breaking_, y_, z_, slack_, visit);
     edge_guards(piece(), y_, visit);
   }
-  void end_at(Real) {}  ///< the increments are not needed before advance()
+  void end_at(Real) {}  ///< empty: advance() computes the increments
   void advance(Real s);
   bool apply(int id);
 
@@ -127,8 +128,9 @@ class Plant {
   };
   Failed failed_{};
   Heat heat_;
-  Real cold_R_ = 1, cold_K_e_ = 1;    ///< the factors that set_warmth() received
-  unsigned dead_ = 0, breaking_ = 0;  ///< masks of legs: wire is open; wire opens at the current's next zero
+  Real cold_R_ = 1, cold_K_e_ = 1;    ///< the factors of the last set_warmth()
+  unsigned dead_ = 0, breaking_ = 0;  ///< masks of legs: the wire is open; the wire opens at the next zero of
+                                      ///< the current
   bool stale_ = true, doubted_ = false, beyond_model_ = false;
   int last_event_ = -1;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settles and advances the general plant and applies its events: part of general/plant.hpp.
+// Member functions of general/plant.hpp that settle and advance the plant and apply its events.
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 
@@ -45,8 +45,8 @@ bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   return false;
 }
 
-/// Sets currents within rounding of zero to zero, in legs that carry one direction only. Also sets a speed
-/// within rounding of rest to zero, where friction may hold the rotor.
+/// Sets currents at noise level to zero, in legs that conduct one direction only. Also sets a speed at noise
+/// level to zero if dry friction may stop the rotor.
 template <class Real>
 void Plant<Real>::snap() {
   const Constants<Real>& c = constants_;
@@ -117,8 +117,8 @@ bool Plant<Real>::pass_edge(bool ahead) {
       [&](std::size_t sector) { return sectors[sector].size(); });
 }
 
-/// Events that change a part of the mode that settle() does not determine, and the event that a source
-/// reaches or leaves its limit.
+/// Handles the events whose part of the mode settle() does not determine. Also handles the event that a
+/// source reaches or leaves its current limit.
 template <class Real>
 void Plant<Real>::mode_event(int id) {
   switch (id) {

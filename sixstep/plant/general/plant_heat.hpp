@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums up a plant's losses during a thermal step and changes its parameters at the step's end: part of
-// general/plant.hpp.
+// Member functions of general/plant.hpp that sum the losses during a thermal step, and change the plant's
+// parameters at the end of the step.
 #pragma once
 #include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"
@@ -43,8 +43,8 @@ void Plant<Real>::take_thermal_step() {
   stale_ = true;
 }
 
-// Defined once, in plant_heat.cpp. Sources that only read a temperature are compiled for size, and the linker
-// might otherwise use their copy of the integrals for the engine.
+// Defined once, in plant_heat.cpp. Source files that only read a temperature are compiled for size. Without
+// this declaration the linker might use the slow integrals of such a file for the engine.
 extern template StretchLosses Plant<double>::losses_up_to(double) const;
 
 }  // namespace sixstep::plant::general

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the given parameters to the constants of the recurrence: part of general/plant.hpp.
+// Member functions of general/plant.hpp that convert the given parameters to the constants of the recurrence.
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 
@@ -149,13 +149,14 @@ void Plant<Real>::set_source(const Supply& supply) {
     c.mains_rate = 2 * Real(base::pi) * Real(supply.mains.frequency_Hz);
     c.mains_edge = single ? Real(1.5) * Real(base::sector_rad) : Real(0.5) * Real(base::sector_rad);
     more_.phase.set(single ? -c.mains_edge
-                           : Real(0));  // |sin| begins at its zero, a three-phase pulse at its top
+                           : Real(0));  // single phase: the mains begin at a zero of |sin|; three phases: at
+                                        // the top of a pulse
   }
 }
 
 /// Computes the pole terms with the channels' present temperatures. An IGBT's transistor has the constant
-/// drop V_ce and the resistance r_ce. High by transistor: U_s - V_ce - r_ce i; low by transistor, i < 0: V_ce
-/// - r_ce i (model.md 2).
+/// drop V_ce and the resistance r_ce. Pole voltage with the upper transistor on: U_s - V_ce - r_ce i. With
+/// the lower transistor on (i < 0): V_ce - r_ce i (model.md 2).
 template <class Real>
 void Plant<Real>::set_bridge() {
   Constants<Real>& c = constants_;
@@ -206,7 +207,7 @@ void Plant<Real>::set_rates() {
   c.turning_rate = c.pole_pairs * order;
 }
 
-/// Sets the rotor's start as plant::Plant does.
+/// Sets angle and speed of the rotor at the start, like plant::Plant.
 template <class Real>
 void Plant<Real>::place(const Start& start) {
   state_.w = constants_.locked ? Real(0) : Real(start.speed_rad_s);
@@ -220,7 +221,7 @@ void Plant<Real>::place(const Start& start) {
   if (on_edge && state_.w < 0) pass_edge(false);
 }
 
-/// Finds the pieces of the tables over speed and charge for the present state.
+/// Finds the pieces of the tables over speed and over charge that contain the present state.
 template <class Real>
 void Plant<Real>::find_pieces() {
   const auto find = [](const auto& pieces, std::uint8_t& at, Real value) {

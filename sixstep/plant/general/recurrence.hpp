@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the general plant's Taylor recurrence (model.md 7 to 9): voltages from currents, currents from
-// flux linkages, torques from both, then shaft and supply. The loops are not unrolled, because this kernel is
-// used only where the lean kernel does not suffice.
+// Computes one order of the general plant's Taylor recurrence (model.md 7 to 9): first voltages, then
+// currents, torques, shaft and supply. The loops are not unrolled, because this kernel is used only where the
+// lean kernel does not suffice.
 #pragma once
 #include "sixstep/plant/general/axes_terms.hpp"
 #include "sixstep/plant/general/shaft_terms.hpp"
@@ -47,8 +47,8 @@ class Recurrence {
   }
 
   /// Computes terms n + 1 of all states from terms n, and terms n of the quantities that follow from the
-  /// states. The shaft is a separate object, so that no reference points to the members here and they can
-  /// stay in registers.
+  /// states. The shaft is a separate object. No reference therefore points to the members of this class, and
+  /// the compiler can keep them in registers.
   template <class Shaft>
   [[gnu::always_inline]] void take_order(int n, Shaft& shaft) {
     const Real f = y_.h / Real(n + 1);
@@ -73,8 +73,8 @@ class Recurrence {
     return sum;
   }
 
-  /// Advances cos(m theta) and sin(m theta) of each rotation's order m by one order of the recurrence; their
-  /// products with the speed are the parts of the back-EMF.
+  /// Computes the next order of cos(m theta) and sin(m theta), for the order m of each rotation. The products
+  /// of these series with the speed are the parts of the back-EMF.
   [[gnu::always_inline]] void turn(int n, Real f) {
     if (is_linear_) wx_ = later_product(y_.x, y_.w, n);
     for (std::size_t r = 0; r < rotations_; ++r) {
@@ -93,7 +93,7 @@ class Recurrence {
     return e;
   }
 
-  /// Two or three legs are connected in nearly all segments; for these numbers the count is a compile-time
+  /// In nearly all segments two or three legs are connected. For these cases the number is a compile-time
   /// constant.
   [[gnu::always_inline]] void electrical(int n, Real f) {
     if (connected_ == 3) return electrical_with(std::integral_constant<int, 3>(), n, f);
@@ -133,7 +133,8 @@ class Recurrence {
     if (has_loop_) z_.loop[n + 1] = -f * c_.loop_inv_L * (c_.loop_R * z_.loop[n] + emf(3, n));
   }
 
-  /// Adds up T_e of phases, loop and axes. The cogging torque, which needs no current, is separate.
+  /// Sums the torque T_e of phases, of the current around a delta and of the magnet's axes. The cogging
+  /// torque is separate, because it needs no current.
   [[gnu::always_inline]] void torques(int n) {
     const auto current = [&](int way) { return way < 3 ? y_.i[way][n] : z_.loop[n] * Real(1.0L / 3); };
     const int used = has_loop_ ? way_count : 3;
@@ -169,12 +170,13 @@ class Recurrence {
   SupplyTerms<Real> supply_;
   std::size_t rotations_;
   bool is_linear_, has_axes_, has_loop_;
-  bool ramp_carries_ = false;  ///< a leg on a ramp of its back-EMF is connected, or the winding has a loop
+  bool ramp_carries_ = false;  ///< true: the back-EMF of a connected leg is on a ramp, or the winding is a
+                               ///< delta
   int connected_ = 0;
   std::array<int, 3> leg_{};       ///< the connected legs, then the floating legs
   PerLeg<PoleTerms<Real>> terms_;  ///< terms of the connected legs, in the order of leg_
   PerLeg<Real> R_;                 ///< resistances in the order of leg_
-  Real part_ = 0, change_ = 0;     ///< 1/number of connected legs; 1/L if a current can flow, else 0
+  Real part_ = 0, change_ = 0;     ///< 1/(number of connected legs); 1/L if a current can flow, else 0
   PerWay<Real> now_{}, rise_{};
   Real wx_ = 0;
   std::array<Real, most_rotations> w_cos_, w_sin_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates the energies of the general plant's bridge, winding and shaft over one segment
-// (plant/segment_energy.hpp), and computes the energy stored at an instant in fields, masses and elastic
-// shaft. The energy that the cogging torque takes and returns is computed separately.
+// (plant/segment_energy.hpp), and computes the energy stored in fields, masses and elastic shaft at an
+// instant. The energy of the cogging torque is computed separately.
 #pragma once
 #include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"
@@ -51,7 +51,7 @@ void shaft_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out) {
 
 }  // namespace detail
 
-/// Energies of the present segment, J, from its start to `to`, a fraction 0 to 1.
+/// Energies of the present segment, J, from its start to the fraction `to`, 0 to 1.
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   SegmentEnergy<Real> out;
@@ -76,7 +76,7 @@ Real brake_energy(const Plant<Real>& plant, Real to) {
   return heat;
 }
 
-/// Energy that cogging gives to the shaft, J, from the segment's start to the fraction `to`.
+/// Energy that the cogging torque transfers to the shaft, J, from the segment's start to the fraction `to`.
 template <class Real>
 Real cogging_energy(const Plant<Real>& plant, Real to) {
   Real given = 0;
@@ -87,7 +87,7 @@ Real cogging_energy(const Plant<Real>& plant, Real to) {
   return given;
 }
 
-/// Magnetic energy (1/2) i^T L i of the phases and of the loop, at the fraction s of the segment, J.
+/// Magnetic energy of the phases and of the current around a delta, at the fraction s of the segment, J.
 template <class Real>
 Real field_energy(const Plant<Real>& plant, Real s) {
   const auto& c = plant.constants();
@@ -97,7 +97,7 @@ Real field_energy(const Plant<Real>& plant, Real s) {
   const auto& y = plant.expansion();
   const Real a = value(y.i[0]), b = value(y.i[1]), third = value(y.i[2]);
   Real energy = c.L * (a * a + b * b + third * third) / 2;
-  if (c.has_axes) {  // the integral of i dlambda, over the three phases
+  if (c.has_axes) {  // the integral of i d(lambda), summed over the three phases
     const Real d = value(plant.series().d), q = value(plant.series().q);
     energy =
         Real(0.75) * (c.axes.L_d * d * d * (1 - d * c.axes.inv_I_sat * Real(2.0L / 3)) + c.axes.L_q * q * q);
@@ -109,7 +109,8 @@ Real field_energy(const Plant<Real>& plant, Real s) {
   return energy;
 }
 
-/// Kinetic energy of both masses and energy of the twist between them at the fraction s of the segment, J.
+/// Kinetic energy of motor and load, plus the elastic energy of the shaft, at the fraction s of the segment,
+/// J.
 template <class Real>
 Real moving_energy(const Plant<Real>& plant, Real s) {
   const auto& c = plant.constants();

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0
-// settle() finds the general plant's consistent mode (plant/settle.hpp). Gates and currents determine part of
-// the mode. The other parts are tried: legs without current (fewest legs on first), a rotor at rest, and a
-// source at its limit. Values at the instant decide first; the series are expanded only for a tie.
+// SPDX-License-Identifier: Apache-2.0 settle() finds the general plant's consistent mode (plant/settle.hpp).
+// Gates and currents determine a part of the mode. settle() tries the possible values of the other parts:
+// legs without current (fewest conducting legs first), a rotor at rest, and a source at its limit. It checks
+// the values at the instant first, and expands the series only for a tie.
 #pragma once
 #include "sixstep/plant/general/guards.hpp"
 #include "sixstep/plant/settle.hpp"
@@ -26,8 +26,8 @@ using plant::detail::both;
 using plant::detail::judge;
 using plant::detail::Judgement;
 
-/// Writes the connections that gates and currents determine. Returns a mask of the open legs, whose
-/// connections they do not determine.
+/// Writes the connections that gates and currents determine. Returns a mask of the other legs, which are
+/// called open.
 template <class Real>
 unsigned named_legs(const Question<Real>& q, Legs& legs) {
   unsigned open = 0;
@@ -51,7 +51,7 @@ unsigned named_legs(const Question<Real>& q, Legs& legs) {
   return open;
 }
 
-/// Checks the legs by the values at the instant, which expand_first() has written to y and z.
+/// Checks the legs by the values at the instant. expand_first() must have written these values to y and z.
 template <class Real>
 Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<Real>& y,
                      const Series<Real>& z) {
@@ -61,7 +61,7 @@ Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<
     const PoleTerms<Real>& terms = c.terms(k, to);
     return terms.bus_share * y.bus[0] + terms.offset_V;
   };
-  PerLeg<Real> up{}, down{};  // voltages at which leg k would begin to carry a negative and a positive
+  PerLeg<Real> up{}, down{};  // voltages at which leg k would begin to conduct a negative and a positive
                               // current
   for (unsigned k = 0; k < 3; ++k) {
     const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
@@ -108,7 +108,7 @@ Judgement judge_rest(const Question<Real>& q, const Mode& mode, const Expansion<
 /// False for the parts of the mode that settle() does not determine, because only events change them.
 constexpr bool is_sought(int id) { return id < guard::brake; }
 
-/// Lexicographic check of the series (plant/settle.hpp).
+/// Checks the signs of the guards' leading terms (plant/settle.hpp).
 template <class Real>
 bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<Real>& y,
                      const Series<Real>& z) {
@@ -120,7 +120,8 @@ bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<
   return ok;
 }
 
-/// True if the mode is consistent. `expanded` becomes true if y and z contain the mode's whole expansion.
+/// True if the mode is consistent. Sets `expanded` to true if y and z contain the complete expansion for the
+/// mode.
 template <class Real>
 bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const std::int8_t through_sign = mode.through_sign;
@@ -131,7 +132,7 @@ bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Rea
   if (expanded) expand(q.constants, q.state, q.more, mode, q.h, y, z);
   const bool holds = expanded ? holds_in_series(q, mode, y, z) : all == Judgement::holds;
   if (!holds)
-    mode.through_sign = through_sign;  // a refused candidate must not change the sign for the next candidate
+    mode.through_sign = through_sign;  // a rejected candidate must not change the sign for the next candidate
   return holds;
 }
 
@@ -150,13 +151,14 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
       const Connection as = tried.leg[static_cast<std::size_t>(n)];
       mode.legs[k] = is_floating(as) ? as : as == Connection::low_diode ? ways.positive : ways.negative;
     }
-    if (tried.on >= 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries no current
+    if (tried.on >= 1 && connected_count(mode.legs) == 1) continue;  // a single leg conducts no current
     if (accepts(q, mode, y, z, expanded)) return true;
   }
   return false;
 }
 
-/// A source that takes back its largest current I_sink feeds again when the bus is below V_0 + R_b I_sink.
+/// Settles whether the source feeds or absorbs its largest current I_sink. It feeds if the bus is below V_0 +
+/// R_b I_sink.
 template <class Real>
 bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const Constants<Real>& c = q.constants;
@@ -173,10 +175,11 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Seri
 
 }  // namespace detail
 
-/// Settles the mode without trials, which nearly always suffices. A leg's window lies between the two
-/// voltages at which it would begin to conduct. One of two conditions must hold: each leg whose connection
-/// gates and currents do not determine is clearly inside its window; or two legs conduct and the third leg is
-/// clearly outside its window. Returns false if trials are necessary; `mode` may have been changed.
+/// Settles the mode without trials, which nearly always suffices. A leg's window is the range between the two
+/// voltages at which the leg would begin to conduct. One of two conditions must be true:
+/// - each open leg (named_legs()) is clearly inside its window,
+/// - two legs conduct and the third leg is clearly outside its window.
+/// Returns false if trials are necessary; `mode` may then have changed.
 template <class Real>
 bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
   const Constants<Real>& c = q.constants;
@@ -185,8 +188,8 @@ bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   for (int k = 0; k < 3; ++k)
     if (s.i[k] != 0 && plant::detail::abs(s.i[k]) <= c.amp_noise) return false;
   mode.motion = c.locked ? Motion::locked : c.dry_friction ? motion_at(s.w) : Motion::free;
-  // Whether a source that cannot sink feeds may depend on the current that it feeds. The guess from the
-  // present bus is checked below.
+  // For a source that cannot sink, `source_feeds` may depend on the source's current. This guess from the
+  // present bus voltage is checked below.
   const Real open_V = c.source == Source::steady ? c.V_0 : z.open[0];
   mode.source_feeds =
       c.source_sinks || (c.inv_L_b > 0 && q.more.source.value > -c.sink) || s.bus < open_V + c.R_b * c.sink;
@@ -199,7 +202,7 @@ bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   if (legs == Judgement::holds) return true;
   if (legs == Judgement::tie || connected_count(mode.legs) != 2 || (open & (open - 1)) != 0 || open == 0)
     return false;
-  // Once the third leg conducts, its L di/dt is two thirds of the excess voltage.
+  // When the third leg conducts, its L di/dt is two thirds of the excess voltage.
   const unsigned k = open >> 1;
   const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
   const auto stands = [&](Connection to) {

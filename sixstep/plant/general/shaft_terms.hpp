@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Terms of the shaft (model.md 7): the load's torque at the load's side, the torque through gear and
-// coupling, and the motion of both sides. If the load's speed is imposed, the load's torque is the remainder
-// of the balance.
+// coupling, and the motion of both sides. If the load's speed is imposed, the load's torque follows from the
+// balance of torques.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::general {
 
-/// Factor from the lossless torque through a gear to the torque at the motor's side: the driven side has less
-/// torque than the driving side.
+/// Torque at the motor's side of a gear, divided by its value without losses. It is above 1 if the motor
+/// drives, and below 1 if the load drives.
 template <class Real>
 constexpr Real gear_factor(Real efficiency, bool motor_drives) {
   return motor_drives ? 1 / efficiency : efficiency;
@@ -44,7 +44,7 @@ class ShaftTerms {
     return !c.elastic && !c.imposed && !c.lossy_gear() && c.fan == 0 && c.gravity == 0 &&
            c.over_speed.empty();
   }
-  /// Term n of the load torque's steps and ramps.
+  /// Term n of the part of the load torque that is set by steps and ramps.
   Real steps(int n) const { return n == 0 ? load_ : n == 1 ? c_.load_rate * y_.h : Real(0); }
 
   [[gnu::noinline]] void take_any_order(int n, Real f) {
@@ -84,14 +84,14 @@ class ShaftTerms {
     }
     return load;
   }
-  /// Torques that the breakaway torque opposes, for motion forward and backward. `through`: torque through
-  /// the gear at the load's side, before the gear's losses.
+  /// Sets the torques at rest that must exceed the breakaway torque, for forward and backward motion.
+  /// `through`: torque through the gear at the load's side, without the gear's losses.
   void push(int n, Real drive, Real through) {
     z_.forward[n] = drive - c_.inv_gear * through;
     z_.backward[n] = z_.forward[n];
     if (!c_.lossy_gear()) return;
-    // Forward, the gear's factor follows from the sign of `through`: the motor drives a load that resists,
-    // and a load that pushes drives the motor. Backward, the two cases are exchanged.
+    // For forward motion a positive `through` means that the motor drives the load, a negative one that the
+    // load drives the motor. For backward motion the two cases are exchanged.
     const bool asks = z_.through[0] > 0;
     z_.forward[n] = drive - c_.inv_gear * through * gear_factor(c_.efficiency, asks);
     z_.backward[n] = drive - c_.inv_gear * through * gear_factor(c_.efficiency, !asks);
@@ -106,7 +106,7 @@ class ShaftTerms {
   }
 
   /// Rigid shaft: the gear transmits J_2 dw_2/dt + B_2 w_2 + T_load, with inertia J_2, friction B_2 and speed
-  /// w_2 of the load's side. The gear's losses do not change the sign of this torque.
+  /// w_2 of the load's side. The losses of the gear do not change the sign of this torque.
   void move_through_losses(int n, Real f, Real drive, Real dry) {
     const Real at_load = c_.load_B * z_.load_w[n] + z_.load[n];
     const Real at_motor = drive - dry - c_.B_1 * y_.w[n];
@@ -122,14 +122,14 @@ class ShaftTerms {
     turn(n, f, 1 / (c_.J_1 + k * own * c_.inv_gear), at_motor - k * c_.inv_gear * at_load);
     z_.through[n] = f > 0 ? own * y_.w[n + 1] / f + at_load : at_load;
   }
-  /// Torque through the gear, J_2 dw_2/dt + B_2 w_2 + T_load, from a sum `sign_of` with the same sign. The
-  /// torque can be a small part of the sum, down to the sum's noise, if J_2 is most of the inertia.
+  /// Torque through the gear, J_2 dw_2/dt + B_2 w_2 + T_load, computed from the sum `sign_of`, which has the
+  /// same sign. If J_2 is most of the inertia, the torque is a small part of this sum and may be at its noise
+  /// level.
   Real handed_on(Real sign_of, Real own, bool forward) const {
     const Real k = gear_factor(c_.efficiency, (sign_of > 0) == forward);
     return sign_of / (1 + k * own * c_.inv_gear / c_.J_1);
   }
-  /// A torque clearly different from zero determines the sign; otherwise the sign from the last event
-  /// remains.
+  /// A torque above noise level determines the sign. Otherwise the sign from the last event is kept.
   void judge_through() {
     if (plant::detail::abs(z_.through[0]) > c_.torque_noise * c_.gear)
       mode_.through_sign = z_.through[0] > 0 ? 1 : -1;
@@ -155,8 +155,8 @@ class ShaftTerms {
     }
   }
 
-  /// Rigid shaft with imposed speed: the load takes the part of the motor's torque that the shaft does not
-  /// need.
+  /// Rigid shaft with imposed speed: the load's torque is the part of the motor's torque that friction and
+  /// acceleration do not need.
   void follow(int n, Real f, Real drive, Real dry) {
     const Real rate = n == 0 && turns(mode_.motion) ? c_.speed_rate * c_.gear : Real(0);
     y_.w[n + 1] = f * rate;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of the back-EMF of a, b, c and of the delta's loop as sums of few functions of the angle: 1 and x
-// (the angle since the sector's start) piece by piece, and cos m theta and sin m theta for each order m. The
-// product of the speed and one function is then used for all shapes. A delta is replaced by the star with the
-// same terminal behaviour: e_a = (e_ab - e_ca)/3; the sum of all e drives the loop (model.md (9)).
+// Shapes of the back-EMF as sums of a few functions of the angle theta. These are 1 and x (the angle since
+// the sector's start) in each piece, and cos(m theta) and sin(m theta) for each order m. The product of the
+// speed and a function is then the same for all phases. A delta is replaced by the star with the same
+// terminal behaviour, e_a = (e_ab - e_ca)/3. The sum of the three branch EMFs drives the current around the
+// delta, which is called the loop (model.md (9)).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -16,12 +17,12 @@
 
 namespace sixstep::plant::general {
 
-/// A "way" is one of the phases a, b, c or the loop.
+/// A "way" is a phase a, b, c, or the loop.
 inline constexpr int way_count = 4;
 template <class Real>
 using PerWay = std::array<Real, way_count>;
 
-/// A piece of a sector: for each way the EMF per speed, V s, as now + rise x.
+/// A piece of a sector. In this piece the EMF per speed of each way is now + rise x, V s.
 template <class Real>
 struct Piece {
   Real from = 0, to = 0;
@@ -41,7 +42,7 @@ template <class Real>
 struct ShapeTable {
   std::array<std::vector<Piece<Real>>, 6> sector;
   std::vector<Rotation<Real>> rotations;
-  bool is_linear = false;  ///< true: the pieces contribute to the EMF
+  bool is_linear = false;  ///< true: `sector` contributes to the EMF, in addition to `rotations`
 
   /// Returns the rotation of this order, and adds it if there is none.
   Rotation<Real>& rotation(int order) {
@@ -65,7 +66,8 @@ void turn_by(int thirties, Real& cos, Real& sin) {
   sin = table[at(thirties - 3)];
 }
 
-/// Corners of the trapezoid: it is 1 within half the flat width around 60 degrees, and -1 half a turn later.
+/// Corners of the trapezoid. The trapezoid is 1 within half the flat width around 60 degrees, and -1 around
+/// 240 degrees.
 inline std::vector<ShapePoint> corners(double flat_deg) {
   const double half = flat_deg / 2;
   std::vector<ShapePoint> points;
@@ -77,8 +79,8 @@ inline std::vector<ShapePoint> corners(double flat_deg) {
   return points;
 }
 
-/// Value and slope (per degree) of the periodic polyline through the points, at one angle. At a point, the
-/// slope is that of the segment after it.
+/// Value and slope (per degree) of the periodic polyline through the points, at one angle. At a point of the
+/// polyline, the slope is the slope after this point.
 struct Line {
   double value = 0.0, slope = 0.0;
 };
@@ -95,8 +97,8 @@ inline Line line_at(const std::vector<ShapePoint>& points, double angle_deg) {
   return {a.value + slope * from, slope};
 }
 
-/// Values of the ways from the values of phases or branches. Star: a, b, c, and 0. Delta: (ab - ca)/3 and so
-/// on, and the sum.
+/// Values of the four ways from the values of phases or branches. Star: a, b, c, and 0. Delta: (ab - ca)/3
+/// and its two cyclic counterparts, and the sum of the branches.
 template <class Real>
 PerWay<Real> as_ways(Winding winding, const PerLeg<Real>& branch) {
   if (winding == Winding::star) return {branch[0], branch[1], branch[2], Real(0)};
@@ -142,8 +144,8 @@ void add_lines(const Machine& m, const std::vector<ShapePoint>& points, ShapeTab
   }
 }
 
-/// Adds a harmonic of order n and size c, by c cos(n (theta - later - 60)) = c [cos n theta cos n(later + 60)
-/// + sin n theta sin n(later + 60)] with later = seen_later_deg().
+/// Adds a harmonic of order n and size c. With later = seen_later_deg(), it is c cos(n (theta - later - 60))
+/// = c [cos(n theta) cos(n (later + 60)) + sin(n theta) sin(n (later + 60))].
 template <class Real>
 void add_harmonic(const Machine& m, const Harmonic& h, ShapeTable<Real>& table) {
   PerLeg<Real> cos{}, sin{};
@@ -180,9 +182,9 @@ ShapeTable<Real> shape_table(const Machine& m) {
   return table;
 }
 
-/// K_t/K_e (model.md 1): torque per ampere through the driven pair for K_e = 1, without loop current, mean
-/// over a sector. The sectors of a table may differ: the mean is then over all six sectors, each with its own
-/// pair.
+/// K_t/K_e (model.md 1): mean torque over a sector per ampere through the driven pair, for K_e = 1 and
+/// without loop current. The sectors of a table may differ; the mean is then over all six sectors with their
+/// driven pairs.
 inline double sector_mean(const Machine& m) {
   const ShapeTable<double> table = shape_table<double>(m);
   constexpr std::array<std::pair<std::size_t, std::size_t>, 6> pairs{

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Terms of the supply (model.md 9): the source's open-circuit voltage, its current, the capacitor with its
-// resistance, and the brake resistor. The bus voltage of an order is computed before the winding's terms,
-// because the current makes the voltage of a capacitor with a resistance jump. The supply's terms of the next
-// order are computed after the winding's terms.
+// resistance, and the brake resistor. In each order the bus voltage is computed before the winding's terms,
+// because a jump of the current causes a jump of the voltage at a capacitor with resistance. The supply's
+// terms of the next order are computed after the winding's terms.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -16,12 +16,13 @@ class SupplyTerms {
     for (unsigned k = 0; k < 3; ++k) share_[k] = c.terms(k, mode.legs[k]).bus_share;
   }
 
-  /// Terms n of V_0 and U_s from terms n of charge, phase, capacitor and currents.
+  /// Computes terms n of V_0 and U_s from terms n of charge, phase, capacitor voltage and currents.
   void begin_order(int n) {
     if (c_.inv_C == 0) return;
     z_.open[n] = open_voltage(n);
     if (c_.R_C == 0) return;
-    // U_s = v_C + R_C (i_src - i_dc - U_s/R_br); i_src is a state (with L_b) or (V_0 - U_s)/R_b
+    // U_s = v_C + R_C (i_src - i_dc - U_s/R_br), with capacitor voltage v_C, source current i_src, bridge
+    // current i_dc and brake resistor R_br. With L_b, i_src is a state; otherwise it is (V_0 - U_s)/R_b.
     Real share = mode_.braking ? c_.brake_conductance : Real(0), in = -drawn(n);
     if (!mode_.source_feeds) {
       if (n == 0) in -= c_.sink;
@@ -34,7 +35,7 @@ class SupplyTerms {
     y_.bus[n] = (z_.capacitor[n] + c_.R_C * in) / (1 + c_.R_C * share);
   }
 
-  /// Terms n + 1 of the supply's states from terms n, f = h/(n + 1).
+  /// Computes terms n + 1 of the supply's states from terms n; f = h/(n + 1), with the segment's length h.
   void end_order(int n, Real f) {
     if (c_.inv_C == 0) {
       y_.bus[n + 1] = 0;
