@@ -307,7 +307,7 @@ TEST(Figures, deviation_is_signed_and_absolute_where_the_reference_is_zero) {
   EXPECT_EQ(deviation(0.02, 0.0, "A"), "+20.00\u00a0mA");
 }
 
-/// Values side by side have the unit prefix of the first value, so that their sizes can be compared. A value
+/// Values of similar size side by side have one unit prefix, so that their digits can be compared. A value
 /// of more than ten times the reference is printed as a factor.
 TEST(Figures, side_by_side_have_one_prefix) {
   const auto texts = computed_alike({0.03983, 0.07235, 0.1426, std::nullopt, 0.0}, "Nm");

@@ -102,7 +102,7 @@ TEST(Spectra, multiples_of_twice_the_mains_are_named) {
 }
 
 /// A current between the two levels of a hysteresis band rises and falls with different slopes: its rise
-/// takes 40 % of the period, its fall 60 %. The frequency is 50.3 kHz. The comparators' duty determines the
+/// takes 40 % of the period, its fall 60 %. The frequency is 50.3 Hz. The comparators' duty determines the
 /// frequency, and each multiple is named after the comparators.
 TEST(Spectra, lines_of_comparators_are_named_by_their_own_frequency) {
   constexpr double hertz = 50.3;
