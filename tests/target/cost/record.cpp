@@ -3,8 +3,8 @@
 // Hall edge by Hall edge (record.hpp). It prints `run DIGEST` of the run and `answers CALLS DIGEST` of the
 // firmware's answers.
 //
-// The firmware classes of this file have the parts of the classes in rig/firmware.hpp and record their inputs.
-// The digest of the run must be equal to the digest of study::run(). This proves that recording changes nothing.
+// The firmware classes of this file have the parts of the classes in rig/firmware.hpp and record their
+// inputs. The digest of the run must be equal to the digest of study::run(): recording changes nothing.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
