@@ -101,7 +101,7 @@ TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
 }
 
 /// With no combination of range ends does the winding reach its limit sooner than with the worse ends. With
-/// the middle values, it reaches the limit later.
+/// the sheet's plain values, the winding reaches the limit later.
 TEST(ThermalRanges, NoCornerEndsSoonerThanTheWorseEnds) {
   const design::Sheet sheet = ranged_sheet();
   for (const double copper_W : {12.0, 35.0, 560.0}) {

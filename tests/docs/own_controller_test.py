@@ -151,7 +151,7 @@ class OwnControllerPage(unittest.TestCase):
             (("--set", "control.own.controller=short.c"), 2, "is not a compiled library"),
             (("--set", "control.own.controller=mine.so"), 2, "is not the name of a number of the controller"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
-            (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),
+            (("--set", "control.mode=position"), 2, "PI in integers controls a current or a speed"),
             (("--set", "control.limits.current_A=3"), 2, "--set control.limits.current_A: control.limits applies to the built-in loops"),
             (("--set", "control.arithmetic=q15"), 2, "has its own number types")]}
         (self.path / "short.c").write_text("int a;\n", encoding="utf-8")
