@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The example faces/c/example/esc: one firmware on a simulated motor and, unchanged, compiled for a chip.
-   esc_test.py LIBRARY SOURCE"""
+"""Tests the example faces/c/example/esc. The same firmware runs on a simulated motor and, unchanged, compiles for a
+chip.
+esc_test.py LIBRARY SOURCE"""
 import math
 import pathlib
 import shutil
@@ -25,13 +26,14 @@ def load_Nm(speed):
 
 
 def duty_at(speed):
-    """Duty that holds the speed: back-EMF, resistance, and the voltage that each commutation costs, 3/pi L omega I."""
+    """The duty at which the speed is constant. The voltage has three parts: the back-EMF, R times the current, and
+    the mean voltage 3/pi L omega I that the commutations consume."""
     current = load_Nm(speed) / K_T
     return (K_T * speed + (R_PAIR + 3 / math.pi * POLE_PAIRS * speed * L_s) * current) / BUS_V
 
 
 class Program:
-    """The example, built from its sources, or with another firmware."""
+    """The example, built from its sources. A test may replace the firmware or edit it."""
 
     def __init__(self, folder, firmware=None, edit=None):
         if edit:
@@ -52,7 +54,7 @@ class Program:
 
 
 class Course:
-    """Rows of the table by their ms, and events of the log: (ps, word, number)."""
+    """The rows of the table, by their time in ms, and the events of the log as (ps, word, number)."""
 
     def __init__(self, text, log):
         self.text = text
@@ -89,7 +91,8 @@ class Firmware(unittest.TestCase):
             self.assertAlmostEqual(rows[end][3] - rows[begin][3], expected, delta=1 + 0.004 * expected)
 
     def test_steady_speed_is_that_of_the_motor_s_sheet(self):
-        """Chopped, the dead time takes up to itself from the on-time: nothing where the ripple reverses the current."""
+        """While the upper switch is chopped, the dead time shortens the on-time by at most its own length. It does
+        not shorten the on-time if the ripple reverses the current."""
         for ms, duty, lost in ((360, 0.40, DEAD_ps * 1e-12 / PERIOD_s), (920, 1.00, 0)):
             speed = self.course.rows[ms][0]
             self.assertTrue(0.985 * (duty - lost) < duty_at(speed) < 1.015 * duty, (speed, duty_at(speed)))
@@ -109,7 +112,8 @@ class Firmware(unittest.TestCase):
         self.assertGreater(turned_on, 10000)
 
     def test_crossings_are_found_to_the_picosecond(self):
-        """The comparator's output changes at 20 mV of back-EMF: of a star whose pair is driven it shows the free phase's."""
+        """The comparator's output changes at 20 mV of back-EMF. While one pair of the star is driven, the comparator
+        measures the back-EMF of the free phase."""
         changed, exact = 0, 0
         for at, word, number in self.course.events:
             if word == "gates":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examples of faces/c/example/ print what the program finds. Those whose language is not installed are skipped.
-   examples_test.py LIBRARY PROGRAM SOURCE"""
+"""The examples of faces/c/example/ print the same results as the program. A test is skipped if its language is not
+installed.
+examples_test.py LIBRARY PROGRAM SOURCE"""
 import csv
 import json
 import os
@@ -58,7 +59,7 @@ class Examples(unittest.TestCase):
             self.skipTest(f"{command} is not installed")
 
     def told(self, printed):
-        """(lines of numbers, the outcome) of what an example printed."""
+        """From the text that an example printed: the lines of numbers, and the outcome as a dictionary."""
         numbers, brace, outcome = printed.partition("{\n")
         return [[float(x) for x in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", line)] for line in numbers.splitlines()], json.loads(brace + outcome)
 
@@ -94,7 +95,8 @@ class Examples(unittest.TestCase):
         self.assertEqual(outcome["digest"], told["digest"])
 
     def test_the_controller_outside_turns_the_motor_as_the_setpoint_says(self):
-        """A proportional loop u = k U (r - i) on R i + e leaves i = (k U r - e)/(k U + R): the torque of nearly 5 A, then of -5 A."""
+        """The controller u = k U (r - i), with the gain k, bus voltage U and reference r, drives R i + e, with the
+        back-EMF e. The steady current is (k U r - e)/(k U + R): nearly 5 A, and then -5 A."""
         lines, outcome = self.c_example()
         peak = max(line[1] for line in lines)
         self.assertGreater(outcome["energy"]["kinetic_J"] + outcome["energy"]["friction_J"], 0)
@@ -126,7 +128,8 @@ class Examples(unittest.TestCase):
             self.assertAlmostEqual(mine[1], theirs[1], delta=5.1e-5)
 
     def test_julias_declarations_are_those_of_the_header(self):
-        """Debian 12 has no Julia: at least names, number of arguments and kinds of results are read."""
+        """Debian 12 has no Julia, so the example cannot run. This test compares the names, the number of arguments
+        and the result types with the header."""
         header = re.sub(r"/\*.*?\*/", "", (SOURCE / "faces/c/sixstep.h").read_text(encoding="utf-8"), flags=re.S)
         kinds = {"uint32_t": "UInt32", "sixstep_status": "Cint", "int": "Cint", "double": "Cdouble", "void": "Cvoid", "const char*": "Cstring"}
         calls = re.findall(r"ccall\(\(:(\w+), sixstep\), (\w+), \((.*?),?\)[,)]", (EXAMPLES / "advance.jl").read_text(encoding="utf-8"))
@@ -137,7 +140,8 @@ class Examples(unittest.TestCase):
             self.assertEqual(len([a for a in arguments.split(",") if a.strip()]), 0 if declared == "void" else len(declared.split(",")), name)
 
     def test_what_calls_cost_is_in_order(self):
-        """Reading is cheaper than a period, a long advance than steps; tenfold room above the goals, for a machine that is busy."""
+        """Reading a value takes less time than a period. A period of one long advance takes less time than an advance
+        by one period. The absolute limits are ten times the goals, because the machine may be busy."""
         self.call("cc", "-O2", EXAMPLES / "costs.c", *FLAGS, "-o", "costs")
         us = {name.strip(): float(x) for name, x in re.findall(r"^(.*?) +([\d.]+) us$", self.call("./costs", SCENARIO).stdout, re.M)}
         self.assertLess(us["read a value"], 0.5)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""[believed] and offset_deg from the command line: settings, a plan's axis, design and an exported header."""
+"""[believed] and offset_deg on the command line: settings, the axis of a plan, design, and an exported header."""
 import json
 import math
 import unittest

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep run --compare LOG: a run's own trace, in a board's units and by a clock that is off, lies on the run."""
+"""sixstep run --compare LOG: the trace of a run, converted to the units of a board and with a wrong clock, agrees
+with the run."""
 import csv
 import re
 import unittest
@@ -87,7 +88,7 @@ RPM = 30 / 3.141592653589793
 
 
 class LogsOfOthers(LogTest):
-    """One run, as drives of many makers would have logged it."""
+    """The same run, as the logs of several drive makers record it."""
 
     def setUp(self):
         super().setUp()

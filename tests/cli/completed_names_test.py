@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tab on files of hostile names, in each shell as a user has it: what stands in the line then is the file's name, and
-nothing else is run."""
+"""Completion by Tab of files with hostile names, in each shell with its usual settings. The completed word is the
+name of the file, and the shell executes nothing else."""
 import os
 import pty
 import select
@@ -42,7 +42,7 @@ class CompletedNames(ProgramTest):
         return pid, terminal
 
     def typed(self, terminal, line):
-        """What sixstep is called with then."""
+        """Types a line in the terminal, and returns the arguments with which the shell calls sixstep."""
         called = self.path / "called"
         called.unlink(missing_ok=True)
         os.write(terminal, line.encode())

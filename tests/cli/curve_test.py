@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep curve: table, files, refusals."""
+"""sixstep curve: its table, its files, and the input that it refuses."""
 import json
 import re
 import unittest
@@ -33,7 +33,8 @@ class Curve(ProgramTest):
         self.assertEqual(json.loads(self.run_program("curve", "maxon-251601", "--json", "-").stdout), curve)
 
     def test_ratings_are_told_with_their_source(self):
-        """Those of the 251601 are of a set-up file, not of its sheet; where a sheet says nothing else they are its own."""
+        """The ratings of the 251601 are from a set-up file, and the text names this file. Without a named source, the
+        text calls them ratings of the sheet."""
         told = self.run_program("curve", "maxon-251601", "--points", "3").stdout
         self.assertIn("\nNominal point, public ESCON set-up file: 83.40 mNm, 5240 rpm, 2.330 A; ", told)
         plain = (SOURCE / "data/motors/maxon-251601.toml").read_text().replace(', source = "public ESCON set-up file"', "")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Motors that nobody chose, of the kinds that are built: sixstep new writes a scenario that runs and passes, in every mode and soon,
-and design calls its drive usable, or advises what makes it so. SIXSTEP_DRAWN_MOTORS: how many; SIXSTEP_SEED: which."""
+"""Random motors of the kinds that exist. The scenario that sixstep new writes runs quickly and passes, in every mode.
+The design calls its drive usable, or gives an advice that makes it usable. SIXSTEP_DRAWN_MOTORS is the number of
+motors, SIXSTEP_SEED the seed."""
 import json
 import math
 import os
@@ -132,7 +133,8 @@ class MotorTest(ProgramTest):
         self.assertRegex(self.run_program("design", f"{motor}.toml", "--mode", mode, *words).stdout, "^(good|usable)")
 
     def chokes_help(self, motor, mode, choke_mH):
-        """Two of them lie in series with the winding: with both the ripple is no reason any more."""
+        """A choke in each of two driven phases is in series with the winding. With these chokes the ripple is not a
+        reason for the verdict."""
         sheet = (self.path / f"{motor}.toml").read_text()
         changed = re.sub(r"(inductance_mH = { value = )(\S+?),", lambda found: f"{found[1]}{float(found[2]) + 2 * choke_mH:.6g},", sheet)
         self.assertNotEqual(changed, sheet)
@@ -165,7 +167,8 @@ class FoundMotors(MotorTest):
         self.assertRegex((self.path / "a.toml").read_text(), r'(?m)^rotor = "encoder"')
 
     def test_samples_that_stand_beside_the_mean_are_told(self):
-        """30 us at 24 V over 224 uH: 1 A in samples, and half of the ripple U T (1 - d) d/L more in the mean."""
+        """With a period T = 30 us, U = 24 V and L = 224 uH, the samples show 1 A. The mean current is larger by half
+        of the ripple U T (1 - d) d/L, with the duty d."""
         self.run_any("design", "small.toml", "--quiet", "--toml", "x.toml")
         told = self.run_program("run", "x.toml").stdout
         ripple = 24 * 30e-6 / 224e-6 * (1.6 / 24) * (1 - 1.6 / 24)
@@ -193,7 +196,8 @@ class DrawnMotors(MotorTest):
                 print(f"{n + 1} motors", flush=True)
 
     def judge(self, name, mode, designs):
-        """A failure is told at once, too: a thousand motors take hours, and who stops them keeps what was found."""
+        """A failure is also printed at once. A thousand motors take hours, and a user who stops the test keeps the
+        failures that were found."""
         try:
             self.new_runs(name, mode)
             if designs and mode != "duty":

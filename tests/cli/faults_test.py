@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every call by which a file is written fails once, or from some time on (fault_shim.c): either all is as it is without the fault, or
-the exit code is 2 and standard error says why; nothing half written stands under a whole name, and nothing hidden is left.
+"""Every call that writes a file fails once, or fails from a certain time on (fault_shim.c). Either the files are as
+without the fault, or the exit code is 2 and standard error states the reason. No incomplete file has its final name,
+and no hidden file remains.
 
-All of them: SIXSTEP_FAULTS=all (ctest --preset long); else so many, drawn by a seed that is printed and SIXSTEP_SEED repeats."""
+With SIXSTEP_FAULTS=all every case is tested (ctest --preset long). SIXSTEP_FAULTS may also be a number of random
+cases. The seed is printed, and SIXSTEP_SEED repeats it."""
 import os
 import pathlib
 import random

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Hostile titles, labels, keys and file names through every verb and every file: nothing acts, every link leads there."""
+"""Hostile titles, labels, keys and file names in every verb and every file. No name acts as a command or as markup,
+and every link leads to its file."""
 import html.parser
 import json
 import os
@@ -43,12 +44,12 @@ class Hostile(ProgramTest):
         return result
 
     def check_shown(self, shown):
-        """Lines of visible text."""
+        """Checks that every line is visible text."""
         for line in shown.split(b"\n"):
             self.assertTrue(is_visible(line), line)
 
     def scenario(self, texts, name="a.toml"):
-        """With the texts wherever a scenario takes one."""
+        """Writes a scenario that has the given texts in every place where a scenario accepts a text."""
         title, *labels = [quoted(text) for text in texts]
         rows = "".join(REQUIRE.format(label, limit) for label in labels for limit in (1000, -1))
         compare = f'[[compare]]\nmetric = "final"\nsignal = "current"\nvalue = 1\nlabel = {title}\nsource = {labels[0]}\n'

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep new, and the road of somebody who has only its file and the messages."""
+"""sixstep new, and the steps of a user who has only the file and the messages."""
 import json
 import re
 import subprocess
@@ -67,7 +67,8 @@ class Starter(ProgramTest):
         self.assertEqual(text.replace("FILE.toml", "mine.toml"), (self.path / "mine.toml").read_text())
 
     def test_what_stands_behind_a_hash_holds_without_it(self):
-        """Each line that shows a default may be opened: the trajectory keeps its bits."""
+        """Each commented-out line shows a default. Without the comment sign the run has the same trajectory, to the
+        last bit."""
         for mode in MODES:
             text = self.run_program("new", "--full", "--mode", mode).stdout
             (self.path / "a.toml").write_text(text)
@@ -107,7 +108,8 @@ class Starter(ProgramTest):
             self.assertLessEqual(max(map(len, lines)), 110)
 
     def test_a_torque_limit_that_no_sheet_prints_says_where_it_comes_from(self):
-        """A quarter of what the bus drives through the held winding, where no nominal current is printed; beside one that is, nothing."""
+        """If no nominal current is printed, the limit is a quarter of the current that the bus drives through the
+        held winding. The text says so. If a nominal current is printed, the text does not mention its source."""
         told = self.run_program("new", "a", "--motor", "qs138-70h", "--voltage", "36").stdout
         amperes = float(re.search(r"a quarter of the stall current, (\S+) A", told)[1])
         checked = self.run_program("motor", "check", "qs138-70h").stdout
@@ -140,7 +142,7 @@ WANTED = {"duration_s": "0.21", "motor": '"maxon-251601"', "metric": '"mean"', "
 
 
 class Follower:
-    """Does what a message says and nothing else: finds the place, reads the cure, edits the file."""
+    """Follows a message literally: it searches the place, reads the cure, and edits the file."""
 
     def __init__(self, test):
         self.test = test
@@ -160,7 +162,7 @@ class Follower:
         self.test.fail(f"no edit follows from: {message}")
 
     def edits(self):
-        """From the most to the least particular."""
+        """The patterns of the cures, from the most special to the most general."""
         yield r"^did you mean \"?([\w.-]+)\"?\?$", self.replace_word
         yield r"^write (\w+) and give the value in that unit: 1 \S+ = (\S+) ", self.rename_and_scale
         yield r"^write (\w+) and give the value in that unit$", self.replace_word
@@ -223,7 +225,7 @@ class Follower:
         self.replace_word(word)
 
     def mind_the_sign(self):
-        """Where only the meaning is told, the limit is that a size has no sign."""
+        """The message states only the meaning of the key. The limit is that a size has no sign."""
         self.replace_word(self.word().lstrip("-"))
 
 
@@ -273,7 +275,7 @@ class Newcomer(ProgramTest):
         (self.path / file).write_text(changed)
 
     def go_on(self, most=2):
-        """Runs and follows what is told, at most so often; then the scenario passes."""
+        """Runs the scenario and follows the messages, at most `most` times. Then the scenario must pass."""
         for _ in range(most):
             result = self.run_program("run", "first.toml", code=2)
             told = result.stderr.splitlines()

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers that no bench has, in every option that takes one: refused in words, at once, and nothing is written."""
+"""Absurd numbers in every option that expects a number. The option is refused with a message, at once, and no file is
+written."""
 import json
 import unittest
 

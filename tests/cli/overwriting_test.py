@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What is there already: files of others stay unless --force is given, and are asked for before the work begins."""
+"""Existing files: a file that the program did not write is replaced only with --force. The program checks this before
+the work begins."""
 import os
 import signal
 import stat

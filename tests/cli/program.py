@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program in a folder of its own, for the tests of its verbs: each is called as TEST.py PROGRAM SOURCE."""
+"""Runs the program in a temporary folder, for the tests of its verbs. Each test is called as TEST.py PROGRAM SOURCE."""
 import contextlib
 import os
 import pathlib
@@ -36,12 +36,13 @@ WIRING = "motor wiring brisk.toml --current 15"  # a fifth of the usual computat
 
 
 def some(cases, count):
-    """The first of many cases that are alike, and all of them with SIXSTEP_ALL_CASES (ctest --preset long): the likeliest stand first."""
+    """The first `count` of many similar cases, or all of them with SIXSTEP_ALL_CASES (ctest --preset long). The most
+    important cases are first."""
     return list(cases) if os.environ.get("SIXSTEP_ALL_CASES") else list(cases)[:count]
 
 
 def hall_log(turns, rows=60):
-    """A log of Hall lines that turn steadily: so many rows in each electrical turn."""
+    """A log of Hall lines at constant speed, with `rows` rows in each electrical turn."""
     codes = ["1,0,0", "1,1,0", "0,1,0", "0,1,1", "0,0,1", "1,0,1"]  # docs/reference/notation.md, forward
     return "time [s],hall1,hall2,hall3\n" + "".join(f"{1e-3 * n:.7g},{codes[6 * n // rows % 6]}\n" for n in range(turns * rows))
 
@@ -61,7 +62,7 @@ class ProgramTest(unittest.TestCase):
         return result
 
     def run_any(self, *words):
-        """Whatever it exits with."""
+        """Runs the program and accepts any exit code."""
         return subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300, check=False)
 
     def write(self, name, limit):
@@ -73,7 +74,7 @@ class ProgramTest(unittest.TestCase):
 
 
 class Started(ProgramTest):
-    """A program that works while the test does."""
+    """Starts a program that runs in parallel to the test."""
 
     @contextlib.contextmanager
     def started(self, *words, **how):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a run writes, read back by those whom it is written for: numpy, scipy, h5py, a reader of value change
-dumps, and a validator of JSON Schema; Octave in octave_test.py."""
+"""The files of a run, read by the programs of their users: numpy, scipy, h5py, a reader of value change dumps, and a
+validator of JSON Schema. octave_test.py does the same with Octave."""
 import collections
 import json
 import pathlib
@@ -25,12 +25,12 @@ def scenario(name):
 
 
 def read_csv(path):
-    """As docs/reference/results.md says: three lines of comment, the names, the numbers."""
+    """Reads a CSV file as docs/reference/results.md describes it: three lines of comment, the names, the numbers."""
     return numpy.genfromtxt(path, delimiter=",", names=True, skip_header=3)
 
 
 class Dump:
-    """A value change dump: for each signal its (ps, value) in order; value is an int, or None for x."""
+    """A value change dump. Each signal has its (ps, value) pairs in order. A value is an int, or None for x."""
 
     def __init__(self, path):
         self.changes, self.kinds, self.end = collections.defaultdict(list), {}, 0
@@ -63,7 +63,7 @@ class Dump:
         return numpy.array([ps for ps, _ in self.changes[name]])
 
     def at(self, name, ps):
-        """The values in force at rising instants."""
+        """The values of a signal at the given instants, which must rise."""
         values = numpy.array([-1 if v is None else v for _, v in self.changes[name]])
         return values[numpy.searchsorted(self.times(name), ps, side="right") - 1]
 
@@ -205,7 +205,7 @@ class Waveforms(ProgramTest):
 
 
 class Page(ProgramTest):
-    """What docs/reference/results.md says is what happens."""
+    """The statements of docs/reference/results.md are true."""
     PAGE = (SOURCE / "docs/reference/results.md").read_text()
 
     def test_its_lines_of_python_read_the_files(self):

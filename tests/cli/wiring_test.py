@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep motor wiring: all 36 ways to plug in a motor, its files, and what it says of what it cannot do.
+"""sixstep motor wiring: all 36 ways to connect a motor, its files, and its messages about unsupported motors.
 
-With --every-motor, of all motors that come with the program: ctest --preset long."""
+With --every-motor it tests all motors of the library (ctest --preset long)."""
 import json
 import sys
 import unittest
@@ -18,7 +18,7 @@ TURN = {word: n for n, word in enumerate(ORDERS)}
 
 
 def table(text, number):
-    """The rows of six that begin with an order of phases, of the first or second such table."""
+    """The six rows of the first or second table whose rows begin with an order of the phases."""
     rows = [line.split("  ") for line in text.splitlines() if line[2:5] in ORDERS]
     return {row[1]: [cell.strip() for cell in row[2:] if cell.strip()] for row in rows[6 * number:6 * number + 6]}
 

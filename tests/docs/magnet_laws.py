@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""magnet_laws.py: laws of the gallery's field-oriented scenarios that have no sensor on the rotor (design/loops/field_estimate.hpp)."""
+"""magnet_laws.py: laws of the gallery's field-oriented scenarios without a rotor sensor
+(design/loops/field_estimate.hpp)."""
 from math import degrees, pi, sqrt
 
 from gallery_sheet import J, K_T, PAIRS, R, U, near

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""own_controller_test.py PROGRAM: the files and commands of docs/howto/write-a-controller.md work as they stand, and the program reports the
-faults that the page lists."""
+"""own_controller_test.py PROGRAM: the files and commands of docs/howto/write-a-controller.md work unchanged. The
+program reports the faults that the page lists."""
 import json
 import os
 import pathlib
@@ -108,7 +108,7 @@ class OwnControllerPage(unittest.TestCase):
         self.assertIn("chopping as the controller commands", page)
 
     def test_a_report_names_no_current_reference_that_nobody_gave(self):
-        """mine.c limits no current and answers no reference."""
+        """The controller mine.c limits no current and returns no current reference."""
         self.run_program("run", "mine.toml", "--quiet", "--html", "mine.html")
         page = (self.path / "mine.html").read_text(encoding="utf-8")
         self.assertNotIn("reference at", page.split('class="glance"')[1].split('<section id')[0])

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""pages_test.py PROGRAM [--renew] [PAGE...]: what the pages show is what the program does, and each page has the form of the style section
-in docs/contributing.md. Without PAGE all of them; --renew writes their console and output blocks anew instead."""
+"""pages_test.py PROGRAM [--renew] [PAGE...]: the pages agree with the program, and each page has the form that the
+style section of docs/contributing.md requires. Without PAGE it tests all pages. --renew writes the console and output
+blocks again."""
 import os
 import pathlib
 import re

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""position_laws.py: laws of the gallery's scenarios about where the rotor is taken to be, and how that and currents are sensed."""
+"""position_laws.py: laws of the gallery's scenarios about the estimated rotor position, and about the sensors of
+position and current."""
 from math import atan, atan2, cos, degrees, exp, pi, radians, sin, sqrt
 
 from gallery_sheet import (I_N, J, K_E, K_T, L, LOOP_GAIN, L_S, PAIRS, R, SECTOR, STALL, T, U,
@@ -7,7 +8,7 @@ from gallery_sheet import (I_N, J, K_E, K_T, L, LOOP_GAIN, L_S, PAIRS, R, SECTOR
 
 
 def late(degrees):
-    """Mean torque of a current whose pair is driven so many degrees late, as a part of K_t i."""
+    """The mean torque as a part of K_t i, if the pair is switched `degrees` too late."""
     return 1 - degrees**2 / 7200
 
 
@@ -21,7 +22,8 @@ LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # s o
 
 
 def two_period_pulses():
-    """Seconds that they take, and degrees of the shaft by which they turn it at most (design/loops/pulse_start.hpp)."""
+    """The duration of the pulses in s, and the largest shaft angle in degrees by which they turn the rotor
+    (design/loops/pulse_start.hpp)."""
     apart, t, l_d, l_q, i_sat, most = 5 * T, 1.5 * T, 0.24e-3, 0.34e-3, 40, 1.5 * I_N
     i = STALL * (1 - exp(-R * t / 2 / (l_d * (1 - 2 / sqrt(3) * most / 2 / i_sat))))
     p = pi / 3 * K_T * i * t
@@ -34,12 +36,13 @@ PULSED, TURNED = two_period_pulses()
 
 
 def closed_loop_peak(damping):
-    """Of (2 D w s + w^2)/(s^2 + 2 D w s + w^2)."""
+    """The largest gain of (2 D w s + w^2)/(s^2 + 2 D w s + w^2), with the damping D and the Laplace variable s."""
     return max(abs((1 + 2j * damping * x) / (1 - x * x + 2j * damping * x)) for x in (n / 1000 for n in range(1, 3000)))
 
 
 def link_reads(reading, lag=1 / (2 * pi * 150e3)):
-    """Mean current of a centred pulse that a lag in the DC link, where nothing flows beside the pulse, reads so in its middle."""
+    """The mean current of a centred pulse, if the sensor in the DC link samples `reading` in the middle of the pulse.
+    The sensor has a lag, and outside of the pulse the link has no current."""
     low, high = 0.0, 1.0
     for _ in range(60):
         middle, x = (low + high) / 2, 0.0
@@ -56,13 +59,14 @@ def half_count(value):
 
 
 def tracking(bandwidth, period):
-    """K_p and K_i of a critically damped loop of type 2 (design/loops/tracking_loop.hpp)."""
+    """K_p and K_i of a critically damped tracking loop of type 2 (design/loops/tracking_loop.hpp)."""
     x = 2 * pi * bandwidth / sqrt(3 + sqrt(10)) * period
     return 1 - exp(-2 * x), (1 - exp(-x))**2
 
 
 def noise_rms():
-    """Of the current asked for: two samples' mean through tracking loop and PI."""
+    """The rms noise of the current reference. The noise is the mean of two samples, filtered by the tracking loop and
+    the PI controller."""
     k_p, k_i = tracking(500, T)
     w = angle = out = before = squares = 0.0
     for n in range(3000):
@@ -76,14 +80,15 @@ def noise_rms():
 
 
 def missed_rms(each=360 * PAIRS / 4096, mean=400 * 2 * pi / 100):
-    """Degrees by which edges missed since the index, and sampling, make a commutation late."""
+    """The rms delay of a commutation in degrees. It has two causes: sampling, and the edges missed since the index."""
     period = 100 * PAIRS * T * 180 / pi
     u, scatter = (period + each) / 2, (period**2 + each**2) / 12
     return sqrt(each**2 * (mean / 2 + mean**2 / 3) + each * mean * u + u**2 + scatter)
 
 
 def pole_noise():
-    """Mean square of what two poles leave of the mean of two samples, for the lag of design/loops/sensorless_observer.hpp."""
+    """The mean square of the mean of two samples after two poles. The poles are those of the lag in
+    design/loops/sensorless_observer.hpp."""
     m = 0.2 * pi / 3 / PAIRS * K_T / U / T - 0.5
     p, slow, estimate, squares = m / (2 + m), 0.0, 0.0, 0.0
     for n in range(200):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every public name has a docstring with an example, which is executed; the declared types hold under mypy --strict."""
+"""Every public name has a docstring with an example, and the test executes the example. The declared types pass mypy
+--strict."""
 import doctest
 import importlib
 import inspect

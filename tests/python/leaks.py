@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""leaks.py (ctest --preset long): a hundred runs, sessions, controllers and environments under valgrind lose no memory of the extension
-and touch none that is not theirs."""
+"""leaks.py (ctest --preset long): a hundred runs, sessions, controllers and environments under valgrind. The
+extension loses no memory and accesses no memory of others."""
 import os
 import re
 import subprocess

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a notebook shows: a chart that is read at the pointer and zoomed, in Chromium, and nothing that a title could smuggle in."""
+"""The chart of a notebook in Chromium: it shows the values at the pointer and can be zoomed. A title cannot inject
+markup."""
 import contextlib
 import html
 import io

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The notebooks: each is that of its text, runs from top to bottom, and shows what it says it shows."""
+"""Each notebook agrees with its text source, runs from top to bottom, and has the outputs that it shows."""
 import importlib.util
 import json
 import math
@@ -16,7 +16,7 @@ spec.loader.exec_module(make)
 
 class Notebooks(unittest.TestCase):
     def ran(self, number):
-        """Names of the notebook after its run, and all that it printed. Its cells are those of the committed file."""
+        """Runs a notebook. Returns its names and its printed text. The cells must be equal to the committed file."""
         file = next(NOTEBOOKS.glob(f"{number}-*.py"))
         told, names = make.notebook(file.read_text())
         committed = json.loads(file.with_suffix(".ipynb").read_text())

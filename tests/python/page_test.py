@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The code of docs/howto/use-from-python.md, executed from top to bottom, and its results judged."""
+"""The code of docs/howto/use-from-python.md runs from top to bottom, and its results are checked."""
 import contextlib
 import io
 import os

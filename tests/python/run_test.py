@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs in Python have the bits of the program's runs, and their columns keep the laws of the circuit."""
+"""Runs in Python have the same bits as the program's runs. Their columns satisfy the laws of the circuit."""
 import gc
 import os
 import pathlib
@@ -30,8 +30,8 @@ def drawn_values(draw):
 
 class Bits(unittest.TestCase):
     def test_program_run_and_session_have_one_digest(self):
-        """30 drawn scenarios: those that ship with drawn values of keys that all of them have. The program, a run in Python, and a session
-        in drawn steps."""
+        """30 random scenarios: shipped scenarios with random values of keys that every scenario has. The program, a
+        run in Python, and a session with random steps have the same digest."""
         seed = int(os.environ.get("SIXSTEP_SEED", "38"))
         draw, compared = random.Random(seed), 0
         for n in range(400):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which processors are asked, how each is compiled for, and how a program is run on it: the only place that knows."""
+"""The list of processors, with the compiler and the emulator of each. Only this module has these data."""
 import dataclasses
 import os
 import pathlib
@@ -51,7 +51,7 @@ class Core:
         return [*self.compile, *COMMON, *([] if self.is_host else BARE)]
 
     def missing(self):
-        """A program that this machine lacks, or none."""
+        """A program that this machine lacks, or None."""
         return next((p for p in (self.compile[0], *self.link[:1], *self.run[:1]) if not shutil.which(p) and not os.path.exists(p)), None)
 
 

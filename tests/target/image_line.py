@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The STM32F303's serial line, on its executed image: what is typed is obeyed or told, and rows have the instants of a clock that runs on."""
+"""The STM32F303's serial line, on its executed image. Each command is obeyed or answered with a message. The rows
+have the instants of a clock that never stops."""
 import re
 import struct
 
@@ -12,7 +13,7 @@ def setpoint(chip):
 
 
 def check_line(folder):
-    """What a line-buffered terminal sends, all of it before the main loop looks once."""
+    """Input from a line-buffered terminal: all characters arrive before the main loop reads one."""
     chip, trouble = running(folder), []
     chip.type("300\n70\ns")
     chip.go_on(60_000)
@@ -51,14 +52,14 @@ def check_line(folder):
 
 
 def feeds(chip, periods=400):
-    """Whether a pair is fed then."""
+    """Whether a pair is driven after `periods`."""
     for _ in range(periods):
         tick(chip)
     return any(mode == 6 for mode, _, _ in chip.outputs())
 
 
 def stops(chip):
-    """To a rotor that stands; the drive brakes first."""
+    """Whether the gates are off in the end. The drive first brakes to standstill."""
     for _ in range(30_000):
         tick(chip)
         if all_off(chip):
@@ -67,7 +68,8 @@ def stops(chip):
 
 
 def check_words(folder):
-    """r, s and c are echoed, and each counts whatever comes right behind it, before a tick has looked."""
+    """The commands r, s and c are echoed. Each has its effect even if other characters follow at once, before the
+    next tick."""
     trouble = []
     chip = running(folder)
     chip.line_status = 2  # a framing error, and 4 would be noise
@@ -120,7 +122,8 @@ def rows(chip):
 
 
 def check_time(folder):
-    """By a counter that runs on: across its 2^32, and with periods that had no control interrupt."""
+    """The times of the rows are from a counter that never stops. They are right when the counter passes 2^32, and
+    after periods without a control interrupt."""
     chip = ready(folder)
     for _ in range(3):
         tick(chip)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`sixstep run --on`: drives on emulated cores beside the host, each answer the host's to the bit and the run's digest its own; how many
-calls a second; and nothing left behind where the program is killed."""
+"""`sixstep run --on`: drives on emulated cores. Each answer has the same bits as the host's, and the run has the same
+digest. The module also prints the calls per second, and tests that a killed program leaves no process and no file."""
 import functools
 import json
 import os
@@ -36,7 +36,7 @@ def command(file, scalar, core=None):
 
 
 def summary(file, scalar, core=None):
-    """Whether the drive keeps what is required of it, or trips where it shall, is another test's question."""
+    """The summary of a run, and its exit code. Other tests check the requirements of the drive and its faults."""
     done = subprocess.run(command(file, scalar, core), capture_output=True, text=True, timeout=600, check=False)
     if not done.stdout:
         raise Failed(f"{file.stem} in {scalar} on {core or 'the host'}: exit {done.returncode}\n{done.stderr[-600:]}")
@@ -49,7 +49,7 @@ def of_host(file, scalar):
 
 
 def beside_the_host(case):
-    """What is wrong with a run on a core, and the calls that it took."""
+    """The error of a run on a core in words or None, and the number of its calls."""
     file, scalar, core = case
     alone, beside = of_host(file, scalar), summary(file, scalar, core)
     where = f"{file.stem} in {scalar} on {core}"
@@ -73,7 +73,8 @@ def check_bits(files):
 
 
 def left_behind(folder):
-    """Files, and processes of any kind that were told of the folder: compilers, emulators, who cleans."""
+    """The remaining files, and the processes with the folder in their arguments: compilers, emulators and the process
+    that cleans up."""
     left = [file.name for file in pathlib.Path(folder).iterdir()]
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -86,7 +87,7 @@ def left_behind(folder):
 
 
 def check_kills(times, seed):
-    """Killed at any instant, compiling, starting or running: no process and no file stays."""
+    """The program is killed at any instant: while it compiles, starts or runs. No process and no file remains."""
     drawn, file = random.Random(seed), build.scenario("product")
     with tempfile.TemporaryDirectory() as folder:
         for kill in range(times):
@@ -118,7 +119,7 @@ CALL = "answer = rig::answer_of(made(call));"
 
 
 def bad_sources(folder, what):
-    """The sources of a core's program, with something bad in it."""
+    """Copies the sources of a core's program and adds a fault."""
     for part in ("sixstep/control", "faces/firmware/bare", "faces/loop/core"):
         shutil.copytree(build.REPOSITORY / part, folder / part)
     (folder / "sixstep/rig").mkdir()
@@ -131,7 +132,7 @@ def bad_sources(folder, what):
 
 
 def badly(case):
-    """What is wrong with how a bad program ends."""
+    """The error in the way a faulty program ends."""
     file, scalar, core, (name, (what, said)) = case
     with tempfile.TemporaryDirectory() as folder:
         bad_sources(pathlib.Path(folder), what)
@@ -155,7 +156,7 @@ def check_bad(on):
 
 
 def tell_pace():
-    """No verdict: the machine may be busy."""
+    """Prints the calls per second. There is no limit, because the machine may be busy."""
     for core in CORES:
         begin = time.monotonic()
         calls = summary(build.scenario("product"), "q15", core)["core"]["calls"]

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/own_cost.sh SOURCE [SCENARIO]: what a controller of one's own costs on the cores (docs/howto/write-a-controller.md)."""
+"""tools/own_cost.sh SOURCE [SCENARIO]: measures the cost of a user's controller on the cores
+(docs/howto/write-a-controller.md)."""
 import argparse
 import json
 import pathlib
@@ -55,7 +56,7 @@ def table(rows):
 
 
 def cost(args):
-    """As --json has it, and what is to be said of it."""
+    """The content of the JSON, and the remarks."""
     with tempfile.TemporaryDirectory() as folder:
         controller = own.Controller(args.source, pathlib.Path(folder), args.flags)
         picked = chosen(args)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each name of tests/slow.txt is a test that this build has: a test that was renamed would else slip back into ./test unseen."""
+"""Each name in tests/slow.txt is a test of this build. Otherwise a renamed test would run in ./test again, and no one
+would notice."""
 import pathlib
 import re
 import subprocess

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of a design's print: intermediate values by their own formulas, comparisons by their two numbers, verdicts by their words."""
+"""Laws of a design's text. Intermediate values follow from their formulas, comparisons from their two numbers, and
+verdicts from their words."""
 import re
 from math import cos, exp, pi, sin, sqrt
 
@@ -31,7 +32,7 @@ def pole_placement(test, spot, s):
 
 
 def deviations(test, spot):
-    """"900 us  930 us  +3.33 %": the third is that of the first two."""
+    """In a row such as "900 us  930 us  +3.33 %" the third number is the relative difference of the first two."""
     for line in spot.text.splitlines():
         cells = re.split(r" {2,}", line.strip())
         for n in range(len(cells) - 2):
@@ -43,7 +44,8 @@ def deviations(test, spot):
 
 
 def verdict(test, spot):
-    """The first line: what is reached is no worse than the worst, and USABLE goes with phase margins and a run that settles."""
+    """The first line of the text: the nominal value is at most the worst value. A design called USABLE has sufficient
+    phase margins and a run that settles."""
     first = spot.text.splitlines()[0]
     for nominal, worst in re.findall(r"settles within \d+ % in ([\d.]+ \w+)(?: \([^)]*\))?, ([\d.]+ \w+) at worst", first):
         test.assertLessEqual(quantity(nominal)[0], quantity(worst)[0], first)
@@ -52,7 +54,8 @@ def verdict(test, spot):
 
 
 def loops(test, spot):
-    """Margins by hand: delay = phase/(360 f), one period later costs 360 f T of phase, sensitivity at least what gain margin asks."""
+    """Margins by hand. The delay margin is phase/(360 f). A command one period T later reduces the phase by 360 f T.
+    The sensitivity is at least as large as the gain margin requires."""
     rows = {}
     for line in spot.text.splitlines():
         cells = re.split(r" {2,}", line.strip())
@@ -73,7 +76,7 @@ def loops(test, spot):
 
 
 def limits(test, spot):
-    """What bus and PWM allow at the nominal current of the 251601."""
+    """The limits by bus and PWM at the nominal current of the 251601."""
     if "current ripple" not in spot.text or "voltage left" not in spot.text:
         return
     a = exp(-T / 2 * R / L)
@@ -87,7 +90,7 @@ def limits(test, spot):
 
 
 def hall(test, spot):
-    """A speed from Hall edges: the time of a sector and how late the mean over k of them is."""
+    """The speed from Hall edges: the duration of a sector, and the delay of the mean over k sectors."""
     m = re.search(r"w_low +([\d.]+) rad/s.*\n +T +([\d.]+) ms +\(pi/3\)/\(p w_low\)", spot.text)
     if m:
         close(test, spot, "T", float(m.group(2)) * 1e-3, pi / 3 / 8 / float(m.group(1)), 1e-4)
@@ -101,7 +104,8 @@ def hall(test, spot):
 
 
 def sensors(test, spot):
-    """What a loop is told by an encoder, a resolver or crossings, by the formulas that stand beside the numbers."""
+    """The values of an encoder, a resolver or zero crossings. They follow from the formulas that are printed beside
+    the numbers."""
     s, text = steps(spot.text), spot.text
     if "(2 pi/4N)/w_low" in text:
         lines = int(re.search(r"encoder, (\d+) lines", text).group(1))
@@ -148,13 +152,14 @@ def sensors(test, spot):
 
 
 def seconds(text, symbol):
-    """A row of a derivation in s, whichever unit it is shown in."""
+    """A row of a derivation in s. The row may show us, ms or s."""
     value, unit = re.search(rf"^  {symbol} +([\d.]+) (us|ms|s) ", text, re.M).groups()
     return float(value) * {"us": 1e-6, "ms": 1e-3, "s": 1.0}[unit]
 
 
 def swing(test, spot):
-    """Nothing swings by more than the no-load speed; what an ideal sensor leaves is less than what a late one does."""
+    """The speed swings by less than twice the no-load speed. With ideal sensors the swing is smaller than with the
+    real sensor."""
     m = re.search(r"swings by ([\d.]+) rad/s without end; with ideal sensors by ([\d.]+) rad/s", spot.text)
     if m:
         test.assertTrue(float(m.group(2)) < float(m.group(1)) < 2 * U / K_T, str(spot))
@@ -163,7 +168,8 @@ def swing(test, spot):
 
 
 def position(test, spot):
-    """The gain is no more than what no limit asks for; a step of Hall probes is 60/p degrees; 1/K_p as it says."""
+    """The gain is at most the gain that the nominal motor allows. That gain is between the two ends of the search. A
+    Hall step is 60/p degrees."""
     found = re.search(r"between ([\d.]+) \(full torque.*?and ([\d.]+) \(no limit", spot.text)
     gain = re.search(r"K_p +([\d.]+) rad/s/deg", spot.text)
     if found and gain:
@@ -175,7 +181,7 @@ def position(test, spot):
 
 
 def linear(test, spot):
-    """The 251601 unrolled at 20 mm: F = T/r, m = J/r^2, tau = pi r/p."""
+    """The 251601 as a linear motor with the radius r = 20 mm: force F = T/r, mass m = J/r^2, pole pitch tau = pi r/p."""
     if "K_f" not in spot.text:
         return
     r = 0.02

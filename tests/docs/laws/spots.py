@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the pages print numbers: fenced blocks and tables, each with its page, line, heading and the words before it."""
+"""Finds the numbers that the pages print, in fenced blocks and tables. Each spot has its page, line, heading and the
+words before it."""
 import re
 import typing
 
@@ -23,7 +24,7 @@ class Spot(typing.NamedTuple):
         return f"{self.page}:{self.line}"
 
     def rows(self):
-        """Of a table: cells of each row, without the heading."""
+        """The cells of each row of a table, without the heading."""
         lines = self.text.splitlines()
         return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
