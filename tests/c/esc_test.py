@@ -18,7 +18,7 @@ PERIOD_s, DEAD_ps, HOLD_ps = 50e-6, 500_000, 2_000_000
 CLAMPED_s, RELEASED_s = 0.50, 0.51  # s; main.c clamps and releases the rotor at these instants
 # DJI 2212 920 KV and the scenario of main.c
 POLE_PAIRS, K_E, R_PAIR, L_s, BUS_V = 7, 6.741e-3, 2 * (0.1153 + 5e-3), 17.6e-6, 12.0
-K_T = 3 * math.sqrt(3) / math.pi * K_E  # of a pair, sine back-EMF, over a sector
+K_T = 3 * math.sqrt(3) / math.pi * K_E  # torque constant of a pair with a sine back-EMF, as the mean over a sector
 
 
 def load_Nm(speed):
@@ -120,7 +120,8 @@ class Firmware(unittest.TestCase):
                 changed = at
             elif word == "taken":
                 self.assertGreaterEqual(at, changed + HOLD_ps)
-                if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:  # full duty: no diode of the free phase conducts
+                # From 0.44 s on: full duty, so that no diode of the free phase conducts.
+                if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:
                     self.assertAlmostEqual(abs(number), 20e6, delta=100)  # nV; the back-EMF changes by 35 nV per picosecond
                     exact += 1
         self.assertGreater(exact, 300)
@@ -133,7 +134,7 @@ class Firmware(unittest.TestCase):
             else:
                 self.assertEqual(word, "taken" if at >= end else "masked")
                 masked += word == "masked"
-        self.assertGreater(masked, 1000)  # the leaving phase's current lifts its terminal beyond a rail
+        self.assertGreater(masked, 1000)  # after a commutation the current of the leaving phase raises its terminal beyond a supply rail
 
     def test_without_blanking_the_firmware_loses_step(self):
         bare = Program(self.folder, edit=("is.interval / 8 : is.interval / 4", "0 : 0")).run(0.04)
@@ -144,7 +145,8 @@ class Firmware(unittest.TestCase):
         rows = self.course.rows
         sector_s = 2 * math.pi / (6 * POLE_PAIRS * rows[480][0])
         off = next(at for at, _, gates in self.course.of("gates") if at >= CLAMPED_s * 1e12 and gates == 0) * 1e-12
-        # up to one sector, then four missed crossings of 1.5 sectors each
+        # At most one sector passes before the first missed crossing. Then the drive waits 1.5 sectors for each of four missed
+        # crossings.
         self.assertLess(off - CLAMPED_s, (1 + 4 * 1.5) * sector_s + PERIOD_s)
         self.assertEqual(rows[520][2], "wait")
         self.assertEqual([rows[ms][5] for ms in (480, 520, 920)], [0, 1, 1])
@@ -158,7 +160,7 @@ class Firmware(unittest.TestCase):
     def test_a_failing_supply_turns_the_bridge_off_for_good(self):
         failed = self.program.run(0.04, "8")
         off = [at for at, _, gates in failed.of("gates") if gates == 0 and at >= 0.44e12][0]
-        self.assertLess(off, 0.44e12 + 3e12 * PERIOD_s)  # the change at a control tick, then one sample
+        self.assertLess(off, 0.44e12 + 3e12 * PERIOD_s)  # the throttle changes at a control tick, and the gates follow one sample later
         self.assertEqual({failed.rows[ms][2] for ms in range(480, 940, 40)}, {"fault"})
         self.assertEqual(failed.of("gates")[-1][0], off)
 
@@ -172,7 +174,8 @@ class Firmware(unittest.TestCase):
         rows = Program(self.folder, SOURCE / "tests/c/hall_esc.c").run(0.04).rows
         speed = (rows[880][0] + rows[920][0]) / 2
         self.assertAlmostEqual(rows[920][3] - rows[880][3], 6 * POLE_PAIRS * speed / (2 * math.pi) * 0.04, delta=2)
-        self.assertAlmostEqual(duty_at(speed), 0.25, delta=0.015 * 0.25)  # the ripple reverses the current
+        # The ripple reverses the current, so the dead time does not shorten the on-time.
+        self.assertAlmostEqual(duty_at(speed), 0.25, delta=0.015 * 0.25)
 
 
 class Chip(unittest.TestCase):

@@ -76,7 +76,7 @@ class Examples(unittest.TestCase):
         with open(self.here / "trace.csv", encoding="utf-8") as file:
             rows = {round(1e6 * float(row["t_s"])): row for row in csv.DictReader(line for line in file if line[0] != "#")}
         self.assertEqual([line[0] for line in lines], list(range(1, 20)))
-        for ms in range(3, 20, 3):  # the milliseconds that are control ticks, every 30 us
+        for ms in range(3, 20, 3):  # only these milliseconds are also control ticks, which come every 30 us
             self.assertAlmostEqual(lines[ms - 1][1], float(rows[1000 * ms]["speed_rad_s"]), delta=5.1e-5)
             self.assertAlmostEqual(lines[ms - 1][2], float(rows[1000 * ms]["i_m_A"]), delta=5.1e-5)
 
@@ -90,7 +90,7 @@ class Examples(unittest.TestCase):
         outcome = json.loads(self.call("./controller_outside", SCENARIO).stdout)
         (self.here / "inside.c").write_text(INSIDE, encoding="utf-8")
         self.call("cc", "-ffp-contract=off", "-shared", "-fPIC", "-fvisibility=hidden", "-ffunction-sections", "-Wl,--gc-sections", f"-I{EXAMPLES}",
-                  *FLAGS[:2], "inside.c", "-o", "inside.so")  # without outside(), which needs libsixstep
+                  *FLAGS[:2], "inside.c", "-o", "inside.so")  # without the function outside(), which needs libsixstep
         told = self.program("--set", "control.drive=own", "--set", f"control.own.controller={self.here / 'inside.so'}")
         self.assertEqual(outcome["digest"], told["digest"])
 
@@ -105,7 +105,7 @@ class Examples(unittest.TestCase):
         self.assertIsNone(mine["fault"])
         self.assertGreater(mine["events"]["sector edges"], 0)
         self.assertGreater(peak, 30)
-        ratio = mine["energy"]["copper_J"] / outcome["energy"]["copper_J"]  # (i/5 A)^2, i between 12/13.2 of 5 A and 5 A
+        ratio = mine["energy"]["copper_J"] / outcome["energy"]["copper_J"]  # (i/5 A)^2, with i between 12/13.2 of 5 A and 5 A
         self.assertTrue(0.7 < ratio < 1.05, ratio)
 
     def test_rust_prints_the_same(self):
@@ -157,7 +157,7 @@ class Examples(unittest.TestCase):
         self.assertEqual([line[:columns] for line in lines[:len(mine)]], [line[:columns] for line in mine])
 
     def test_each_is_short(self):
-        for file in (f for f in EXAMPLES.iterdir() if f.is_file()):  # esc/ is a program of several files
+        for file in (f for f in EXAMPLES.iterdir() if f.is_file()):  # the folder esc/ is skipped: it is a program of several files
             text = file.read_text(encoding="utf-8")
             self.assertIn("SPDX-License-Identifier: Apache-2.0", text.splitlines()[0], file)
             self.assertLess(len(text.splitlines()), 60, file)

@@ -178,7 +178,7 @@ class OwnController(unittest.TestCase):
             if session.advance_to_tick() != c.OK:
                 break
         self.assertGreater(tick, 100)
-        loaded = c.Session.loaded(LIB, saved)  # stands at tick 40, with its command given
+        loaded = c.Session.loaded(LIB, saved)  # the session was saved at tick 40, after its command was set
         self.assertEqual(loaded.status, c.OK)
         self.assertAlmostEqual(loaded.time(), 40 * session.period(), delta=1e-15)
         return session, program(text, "--set", "control.drive=own", "--set", f"control.own.controller={CONTROLLERS / name}.so")
@@ -210,7 +210,7 @@ class OwnController(unittest.TestCase):
 
 
 class Gates(unittest.TestCase):
-    PAIRS = [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)]  # source and sink by sector
+    PAIRS = [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)]  # source and sink of each sector
 
     def chopped(self, read_step, duty=0.4, period=50e-6, end=5e-3):
         """Drives the pair of the sector and chops its upper switch."""
@@ -234,7 +234,7 @@ class Gates(unittest.TestCase):
         """The current in the pair is U/R_ab (1 - exp(-t R_ab/L_ab)), with the resistance R_ab and inductance L_ab
         between the terminals. The third phase has no current, and the bus has the current of the pair."""
         session = opened(text=HELD, chip=c.GATES)
-        session.set_gates(0b001001)  # upper a, lower b
+        session.set_gates(0b001001)  # upper switch of leg a, lower switch of leg b
         R, L, U = 1.03, 0.572e-3, 24  # terminal values of data/motors/maxon-251601.toml
         for t in (20e-6, 130e-6, 1e-3):
             session.advance(t)
@@ -287,7 +287,7 @@ class Gates(unittest.TestCase):
                     self.assertEqual(self.above(before, leg) > level, side)
                 session.advance(end)
         self.assertGreater(found, 20)
-        self.assertGreater(jumps, 3)  # a diode turns on or off
+        self.assertGreater(jumps, 3)  # a diode turned on or off during the advance
         for arguments in ((3, 0.0, 1.0), (-1, 0.0, 1.0), (0, math.nan, 1.0), (0, 0.0, math.nan)):
             self.assertEqual(session.advance_to_crossing(*arguments), c.REFUSED)
 
@@ -305,7 +305,7 @@ class Gates(unittest.TestCase):
         self.assertEqual((session.time(), session.value_of("hall")), (before[0], before[2]))
         self.assertAlmostEqual(session.value_of("i_a_A"), before[1], delta=1e-9)
         self.assertEqual(session.copied().time(), before[0])
-        self.assertEqual(session.advance_to_hall_edge(5e-3), c.OK)  # the next edge: 60 electrical degrees of 8 pole pairs on
+        self.assertEqual(session.advance_to_hall_edge(5e-3), c.OK)  # the next edge is 60 electrical degrees later, with 8 pole pairs
         self.assertAlmostEqual(session.time() - before[0], math.pi / 24 / 300, delta=0.2 * math.pi / 24 / 300)
 
     def test_lags_that_counts_do_not_have_are_refused(self):

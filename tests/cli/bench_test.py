@@ -12,7 +12,7 @@ from program import SOURCE, Started
 
 RECORDINGS = SOURCE / "data/recordings"
 CODES = [0b100, 0b110, 0b010, 0b011, 0b001, 0b101]  # docs/reference/notation.md, forward
-OWN_DEG = [3, -1, 2, -4, 1, -1]  # how late each edge is, in degrees
+OWN_DEG = [3, -1, 2, -4, 1, -1]  # the delay of each edge in degrees
 TURN_S = 0.05
 
 
@@ -58,7 +58,7 @@ class Bench(Started):
         self.assertEqual(told["place"]["wires"][0], {"spacing_deg": 120, "hall_lines": "123", "hall_inverted": "none"})
         mean = sum(OWN_DEG) / 6
         for edge, own in zip(told["edges"], OWN_DEG):
-            self.assertLess(abs(edge["own_deg"]["value"] - (own - mean)), 1)  # half of the two degrees between rows
+            self.assertLess(abs(edge["own_deg"]["value"] - (own - mean)), 1)  # the rows are two degrees apart
         self.assertEqual(told["place"]["turned"], "forward")
         text = self.run_program("motor", "identify", "log.csv").stdout
         self.assertIn("each at its own pin", text)

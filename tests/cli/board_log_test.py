@@ -37,7 +37,7 @@ class BoardLog(LogTest):
         self.assertEqual(set(found), {"i_m_A", "speed_rad_s"}, made.stdout)
         self.assertRegex(made.stdout, r"\n +hall +123 rows +0 differ\n")
         self.assertEqual(found["i_m_A"][0], 123)
-        self.assertLess(found["i_m_A"][1], 0.6e-3)  # at most half a milliampere
+        self.assertLess(found["i_m_A"][1], 0.6e-3)  # the log shows the current in whole mA
         self.assertLess(found["speed_rad_s"][1], 1e-4)
         self.assertIn("mean of the samples at 3 A", made.stdout)
 
@@ -110,8 +110,9 @@ class LogsOfOthers(LogTest):
         self.assertEqual(set(found), set(columns), text)
         for name in columns:
             self.assertEqual(found[name][0], len(self.rows), text)
-        self.assertLess(found["speed_rad_s"][1], 0.01)  # 0.1 rpm and the eRPM's step are less
-        self.assertLess(found["i_m_A"][1], 0.006)       # half of 0.01 A, and the interpolation between instants
+        self.assertLess(found["speed_rad_s"][1], 0.01)  # the resolutions of 0.1 rpm and of the eRPM are smaller
+        # Half of the resolution of 0.01 A, and the error of the interpolation between the rows.
+        self.assertLess(found["i_m_A"][1], 0.006)
         self.assertNotIn("moved by", text)
         return text
 

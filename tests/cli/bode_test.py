@@ -43,7 +43,7 @@ class Bode(ProgramTest):
         self.assertIn("current around -5 A", made.stdout)
         told = json.loads((self.path / "b.json").read_text())
         table = (self.path / "b.csv").read_text().splitlines()
-        self.assertRegex(table[0], r"^# sixstep \d")  # marks sixstep's own file, which the command may overwrite
+        self.assertRegex(table[0], r"^# sixstep \d")  # this line marks a file of sixstep, which the command may overwrite
         self.assertEqual(len([line for line in table if not line.startswith("# ")]), 1 + len(told["points"]))
         self.assertIn("Frequency response of", (self.path / "b.html").read_text())
         self.assertAlmostEqual(told["measured"]["crossover_Hz"] / told["designed"]["crossover_Hz"], 1, delta=0.03)
@@ -101,7 +101,7 @@ class Bode(ProgramTest):
         that the program names, no loop differs from the designed loop."""
         for mode, name in (("speed", "sp"), ("position", "po")):
             self.run_program("new", name, "--motor", "maxon-251601", "--mode", mode)
-        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # around zero current a dead time distorts the loop too
+        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # near zero current the dead time also changes the loop
         both, ideal = ("--set", "pwm.chopping=complementary"), ("--set", "sensors.rotor=ideal")
         encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
         for words, said, cures in some((

@@ -14,7 +14,7 @@ import unittest
 import cells
 from program import SHORT, SOURCE, ProgramTest
 
-# Figures of different sizes and units; some have no value.
+# Figures of different sizes and units. Some of them have no value.
 FIGURES = """
 [[require]]
 metric = "max"

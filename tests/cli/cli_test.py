@@ -15,7 +15,7 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest
 
 R1 = str(SOURCE / "data/scenarios/reference/R1.toml")
 
-# A winding resistance that varies by a tenth: half of the drives hold 23.3 A.
+# A winding resistance with a tolerance of a tenth. Half of the drives reach 23.3 A.
 SPREAD = """
 [[spread]]
 key = "motor_override.resistance_ohm"

@@ -17,8 +17,8 @@ import cells
 from program import PROGRAM, ProgramTest
 
 MOTOR = "maxon-251601"
-R_OHM = 1.03  # of its sheet, from terminal to terminal
-# The parts of each figure of a comparison, by the labels of its scenarios: added and subtracted ones.
+R_OHM = 1.03  # terminal resistance on the sheet
+# The gauges that make up each figure of a comparison, by their labels in the scenarios: the added ones and the subtracted ones.
 MADE_OF = {
     "settling after the start": (["settling of the start"], []),
     "overshoot of the start": (["overshoot of the start"], []),
@@ -82,7 +82,8 @@ class Compare(ProgramTest):
         for name, controller in self.controllers.items():
             self.assertIn(name, self.printed)
             self.assertEqual(set(controller["nominal"]), set(self.told["units"]))
-        self.assertRegex((self.made / "c.csv").read_text(), r"^# sixstep \d")  # marks sixstep's own file, which the command may overwrite
+        # This line marks a file of sixstep, which the command may overwrite.
+        self.assertRegex((self.made / "c.csv").read_text(), r"^# sixstep \d")
         rows = cells.lines_of_csv(self.made / "c.csv")
         self.assertEqual([row["controller"] for row in rows], [name for name in self.controllers for _ in ("nominal", "worst")])
 

@@ -12,7 +12,7 @@ import unittest
 from hostile import FILES, is_visible
 from program import PROGRAM, ProgramTest
 
-# A script that calls the program for completions, and logs every other call.
+# A script that passes completions to the program, and records the arguments of every other call.
 NOTING = """#!/bin/bash
 case $1 in __complete | completion) exec {program} "$@";; esac
 printf '%s\\0' "$@" >{folder}/called.part && mv {folder}/called.part {folder}/called
@@ -67,7 +67,7 @@ class CompletedNames(ProgramTest):
                 found = self.typed(terminal, "sixstep run \t\n")
                 if name.startswith(b"-"):  # fish completes no word that begins with a dot
                     self.assertIn(found, ([b"run", b"./" + name + b".toml"], [b"run"] if shell == "fish" else []))
-                elif is_visible(name):  # the program offers no other names; the shell may offer them itself
+                elif is_visible(name):  # the program offers only visible names; the shell may offer other names itself
                     self.assertEqual(found, [b"run", name + b".toml"])
         self.typed(terminal, f"cd {self.path}; sixstep here\n")
         self.assertEqual(self.typed(terminal, "sixstep run d0/\t\n"), [b"run", b"d0/" + FILES[0] + b".toml"])

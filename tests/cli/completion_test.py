@@ -8,7 +8,7 @@ import unittest
 
 from program import PROGRAM, ProgramTest
 
-# The work of a shell's function at Tab: it prints the candidates, one per line.
+# What a shell's function does after Tab: it prints the candidates, one per line.
 BASH = """
 set -u
 source <("$PROGRAM" completion bash)
@@ -65,7 +65,7 @@ class Completion(ProgramTest):
 
     def test_options(self):
         self.everywhere("sixstep run --js", ["--json"])
-        self.everywhere("sixstep run --quiet --q", [])  # given already
+        self.everywhere("sixstep run --quiet --q", [])  # --quiet is already in the line
 
     def test_scenario_files_and_folders(self):
         self.everywhere("sixstep run hi", ["high/", "hill.toml"])

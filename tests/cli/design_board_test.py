@@ -47,7 +47,7 @@ over_speed_rad_s = 300
         self.assertEqual(written["protection"]["over_current_A"], 4)
         self.assertNotIn("not_usable", written)
         self.assertNotIn("the usual value of small bridges", (self.path / "d.toml").read_text())
-        # With a limit above the trip level, text and file name the same omission.
+        # If the current limit is above the trip level, the text and the file name the same omitted parts.
         told, written = self.designed_for(board.replace("limit_A = 3", "limit_A = 8"), code=1)
         self.assertIn("NOT USABLE: of the board's scenario are left out: ", told)
         self.assertIn("control.drive and [protection]", written["not_usable"])
@@ -163,7 +163,7 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         scenarios = SOURCE / "data" / "scenarios"
         self.run_program("design", "--scenario", str(scenarios / "firmware" / "cortex-m.toml"), "--mode", "speed", "--quick", "--quiet", "--toml", "kept.toml")
         board, kept = (tomllib.loads(path.read_text()) for path in (scenarios / "firmware" / "cortex-m.toml", self.path / "kept.toml"))
-        for key in ("off_at_s", "voltage_samples"):  # off_at_s belongs to the board's own test; voltage_samples has its default value
+        for key in ("off_at_s", "voltage_samples"):  # off_at_s belongs to the board's own test, and voltage_samples has its default value
             board["protection"].pop(key, None)
         self.assertEqual(kept["protection"], board["protection"])
         self.assertEqual(kept["control"]["drive"], "product")

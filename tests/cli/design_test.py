@@ -18,7 +18,7 @@ def mat_variables(data):
     def elements(at, end):
         while at < end:
             kind, size = struct.unpack_from("<II", data, at)
-            if kind >> 16:  # small element: size and data in eight bytes
+            if kind >> 16:  # a small element has its size and its data in the same eight bytes
                 yield kind & 0xffff, data[at + 4:at + 4 + (kind >> 16)], at
                 at += 8
             else:
@@ -168,7 +168,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["loop"], loop["name"])
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
-            # The design's test uses a board's dead time, as usual gate drivers need it.
+            # The board has no dead time. The design's test uses a value that is usual for gate drivers.
             self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: simulated with the usual value of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
@@ -284,10 +284,10 @@ class Design(ProgramTest):
         self.assertEqual(self.names(), ["d.html"])
 
     def test_an_interrupted_design_leaves_nothing_behind(self):
-        # A very slow loop: a minute of the drive is simulated for each motor.
+        # A very slow loop: the design simulates a minute for each motor.
         design = subprocess.Popen([PROGRAM, "design", "maxon-251601", "--mode", "speed", "--settle", "5", "--toml", "d.toml"],
                                   cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while not self.names():  # the outputs are open: the run has begun
+        while not self.names():  # as soon as the outputs are open, the run has begun
             time.sleep(0.01)
         time.sleep(0.3)
         design.send_signal(signal.SIGINT)

@@ -15,11 +15,11 @@ from program import ProgramTest, some
 
 MODES = ("speed", "current", "position", "duty")
 COUNT, SEED = int(os.environ.get("SIXSTEP_DRAWN_MOTORS", "4")), int(os.environ.get("SIXSTEP_SEED", "1"))
-QUICK = 4  # number of drawn motors in the usual tests, one per mode; with more, each also gets a design
-LONGEST_S = 20.0  # of CPU time on all cores, without optimisation: the fault that this detects took minutes
+QUICK = 4  # number of random motors in the usual tests, one per mode; with more motors each also gets a design
+LONGEST_S = 20.0  # limit of the CPU time on all cores, without optimisation; the error that this detects took minutes
 
-# Ranges of sheets: pole pairs, bus in V, no-load speed in rad/s, L/R in s, mechanical time constant R J/K_t^2 in s, stall current
-# in A, nominal current as a part of it.
+# For each kind, the ranges of pole pairs, bus in V, no-load speed in rad/s, L/R in s, mechanical time constant R J/K_t^2 in s,
+# stall current in A, and the ratio of nominal and stall current.
 KINDS = {
     "slotless":   ((1, 2), (12, 48), (700, 6000), (5e-5, 2.5e-4), (2e-3, 1.5e-2), (5, 100), (0.04, 0.15)),
     "flat":       ((4, 12), (12, 48), (250, 1000), (2e-4, 1e-3), (5e-3, 5e-2), (5, 60), (0.05, 0.2)),
@@ -59,7 +59,8 @@ def computing_s():
     return used.ru_utime + used.ru_stime
 
 
-# Motors that once gave no scenario, or one after minutes: small time constants, one pole pair, a slow wheel, a drone's reactance.
+# Motors for which `sixstep new` once wrote no scenario, or needed minutes: small time constants, one pole pair, a slow wheel, a
+# drone's reactance.
 FOUND = {
     "small": """pole_pairs = 2
 back_emf = "sine"

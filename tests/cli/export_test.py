@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 DESPITE = ["--despite", "the tests look at its text"]
-BOARD = "current-square-board"  # may be exported: it has converters, and the answer has a period of delay
+BOARD = "current-square-board"  # this scenario may be exported: it has converters, and the command is delayed by a period
 
 
 class Export(ProgramTest):

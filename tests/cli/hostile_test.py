@@ -18,7 +18,7 @@ from program import BRISK, PROGRAM, SHORT, SOURCE, ProgramTest, hall_log
 if os.path.isdir("/dev/shm"):  # a file system in memory, because the test writes hundreds of files, each synchronised to its disk
     tempfile.tempdir = "/dev/shm"
 UTF8 = [text.decode() for text in TEXTS if text == text.decode(errors="ignore").encode()]
-quoted = lambda text: json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")  # a string of TOML
+quoted = lambda text: json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")  # a TOML string
 REQUIRE = '[[require]]\nmetric = "final"\nsignal = "current"\nlabel = {}\nmax = {}\n'
 
 
@@ -183,7 +183,7 @@ class Hostile(ProgramTest):
         lines = comments.splitlines()
         self.assertGreater(len(lines), 5 * len(UTF8))
         self.assertEqual([line for line in lines if not line.startswith(b"//")], [])
-        # Each comment ends with its line: the line after it is code.
+        # Every comment must end with its line. The line after it must be code.
         result = subprocess.run(["g++", "-std=c++20", "-trigraphs", "-Wall", "-Wextra", "-Werror", "-x", "c++", "-E", "-"],
                                 input=b"".join(line + b"\nx\n" for line in lines), capture_output=True, timeout=60)
         self.assertEqual((result.returncode, result.stderr), (0, b""))

@@ -25,7 +25,7 @@ R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
 PLAN = str(SOURCE / "data/plans/best-pwm.toml")
 SERIES = str(SOURCE / "data/scenarios/current-square-series.toml")
 LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
-# The program needs a fifth of a second on an idle machine; other tests in parallel make that longer.
+# On an idle machine the program needs 0.2 s. With other tests in parallel it needs longer.
 BOUND_S = 5.0
 ROUNDS = len(some(range(4), 2))
 TOLD = {signal.SIGINT: 130, signal.SIGTERM: 143}
@@ -84,7 +84,7 @@ class Ends(Started):
             except subprocess.TimeoutExpired:
                 self.fail(f"{words} goes on after {sent.name} at {wait:.3f} s, seed {SEED}")
             self.slowest = max(self.slowest, time.monotonic() - begin)
-        # The signal itself ends the program before the handler is installed, or where no output needs closing.
+        # The signal itself ends the program if the handler is not installed yet, or if no output must be closed.
         self.assertIn(program.returncode, (TOLD[sent], -sent), (words, wait, SEED, out + told))
         return program.returncode > 0, out + told
 

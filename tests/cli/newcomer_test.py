@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 MODES = ("speed", "current", "position", "duty")
-# The motors are of several trades: a flat motor, a drone, two servos of which one runs at 200 V.
+# Motors of several kinds: a flat motor, a drone's motor, and two servo motors, one of them for 200 V.
 MOTORS = ("maxon-251601", "dji-2212-920kv", "teknic-m2310p", "baldor-bsm90n-175")
 
 
@@ -18,7 +18,7 @@ class Starter(ProgramTest):
         return json.loads(self.run_program("run", file, "--json", "-", *words).stdout)["digest"]
 
     def test_it_passes_as_it_is_in_every_mode_with_motors_of_every_trade(self):
-        # Each motor in one mode and each mode once come first, then the other pairs.
+        # First come pairs in which each motor and each mode occurs once, then the other pairs.
         pairs = [(motor, MODES[(n + shift) % len(MODES)]) for shift in range(len(MODES)) for n, motor in enumerate(MOTORS)]
         for motor, mode in some(pairs, len(MOTORS)):
             with self.subTest(f"{motor} {mode}"):
@@ -137,7 +137,7 @@ class Starter(ProgramTest):
         self.run_program("run", "--quiet", "a.toml")
 
 
-# The values that the newcomer wants in any case: all other knowledge comes from the messages.
+# The values that a new user must know. Everything else is in the messages.
 WANTED = {"duration_s": "0.21", "motor": '"maxon-251601"', "metric": '"mean"', "shape": "steps"}
 
 
@@ -209,7 +209,8 @@ class Follower:
         self.lines[self.row] = self.lines[self.row].replace(value[0], f"= {float(value[1]) * float(factor)!r}", 1)
 
     def insert_wanted(self, key):
-        # The message about a missing key gives the line where its table begins; the file itself begins at its first line.
+        # The message about a missing key names the line where the key's table begins. For a key without a table this is the first
+        # line of the file.
         self.lines.insert(self.row + self.lines[self.row].startswith("["), f"{key} = {WANTED[key]}")
 
     def set_key(self, path, value):
@@ -229,7 +230,7 @@ class Follower:
         self.replace_word(self.word().lstrip("-"))
 
 
-# (the mistake, the starter's mode, the text that the newcomer replaces, his text)
+# (the mistake, the mode of the first scenario, the text that the user replaces, the new text)
 MISTAKES = [
     ("a typo in a key", "speed", r"^settle_s\b", "setle_s"),
     ("a typo in a table", "speed", r"^\[reference\]", "[refrence]"),
@@ -260,7 +261,7 @@ MISTAKES = [
 
 
 class Newcomer(ProgramTest):
-    written = {}  # by mode: what sixstep new writes
+    written = {}  # {mode: the scenario that sixstep new writes}
 
     def start(self, mode):
         if mode not in self.written:

@@ -34,7 +34,7 @@ class Numbers(ProgramTest):
         for option in ["--voltage", "--duty", "--pwm-period", "--on-resistance", "--diode-drop", "--ambient"]:
             for number in HOSTILE:
                 if (option, number) == ("--ambient", "5e-324"):
-                    continue  # rounds to 0 degC, which is allowed
+                    continue  # this value is rounded to 0 degC, which is allowed
                 self.assertTrue(self.refused("curve", "maxon-251601", option, number, "--csv", "a.csv").startswith(option + " = "))
         for points in ["2147483647", "200001", "-1", "99999999999999999999"]:
             self.assertIn("points", self.refused("curve", "maxon-251601", "--points", points))

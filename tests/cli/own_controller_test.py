@@ -37,7 +37,7 @@ WHO = rf"^{re.escape(str(CONTROLLER))}: the controller "
 ENDS = "; the program ends here, and unfinished results are lost\n$"
 AT_20 = r" in step 20, at t = 0\.000570 s"
 
-# The message about each way to end the program, and the places where it may occur.
+# The message for each way to end the program, and the steps in which it may occur.
 WAYS = {"exit": r"ended the program by exit\(\)", "quick_exit": r"ended the program by exit\(\)", "_exit": r"ended the program by _exit\(\)",
         "_Exit": r"ended the program by _exit\(\)", "abort": r"ended itself by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
         "divide": r"crashed \(SIGFPE: .*\)", "illegal": r"crashed \(SIG(ILL|TRAP).*\)", "recursion": r"crashed \(SIG(SEGV|BUS): .*\)",

@@ -167,7 +167,7 @@ class Plan(ProgramTest):
                 time.sleep(draw.uniform(0.01, 0.15))
                 program.send_signal(signal.SIGKILL)
             if program.returncode != -signal.SIGKILL:
-                (self.path / "s.sqlite").unlink()  # the plan was finished: restart
+                (self.path / "s.sqlite").unlink()  # the plan was complete, so start again
                 before = 0
                 continue
             kills += 1
@@ -175,7 +175,7 @@ class Plan(ProgramTest):
                 continue
             try:
                 now = len(self.rows("s.sqlite", "run"))
-            except sqlite3.OperationalError as missing:  # killed before the tables existed
+            except sqlite3.OperationalError as missing:  # the program was killed before it created the tables
                 self.assertIn("no such table", str(missing))
                 now = 0
             self.assertGreaterEqual(now, before, f"seed {seed}")
@@ -309,7 +309,7 @@ class Plan(ProgramTest):
         bad = xml.etree.ElementTree.parse(self.path / "bad.xml").getroot()
         self.assertEqual(bad.get("errors"), "1")
         self.assertIn("1 could not run, first run 1", bad[0][0][0].get("message"))
-        self.run_program("run", held, "--junit", "runs.xml", code=1)  # overwrites sixstep's own file
+        self.run_program("run", held, "--junit", "runs.xml", code=1)  # replaces a file that sixstep has written
         (self.path / "other.xml").write_text("<?xml version='1.0'?><mine/>")
         self.run_program("run", held, "--junit", "other.xml", code=2)
 

@@ -13,7 +13,7 @@ import unittest
 
 PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
 
-# The rotor is held at full voltage; only the limit decides whether the requirement holds.
+# The rotor is held at full voltage. Thus only the limit decides whether the requirement is met.
 SHORT = """
 motor = "maxon-251601"
 duration_s = 1e-4
@@ -32,7 +32,7 @@ max = {limit}
 
 
 BRISK = re.sub("(?m)^inertia.*$", "inertia_gcm2 = 0.3", (SOURCE / "data/motors/maxon-251601.toml").read_text())
-WIRING = "motor wiring brisk.toml --current 15"  # a fifth of the usual computation, for tests of printed text
+WIRING = "motor wiring brisk.toml --current 15"  # this needs a fifth of the usual time; it is for tests of printed text
 
 
 def some(cases, count):
@@ -57,7 +57,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *words, code=0):
         result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300)
-        # None accepts both: all requirements hold, or one does not.
+        # None: both exit codes are accepted, 0 (all requirements met) and 1 (a requirement missed).
         self.assertIn(result.returncode, (0, 1) if code is None else (code,), result.stderr + result.stdout)
         return result
 

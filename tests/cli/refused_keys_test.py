@@ -58,7 +58,7 @@ class RefusedKeys(Started):
             for count in range(1, len(whole) + 1):
                 for keys in itertools.combinations(whole, count):
                     if count == 1 and keys[0].startswith("energies_at"):
-                        continue  # no loss at all, and a remark says so
+                        continue  # this drive has no switching loss, and a remark says so
                     sets = [word for key in keys for word in ("--set", f"bridge.{key}={whole[key]}")]
                     ran = self.run_program("run", "a.toml", *sets, code=0 if count == len(whole) else 2)
                     missing = [key for key in whole if key not in keys]

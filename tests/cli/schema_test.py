@@ -9,7 +9,7 @@ import unittest
 
 try:
     import jsonschema
-except ImportError:  # Debian's package belongs to Debian's interpreter, which need not be the first on the path
+except ImportError:  # Debian's package is installed for Debian's Python, which may not be the first Python on the path
     if sys.executable == "/usr/bin/python3":
         raise
     os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])

@@ -70,7 +70,7 @@ class Interruption(Session):
         self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
 
     def test_a_second_ctrl_c_ends_at_once(self):
-        # A full standard output blocks the program at its last message, so that it cannot react to the first signal.
+        # A full standard output blocks the program at its last message. Thus it cannot react to the first signal.
         ours, full = os.pipe()
         os.write(full, bytes(fcntl.fcntl(full, fcntl.F_SETPIPE_SZ, 4096)))
         with self.started("run", self.write("a.toml", 1000), "--csv", "a.csv", stdout=full) as program:
@@ -252,7 +252,7 @@ class Watching(Session):
             scenario.write_text("motor = ")  # a typing error
             self.wait_until(lambda: pauses() == 3)
             self.assertIn("a.toml:1:", said().split("-- runs")[2])
-            (self.path / "new").write_text(text.format(limit=1000))  # the way in which vim and many others save
+            (self.path / "new").write_text(text.format(limit=1000))  # vim and many other editors save in this way
             os.replace(self.path / "new", scenario)
             self.wait_until(lambda: pauses() == 4)
             (self.path / "own.toml").write_text(shipped + "\n# changed\n")  # the motor's file counts too

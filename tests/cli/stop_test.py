@@ -100,7 +100,8 @@ class Stopped(Started):
                 return
         self.fail("the signal never came while it prepared")
 
-    # A square wave of 10 ms over 1e4 s has two million sections: the preparation lasts seconds, during which nothing is finished.
+    # A square wave with a period of 10 ms over 1e4 s has two million sections. The preparation lasts seconds, and nothing is
+    # finished in this time.
     LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3", "--set", "reference.period_s=100"]
 
     def test_a_terminal_that_goes_leaves_what_is_finished(self):

@@ -141,7 +141,7 @@ class UnusedKeys(Started):
             if value is None:
                 continue
             result, told = self.outcome(f"{key}={value}")
-            key = key.removesuffix(".value")  # a quantity is named as a whole
+            key = key.removesuffix(".value")  # a quantity is named without its member `value`
             seen += 1
             if result is None:
                 self.assertTrue(any(part in told for part in key.split(".")), f"{key}: {told}")

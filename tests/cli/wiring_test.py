@@ -35,8 +35,8 @@ class Wiring(Started):
                 phases, probes = TURN[w["phases"]], DIGITS.index(w["hall_lines"])
                 does = w["measured"]["does"]
                 self.assertEqual(does, w["theory"]["does"])
-                # The motor hums where the order of either the phases or the probes is reversed, but not of both. Otherwise the difference
-                # of their two shifts decides.
+                # If the order of either the phases or the probes is reversed, but not of both, the motor hums. Otherwise the
+                # difference of their two shifts decides.
                 self.assertEqual(does == "hums", (phases < 3) != (probes < 3))
                 if phases < 3 and probes < 3:
                     self.assertEqual(does, ["forward", "backward_early", "backward_late"][(phases - probes) % 3])
@@ -80,12 +80,12 @@ class Wiring(Started):
         words = [*WIRING.split(), "--svg", "w.svg", "--html", "w.html", "--toml", "w.toml", "--quiet"]
         self.assertEqual(self.run_program(*words).stdout, "")
         first = [(self.path / name).read_bytes() for name in ("w.svg", "w.html")]
-        self.run_program(*words)  # our own are replaced
+        self.run_program(*words)  # the program replaces the files that it wrote before
         self.assertEqual(first, [(self.path / name).read_bytes() for name in ("w.svg", "w.html")])
         picture = xml.etree.ElementTree.fromstring(first[0])
         self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
         self.assertEqual(sum(title.text.startswith("phases ") for title in picture.iter("{http://www.w3.org/2000/svg}title")), 36)
-        # The scenario equals the bench: with crossed wires it has the table's behaviour.
+        # The scenario describes the bench: with crossed wires the motor behaves as the table says.
         crossed = ["--set", 'bridge.phases="bac"', "--set", 'sensors.hall_lines="132"']
         for extra, sign in (([], 1), (crossed, -1)):
             told = json.loads(self.run_program("run", "w.toml", *extra, "--json", "-", "--quiet").stdout)

@@ -91,7 +91,7 @@ def main():
         file.write_text(text)
         expected = in_program(file)
         if expected is None:
-            continue  # a window or a change is after the end of this short run, or the board cannot do it
+            continue  # a window or a change is after the end of this short run, or the board does not support it
         told[file] = expected
         for name, digest in digests(library, file, end):
             if digest != expected:

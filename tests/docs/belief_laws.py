@@ -6,7 +6,7 @@ from math import asin, cos, degrees, exp, pi, radians, sin, sqrt
 from gallery_sheet import B, J, L_S, PAIRS, R, near
 from magnet_laws import PEAK, PERIOD
 
-R_S, K_Q = R / 2, 1.5 * PEAK  # of a phase; torque per ampere across the magnet
+R_S, K_Q = R / 2, 1.5 * PEAK  # phase resistance; torque per ampere on the q axis
 
 
 def placed(bandwidth_Hz, resistance, inductance):
@@ -62,7 +62,7 @@ def runs_back(current, offset_deg, bandwidth_Hz, after_s):
 def leads(inductance, torque):
     """The angle error in degrees of a flux observer with this inductance, and the current on the q axis that gives
     the torque."""
-    x = (L_S - inductance) * torque / K_Q / (PEAK / PAIRS)  # sin d cos d
+    x = (L_S - inductance) * torque / K_Q / (PEAK / PAIRS)  # sin d cos d, with the angle error d
     d = asin(2 * x) / 2
     return degrees(d), torque / K_Q / cos(d)
 

@@ -41,7 +41,8 @@ def overshoot(kp, ki, reference):
         error = reference - current
         voltage = min(max(voltage + kp * (error - before) + ki * before, -U), U)
         before, d = error, voltage / U
-        current = (current * decay + STALL * (exp(-(1 - d) * T / TAU) - decay) if d >= 0  # else against the whole bus
+        # Otherwise the current falls against the full bus voltage.
+        current = (current * decay + STALL * (exp(-(1 - d) * T / TAU) - decay) if d >= 0
                    else max(0.0, (current + STALL) * decay - STALL))
         largest = max(largest, current - reference)
     return largest
@@ -66,13 +67,13 @@ def made_up(settle, damping, full_torque, steps, end):
     return middle - sampling, middle + sampling
 
 
-FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # A; largest pulse of the free phase
+FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # A; the largest current pulse of the free phase
 FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # A; the same for an off-time that contains the middle of the sector
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
-BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
+BRAKE = (K_T * 100 - 2 * R) / U  # the duty at which the braking current at 100 rad/s is 2 A
 IN_BAND = 1e-9 / 0.4
 AMPLIFIED = read_late(5, 1 / (2 * pi * 160e3), 1e-6)
-DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # part of a sector that a commutation takes at 200 rad/s
+DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # the part of a sector that a commutation takes at 200 rad/s
 
 
 def after_commutation(emf, current):
@@ -119,12 +120,12 @@ RINGS = sqrt(1 / (2e-6 * 470e-6) - FADES**2)
 LOAD_J = 4e-5
 SHAFT = sqrt(2 * (1 / J + 1 / LOAD_J))
 GEARED = K_T * 5 / (J + 1.215e-4 / 9) * 5e-3
-RADIUS = 0.02  # m; with this radius the linear motor is the 251601 unrolled
+RADIUS = 0.02  # m; with this radius the linear motor has the data of the 251601
 MASS = J / RADIUS**2
 
 R_B, R_1, C_1, C_BUS = 0.08, 0.05, 0.4, 470e-6  # ohm, ohm, F, F: the battery's model and the bus capacitor
 SAG = U / (R + R_B + R_1)
-TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # A s, taken in 0.3 s
+TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # A s, in 0.3 s
 
 
 def recovered(t):
@@ -190,7 +191,7 @@ def losses(period):
 def weakened(w):
     """The rms phase current at a speed at which only friction brakes. The voltage is 0.95 of the circle, and i_d is
     found by bisection."""
-    # with a constant vector over a period, while the rotor turns by twice that angle, the voltage has the factor sin(x)/x
+    # The voltage vector is constant over a period, and the rotor turns by 2 x. Thus the mean voltage has the factor sin(x)/x.
     turns = w * PAIRS * T / 2
     circle, i_q, low, high = 0.95 * U / sqrt(3) * sin(turns) / turns, B * w / (1.5 * K_E_SINE), -K_E_SINE / PAIRS / L_S, 0.0
     for _ in range(100):
@@ -203,10 +204,10 @@ def weakened(w):
 K_E_SINE = K_T * pi / 3 / sqrt(3)  # K_t over the sector mean of a sine between two phases
 HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
 
-F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # of the trapezoid with a flat top of 120 degrees
-SHAPED = 1.5 * K_E * F_1 * 4  # torque of 4 A
-# Bound of the torque change, N m: current and shape vector have their largest size, 4/3, and a quarter of a period of the holding voltage
-# is missing.
+F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # the fundamental of a trapezoid with a flat top of 120 degrees
+SHAPED = 1.5 * K_E * F_1 * 4  # the torque at 4 A
+# The upper bound of the torque change in N m. The current and the shape vector have their largest size, 4/3. The voltage that
+# keeps the current constant is missing for a quarter of a period.
 LEFT = 1.5 * K_E * 4 / 3 * hypot(R / 2 * 4 + 20 * K_E * 4 / 3, 20 * PAIRS * L_S * 4) * T / 4 / L_S
 COPPER = 1.5 * R / 2 * 4**2
 
@@ -222,7 +223,7 @@ def finite_set():
     return [(None, 6 + band), (6 - band, None), (period + falls(2 * U / 3, -4.8), 2 * period + falls(U / sqrt(3), -6)), (None, 1 / (2 * period))]
 
 
-# (min, max) of each requirement; None: the file has none.
+# (min, max) of each requirement. None: the file has no such limit.
 LAWS = {
     **position_laws.LAWS,
     **magnet_laws.LAWS,

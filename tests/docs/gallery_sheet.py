@@ -38,7 +38,7 @@ def read_late(reading, lag, delay):
         middle = (low + high) / 2
         a, b = halves(middle)
         top, x = STALL * (1 - a) / (1 - a * b), 0.0
-        for _ in range(100):  # many time constants of the lag, so that the start has decayed
+        for _ in range(100):  # many time constants of the lag, so that the initial value has no effect
             x = lagged(x, STALL, top * b, lag, middle * T)
             x = lagged(x, 0, top, lag, (1 - middle) * T)
         late = lagged(x, STALL, top * b, lag, middle * T / 2 - delay)

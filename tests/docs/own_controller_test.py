@@ -47,7 +47,7 @@ class OwnControllerPage(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = pathlib.Path(cls.folder.name)
-        for part in ("sixstep", "data"):  # files that the commands name, as in a checkout
+        for part in ("sixstep", "data"):  # the commands need these files, as in a checkout
             (cls.path / part).symlink_to(REPOSITORY / part)
         for block in HOWTO.blocks:
             if block.word == "write":
@@ -76,7 +76,7 @@ class OwnControllerPage(unittest.TestCase):
     def test_every_field_and_constant_of_the_interface_is_on_the_page(self):
         header = (REPOSITORY / "sixstep/control/own/own_controller.h").read_text(encoding="utf-8")
         code = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
-        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r" \1;", code, flags=re.S)  # members that are functions
+        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r" \1;", code, flags=re.S)  # removes members that are pointers to functions
         structs = re.findall(r"typedef struct \{(.*?)\} sixstep_", code, re.S)
         names = {name for struct in structs for name in re.findall(r"(\w+)(?:\[3\])?\s*[,;]", struct)}
         names |= set(re.findall(r"\b(SIXSTEP_\w+) =", code))
@@ -120,7 +120,7 @@ class OwnControllerPage(unittest.TestCase):
         self.assertEqual(len(rows), 6, rows)
         shutil.copy(self.path / "mine.so", self.path / "kept.so")
         with open(self.path / "mine.so", "ab") as file:
-            file.write(b"\0")  # compiled again
+            file.write(b"\0")  # another file, as after a new compilation
         try:
             told = self.run_program("run", "mine.toml", "--vary", vary, "--store", "own.db", "--resume", code=2)
             self.assertIn("own.db", told.stderr)

@@ -30,10 +30,10 @@ COMMAND = re.compile(r"^\$ (.*)\n", re.M)
 
 class Block(typing.NamedTuple):
     line: int
-    word: str    # kind of the test
-    detail: str  # what follows the word
+    word: str    # the kind of the test
+    detail: str  # the text after this word
     text: str
-    span: tuple  # place in the page's text
+    span: tuple  # the position in the page's text
 
 
 class Page:
@@ -78,12 +78,12 @@ class Desk:
             shutil.copytree(REPOSITORY / name, self.folder / name)
         for name in ("build/release", "bin"):
             (self.folder / name).mkdir(parents=True)
-        for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run first installs and builds
+        for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run would first install packages and build
             (self.folder / name).symlink_to(program)
         (self.folder / "build/dev").symlink_to(program.parent)
         for name in ("tests", "sixstep", "faces"):
             (self.folder / name).symlink_to(REPOSITORY / name)
-        # libsixstep as if it were installed
+        # the same files as an installed libsixstep
         library = program.parent / "lib"
         (self.folder / "sixstep.pc").write_text(f"Name: sixstep\nVersion: 0\nDescription: of the build\nLibs: -L{library} -lsixstep\n"
                                                 f"Cflags: -I{REPOSITORY / 'faces/c'} -I{REPOSITORY}\n", encoding="utf-8")

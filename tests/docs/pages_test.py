@@ -14,7 +14,7 @@ import page
 from page import REPOSITORY
 
 NAMES = ["README.md", *sorted(str(f.relative_to(REPOSITORY)) for f in (REPOSITORY / "docs").rglob("*.md"))]
-GENERATED = ("docs/gallery/", "docs/reference/keys/")  # by tools/gallery.py and tools/scenario_reference.py, which check them
+GENERATED = ("docs/gallery/", "docs/reference/keys/")  # tools/gallery.py and tools/scenario_reference.py write and check these pages
 PROGRAM = REPOSITORY / "build/dev/sixstep"
 WARNINGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion", "-Werror"]
 ALONE = {"chip": ["-ffreestanding", "-fno-exceptions", "-fno-rtti"], "host": []}
@@ -111,7 +111,7 @@ def renew(name):
             if now is not None:
                 text += [it.text[at:block.span[0]], now]
                 at = block.span[1]
-    except AssertionError as failure:  # for example where a program is not built
+    except AssertionError as failure:  # for example if a program is not built
         print(f"{name}: the rest is left as it is, after {failure}", file=sys.stderr)
     it.file.write_text("".join(text) + it.text[at:], encoding="utf-8")
     desk.close()

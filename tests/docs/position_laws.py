@@ -12,13 +12,14 @@ def late(degrees):
     return 1 - degrees**2 / 7200
 
 
-SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # electrical degrees by which a filter of 100 us delays an edge at 300 rad/s
-# electrical degrees until the current has commutated to the next phase
+SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # the delay of an edge in electrical degrees: a filter of 100 us at 300 rad/s
+# the electrical degrees until the current has commutated to the next phase
 PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi
-SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # s; period of the swing about the pair's rest angle
-SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the hand-over, rad/s^2
+SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # s; the period of the oscillation about the pair's rest angle
+SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the end of the ramp; rad/s^2
 LONGEST_RAMP = 2 * 2 * SLOWEST / RAMP + 12 * pi / 3 / PAIRS / SLOWEST
-LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # s of listening to a rotor that turns already
+# s; the time in which the drive detects a rotor that already turns.
+LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST
 
 
 def two_period_pulses():
@@ -98,15 +99,15 @@ def pole_noise():
     return squares
 
 
-LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees of a commutation by single samples at 60 rad/s
-E_20 = pi / 3 / PAIRS / 20  # a sector at 20 rad/s
+LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees; the error of a commutation at 60 rad/s, with single samples
+E_20 = pi / 3 / PAIRS / 20  # s; the duration of a sector at 20 rad/s
 CHIP_LAG = degrees(atan(1e4 * PAIRS * 2e-6**2 / tracking(200, 2e-6)[1]))
-PERIOD = PAIRS * T * 180 / pi  # degrees per rad/s
+PERIOD = PAIRS * T * 180 / pi  # electrical degrees per period, for each rad/s
 ROUNDS = degrees(sqrt(2) / 2 * 5 / 4096 / 2) + 360 / 65536
 COUNT = 360 / 16384
 
 
-RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees about the angle where a pair has no torque
+RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees; the error about the angle at which a pair has no torque
 
 
 def ramp(part):
@@ -117,7 +118,7 @@ def around(value, by):
     return value - by, value + by
 
 
-# (min, max) of each requirement; None: the file has none.
+# (min, max) of each requirement. None: the file has no such limit.
 LAWS = {
     "hall-hysteresis": [near(5 + 10, 1e-4 / 15), near(10 - 5, 1e-4 / 5)],
     "hall-magnets": [near(3, 1e-4 / 3), (LOOP_GAIN * 100 * (360 / 357 - 360 / 363), None)],
@@ -139,7 +140,7 @@ LAWS = {
     "sensorless-luenberger": [(None, LOOK / 0.88 * sqrt(pole_noise()))],
     "sensorless-sliding-mode": [near(60, T * 60 * PAIRS * 3 / pi + 0.004)],
     "sensorless-flux-linkage": [around(30 * (1 / sqrt(0.88) - 1), 60 * PERIOD / 2)],
-    # The delay is below an off-time; the lead compensates the comparators' low-pass.
+    # The delay is shorter than an off-time. The lead compensates the low-pass of the comparators.
     "sensorless-comparators": [(None, 60 * PERIOD)],
     "hall-glitch": [near(100, T / SECTOR + 0.004)],
     "hall-60": [near(100, T / SECTOR + 0.004)],
@@ -149,8 +150,8 @@ LAWS = {
     "hall-misplaced": [(LOOP_GAIN * 100 * (60 / 55 - 60 / 66), None),
                        (None, K_T / J * LOOP_GAIN * 100 * (60 / 55 - 60 / 66) * SECTOR)],
     "hall-misplaced-six": [(None, K_T / J * (LOOP_GAIN * 100 * (1 - 60 / 66) * SECTOR / 10 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
-    # The bound. Places are right to two ticks of 1 us and times to one more, at both ends of the narrowest sector and in both directions.
-    # The error is held for the widest sector.
+    # An upper bound. The angle of an edge is right within two ticks of 1 us, and a time within one more tick. This is true at
+    # both ends of the narrowest sector and in both directions. The error acts for the duration of the widest sector.
     "hall-calibrated": [(None, K_T / J * (LOOP_GAIN * 100 * 4 * 3e-6 / (SECTOR * 55 / 60) * SECTOR * 66 / 60 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
     "encoder": [(450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
     "absolute-encoder": [(1000 - 2 * 360 / 2**14, 1000 + 2 * 360 / 2**14), (None, 2 * 360 / 2**14)],

@@ -55,7 +55,7 @@ class Recordings(unittest.TestCase):
                 self.assertAlmostEqual(told, true, delta=0.5 * 10 ** (-1 if told >= 10 else -2) + 1e-4)
 
     def test_what_the_simulator_was_told_is_found_again(self):
-        for _ in walk(Page("docs/howto/find-the-hall-order.md"), self.desk):  # the page's commands write turned.csv
+        for _ in walk(Page("docs/howto/find-the-hall-order.md"), self.desk):  # the commands of the page write turned.csv
             pass
         told = json.loads(self.desk.shell("./run motor identify turned.csv --json"))
         place, edges = told["place"], [2, -1, 0, -3, 1, 1]

@@ -23,7 +23,7 @@ FLAGS = ["-std=c++20", "-ffreestanding", "-nostdinc++", "-fno-exceptions", "-fno
 TARGET = {"cortex_m": ["--target=thumbv7em-none-eabihf", "-mcpu=cortex-m4"],
           "avr": ["--target=avr", "-mmcu=atmega2560"]}
 MEMORY = r"memcpy|memmove|memset|__aeabi_mem\w+"
-# Integer multiplication and division, and the symbols by which avr-libc's start code clears and copies sections.
+# Integer multiplication and division, and the symbols with which the start code of avr-libc clears and copies sections.
 MAY_NEED = {"cortex_m": MEMORY,
             "avr": MEMORY + r"|__u?divmod[qhs]i4|__mul[qhs]i3|__mulsi3|__ashl\w+|__lshr\w+|__do_(clear_bss|copy_data)"}
 KIND, TOOLS = sys.argv.pop(1), []

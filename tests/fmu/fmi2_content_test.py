@@ -158,7 +158,7 @@ class Content(unittest.TestCase):
         self.assertEqual(instance.step(0, 2e-3), fmi.ERROR)
         self.assertRegex(instance.messages[-1][2], r"0\.002 s.*stop time.*0\.001 s")
         now = 0.0
-        for _ in range(30):  # a sum of steps misses the stop time by rounding
+        for _ in range(30):  # the sum of the steps differs from the stop time by rounding
             self.assertEqual(instance.step(now, 1e-3 / 30), fmi.OK, instance.messages)
             now += 1e-3 / 30
         self.assertEqual(instance.step(now, 1e-6), fmi.ERROR)

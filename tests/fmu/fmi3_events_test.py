@@ -219,7 +219,8 @@ class Intermediate(unittest.TestCase):
         for t, speed, current in seen[:60]:
             reader.step(now, t - now)
             now = t
-            self.assertAlmostEqual(reader.get("speed_rad_s"), speed, delta=1e-8)  # an event has a fraction of a picosecond, a communication point none
+            # The time of an event has a fraction of a picosecond, the time of a communication point has none.
+            self.assertAlmostEqual(reader.get("speed_rad_s"), speed, delta=1e-8)
             self.assertAlmostEqual(reader.get("i_a_A"), current, delta=1e-6)
         self.assertEqual(instance.digest(), ran(PLAIN, *FAST)["digest"])
 

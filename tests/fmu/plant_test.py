@@ -240,7 +240,7 @@ class Measured(unittest.TestCase):
         tick."""
         for version, inputs, words, first in ((2, "pair", self.MIDDLE, 0.5), (3, "legs", self.MIDDLE, 0.5), (3, "pair", self.NOISE, 0.0)):
             ticked, at_ticks = self.driven(version, inputs, words), []
-            at_ticks.append(self.seen(ticked))  # first = 0.5: nothing is measured yet
+            at_ticks.append(self.seen(ticked))  # first = 0.5: no sample exists yet
             for k in range(100):
                 if k + first > 0:
                     self.assertEqual(ticked.step((k + first) * PERIOD), OK, ticked.messages())
@@ -287,7 +287,7 @@ class Laws(unittest.TestCase):
         R, L, U = 1.03, 0.572e-3, 24  # terminal values of data/motors/maxon-251601.toml
         for version in (2, 3):
             plant = Plant(version, "held", "gates")
-            plant.gates(0b001001)  # upper a, lower b
+            plant.gates(0b001001)  # upper switch of leg a, lower switch of leg b
             for t in (20e-6, 130e-6, 1e-3):
                 self.assertEqual(plant.step(t), OK)
                 expected = U / R * (1 - math.exp(-t * R / L))
@@ -322,7 +322,7 @@ class Laws(unittest.TestCase):
             plant.step(2.36e-3)
             self.assertEqual(plant.get("encoder_count"), math.floor(plant.get("angle_rad") * 2000 / (2 * math.pi)))
             self.assertGreater(plant.get("encoder_count"), 50)
-        for n in range(1, 60):  # several reads within a segment, and at ticks
+        for n in range(1, 60):  # reads several times within a segment, and at ticks
             plant.step(2.36e-3 + n * 10e-6)
             quarter = plant.get("encoder_count") % 4
             self.assertEqual((plant.get("encoder_A"), plant.get("encoder_B")), (int(quarter < 2), int(quarter in (1, 2))))

@@ -23,10 +23,10 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest  # noqa: E402
 
 KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
 SPREAD = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
-# Open MPI must run although a container's user is root and has fewer cores than ranks.
+# Open MPI must run although the user in a container is root and there are fewer cores than ranks.
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_btl": "self,vader,tcp",
                             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                            "HWLOC_HIDE_ERRORS": "2"}  # a machine without /sys gives messages of Open MPI, not of the program
+                            "HWLOC_HIDE_ERRORS": "2"}  # without /sys Open MPI itself would print messages
 
 
 def mpirun(ranks, *words):
@@ -123,7 +123,7 @@ class Mpi(ProgramTest):
                 return set()
 
     def table(self, file):
-        return (self.path / file).read_text().splitlines()[3:]  # after the lines with the command
+        return (self.path / file).read_text().splitlines()[3:]  # without the first lines, which contain the command
 
     def wait_for_runs(self, count, job, store="s.sqlite", seconds=60):
         """Waits until the store's file has grown by `count` rows. The store must not be opened while it is written."""
@@ -242,7 +242,7 @@ class Mpi(ProgramTest):
         took = [sum(60 * float(m) + float(s) for m, s in re.findall(r"(\d+)m([\d.]+)s", (self.path / f"cpu.{rank}").read_text()))
                 for rank in range(4)]
         print(f"{alone:.2f} s of work; on four ranks {took}")
-        # A rank that waits busily takes as much time as one that works, and two of four wait.
+        # A rank that waits in a busy loop takes as much CPU time as a rank that works. Two of the four ranks wait.
         self.assertGreater(sum(took), 0.5 * alone)
         for waited in sorted(took)[:2]:
             self.assertLess(waited, 0.1 * alone + 0.3)
@@ -262,7 +262,7 @@ class Mpi(ProgramTest):
         slurm = ENVIRONMENT | {"PATH": f"{tools}:{os.environ['PATH']}", "SLURM_JOB_ID": "7", "SLURM_CPUS_PER_TASK": "2"}
         with subprocess.Popen(script, cwd=self.path, env=slurm, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as job:
             self.wait_for_runs(100, job, "p.sqlite")
-            for pid in self.ranks_below(job.pid):  # Slurm too ends each process, not the launcher
+            for pid in self.ranks_below(job.pid):  # Slurm too signals each process, and not the launcher
                 os.kill(pid, signal.SIGTERM)
             job.wait(timeout=60)
         self.assertEqual(job.returncode, 143)

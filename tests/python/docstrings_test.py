@@ -15,7 +15,8 @@ import sixstep
 from package import SOURCE
 
 FACE = SOURCE / "faces" / "python" / "sixstep"
-# Names without a short example: errors, a measurement that only a controller gets, and studies of many seconds (run_test.py has them).
+# Names without a short example: errors, a measurement that only a controller receives, and studies of many seconds (run_test.py
+# tests these).
 WITHOUT = {"Interrupted", "Measured", "ProgramError", "__version__", "compare", "wiring"}
 
 

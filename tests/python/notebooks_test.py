@@ -37,7 +37,8 @@ class Notebooks(unittest.TestCase):
     def test_your_motor(self):
         names, _ = self.ran(2)
         self.assertTrue(names["design"].ok)
-        # The poles are for 1 ms and a damping of 0.9, on the plant of a pair with R = 0.6 ohm, L = 0.45 mH and a hold of 30 us.
+        # The plant is a pair with R = 0.6 ohm and L = 0.45 mH, and the hold lasts 30 us. The poles are for a settling time of 1
+        # ms and a damping of 0.9.
         R, L, T, xi = 0.60, 0.450e-3, 30e-6, 0.9
         a0, b0, w0 = -math.exp(-R * T / L), (1 - math.exp(-R * T / L)) / R, 4.6 / (xi * 1e-3)
         c1 = -2 * math.exp(-xi * w0 * T) * math.cos(w0 * math.sqrt(1 - xi**2) * T)

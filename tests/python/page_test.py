@@ -35,7 +35,7 @@ class Page(unittest.TestCase):
         self.assertTrue(names["result"].complete)
         self.assertAlmostEqual(float(names["r"].speed[-1]), 200, delta=20)
         self.assertEqual(names["total"].shape, (64,))
-        # The reward is minus the distance: a larger gain follows better, until the current's limit bounds it.
+        # The reward is the negative distance. A larger gain gives a smaller distance, until the current limit acts.
         self.assertGreater(names["total"].argmax(), 5)
         self.assertTrue(np.isfinite(names["total"]).all())
 

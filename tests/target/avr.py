@@ -23,9 +23,9 @@ import build
 SCHEMA = jsonschema.Draft202012Validator(json.loads((build.REPOSITORY / "docs/summary.schema.json").read_text(encoding="utf-8")))
 CHAPTER = build.REPOSITORY / "data" / "scenarios" / "thesis" / "avr"
 OWN = build.REPOSITORY / "faces" / "firmware" / "example" / "avr_c"
-FREE = build.REPOSITORY / "data" / "scenarios" / "firmware" / "avr.toml"  # its rotor turns
+FREE = build.REPOSITORY / "data" / "scenarios" / "firmware" / "avr.toml"  # a scenario whose rotor turns
 TOO_SHORT = CHAPTER / "8b-30us.toml"
-LOGGED = CHAPTER / "8d.toml"  # its rotor hardly turns: near a commutation the chip samples a leg without current
+LOGGED = CHAPTER / "8d.toml"  # a scenario whose rotor hardly turns; near a commutation the chip samples a leg without current
 
 
 def run(file, *words, on="avr", **environment):
@@ -115,7 +115,7 @@ def check_bad():
     trouble = []
     for name, (what, said) in BAD.items():
         done, took_s = badly(what)
-        stops = 1 if "watchdog" in said else 3  # the drive stops and misses its required means
+        stops = 1 if "watchdog" in said else 3  # after a stop the drive misses its required means
         if done.returncode != stops or said not in done.stdout + done.stderr or took_s > 30:
             trouble.append(f"a chip that {name}: exit {done.returncode} after {took_s:.1f} s\n{(done.stdout + done.stderr)[-600:]}")
     print(f"{len(BAD) - len(trouble)} of {len(BAD)} chips with a bad program are told as such")
@@ -164,7 +164,7 @@ def check_own():
             if done.returncode != 0 or not summary(done)["passed"]:
                 found = summary(done)
                 trouble.append(f"{file.stem} by {OWN.name}: exit {done.returncode}, {found['fault']}, {found.get('require')}")
-        # The host runs a scenario's own controller.
+        # With another controller in the scenario, the host runs this controller.
         other = run(CHAPTER / "8b.toml", "--quiet", "--set", "control.arithmetic=float", "--set", "pwm.alignment=edge",
                     on=str(folder / "map.toml"))
         if other.returncode != 0:

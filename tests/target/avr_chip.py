@@ -12,12 +12,12 @@ import build
 
 BOARD = build.REPOSITORY / "build/dev/sixstep-avr-board"
 CLOCK_HZ = 16_000_000
-RUN, ANSWER, GREETING = struct.Struct("<Q8HII"), struct.Struct("<QIIII"), struct.Struct("<6I")  # sixstep/rig/chip_port.hpp
+RUN, ANSWER, GREETING = struct.Struct("<Q8HII"), struct.Struct("<QIIII"), struct.Struct("<6I")  # the messages of sixstep/rig/chip_port.hpp
 INTERRUPT = struct.Struct("<QQ3I64II")
 TIMES = struct.Struct(f"<{2 * INTERRUPT.size + 16}s")
 GATES, SAMPLE, ENDED = 1, 2, 3
-BETWEEN = 4  # added to the channel of a current that is no control sample
-ZERO = 512  # counts
+BETWEEN = 4  # added to the channel, if a current is sampled and the sample is not a control sample
+ZERO = 512  # counts at zero current
 
 
 class Chip:
@@ -33,7 +33,7 @@ class Chip:
         self.answers, up = os.pipe()
 
         def place():
-            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # so that neither descriptor is 3 or 4
+            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # neither descriptor may be 3 or 4
             os.dup2(taken[0], 3)
             os.dup2(taken[1], 4)
         self.process = subprocess.Popen([str(BOARD), f"--serial={self.log}", str(elf)], preexec_fn=place, close_fds=False)

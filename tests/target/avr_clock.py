@@ -8,7 +8,7 @@ from avr_chip import CLOCK_HZ, Chip, ZERO
 from avr_image import built
 
 MA_PER_COUNT = 20_000 / 1024
-STEPS = 301  # counts that a sample may have: each row's current identifies its sample
+STEPS = 301  # number of different counts: the current of a row identifies its sample
 
 
 class Stairs:

@@ -14,7 +14,7 @@ from avr_image import built
 
 DISTURBED = 5  # cycles: 0.3125 us
 LINES = (0b100, 0b010, 0b001)
-BEHIND = range(20, 180)  # cycles after a rotor's edge, at which a Hall interrupt without delay reads the pins
+BEHIND = range(20, 180)  # cycles after an edge of the rotor; there an undelayed Hall interrupt reads the pins
 STEPS = len(LINES) * PERIOD
 
 

@@ -12,7 +12,7 @@ from avr_image import built
 MS = CLOCK_HZ // 1000
 POTENTIOMETER = 3
 WAITS = "# waits for the potentiometer's middle"
-SOURCE, SINK, FREE = 2, 1, 0  # legs c, b, a, by Hall code 101
+SOURCE, SINK, FREE = 2, 1, 0  # legs c, b and a: source, sink and free leg at the Hall code 101
 
 
 def driving(elf, setpoint=600):
@@ -39,7 +39,7 @@ def mend(chip):
     chip.run_ms(20)
 
 
-# The part that breaks during a run, its failure, and the fault reported.
+# The part that fails during a run, its failure, and the reported fault.
 def reads(counts, *legs):
     def broken(chip):
         for leg in legs:
@@ -72,8 +72,8 @@ BREAKS |= {"the source's transducer at its middle": (dead_source, "current-senso
            "Hall 000": (hall(0), "hall"), "Hall 111": (hall(7), "hall")}
 
 
-# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. Over-current and setpoint wire: three periods, because
-# every second period checks the value. Any other fault: a millisecond.
+# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. Over-current and setpoint wire: three periods,
+# because the value is checked in every second period. Any other fault: a millisecond.
 WITHIN = {"hall": 640, "over-current": 3 * 1600, "setpoint-wire": 3 * 1600}
 
 
@@ -149,7 +149,7 @@ def check_goes_on(elf):
 
 OPEN_STOP = ("standing.hpp", '  asm volatile("cli" ::: "memory");\n', "")
 GLITCH = 40  # cycles
-LAST = 170  # cycles of a Hall interrupt with its dead time, before the stop
+LAST = 170  # cycles from the start of a Hall interrupt to its end, with the dead time
 
 
 def stopped_by_control(elf, begin, edge=None):
@@ -198,14 +198,16 @@ CALLS = "  static std::uint8_t calls = 0;\n"
 TICK = "  const std::uint8_t pins = hall_pins();\n  const bool looks_at_legs"
 STANDS = "  if (phase == Phase::calibrates)\n"
 BOTTOM = "  byte(ADCSRA) = converter_on | ADATE | ADIE | ADIF;\n"
-HIDDEN = ("set_up.hpp", "const std::uint8_t cause = byte(MCUSR);", "const std::uint8_t cause = 0;")  # as a boot loader leaves it
+# A boot loader has cleared the register.
+HIDDEN = ("set_up.hpp", "const std::uint8_t cause = byte(MCUSR);", "const std::uint8_t cause = 0;")
 
 
 def hanging(place, condition=""):
     return ("main.cpp", place, f"{CALLS}  {condition}{HANGS.strip()}\n{place}")
 
 
-# Programs with a deliberate fault: the fault, the part that breaks during the run, the longest time with gates on, the last message.
+# Programs with a deliberate fault: the fault, the part that fails during the run, the longest time with gates on, and the last
+# message.
 PROGRAMS = {
     "a converter that starts no more": ([("converter.hpp", BOTTOM, f"{CALLS}  if (calls < 100) ++calls;\n  byte(ADCSRA) = calls < 100 ? "
                                           "converter_on | ADATE | ADIE | ADIF : converter_on;\n")], None, 1, "converter"),

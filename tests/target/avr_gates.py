@@ -15,12 +15,13 @@ from avr_image import EXAMPLE, built
 
 PERIOD = 1600  # cycles of 100 us
 CYCLE_PS = 62_500
-SAMPLE_LATE = 32  # a conversion that BOTTOM starts holds its input two of the converter's clocks later
-# docs/reference/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
+SAMPLE_LATE = 32  # cycles; a conversion started by BOTTOM samples its input two clocks of the converter later
+# By the Hall code H1 H2 H3 (docs/reference/model.md, 3): the leg that connects the positive pair to the bus, and the leg that
+# connects it to ground.
 POSITIVE = {0b100: "ab", 0b110: "ac", 0b010: "bc", 0b011: "ba", 0b001: "ca", 0b101: "cb"}
-AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of the example's drive_config.hpp
-# Longest delays until the new pair, in cycles. From a Hall edge: a running interrupt, the entry of the Hall interrupt, and the dead time.
-# From TOP: the same parts, and a Hall interrupt that came first.
+AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # from the example's drive_config.hpp
+# The longest delay of a new pair, in cycles. From a Hall edge: a running interrupt, the entry of the Hall interrupt, and the dead
+# time. From TOP: the same parts, and a Hall interrupt before.
 LATE_HALL, LATE_TOP = 650, 450
 AT_ONCE = 16  # a pin changes when the running instruction or interrupt entry ends: TOP may come before it
 
@@ -50,8 +51,8 @@ class Walk:
 
     def __init__(self, chip, seed):
         self.chip, self.drawn = chip, random.Random(seed)
-        self.halls, self.signs = [(0, chip.hall)], []  # the values and the cycles from which they count
-        self.currents = []  # BOTTOM, and the counts given there
+        self.halls, self.signs = [(0, chip.hall)], []  # the values, each with the cycle from which it is valid
+        self.currents = []  # the cycle of each BOTTOM, and the counts at it
         self.negative, self.left, self.counts, self.sum = False, 0, 0, 0
 
     def sample(self, cycle, channel, is_control_sample):
@@ -62,7 +63,7 @@ class Walk:
             return
         if self.left == 0:
             self.negative = not self.negative
-            # The integral stays small against the proportional part.
+            # This choice keeps the integral small against the proportional part.
             self.left = self.drawn.randint(1, 3) if (self.sum < 0) == self.negative else 1
         self.left -= 1
         self.counts = (1 if self.negative else -1) * self.drawn.randint(300, 400)
@@ -177,7 +178,7 @@ def walked(elf, seed, periods):
 
 PERIODS = 3000
 DELAY = '  asm volatile("ldi r24, 34\\n1:\\tdec r24\\n\\tbrne 1b" ::: "r24");\n'
-# Deliberate faults: the file of the example, the change, and the test's message.
+# Deliberate faults: the file of the example, the change, and the message that the test must give.
 PLANTED = {
     "a dead time of one cycle less": ("gates.hpp", "loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3",
                                       "loops = (dead_cycles - 2) / 3, rest = (dead_cycles - 2) % 3", "shortest"),

@@ -32,7 +32,7 @@ def renew_bits():
     walk.renew()
 
 
-# The usual checks, the long ones, and those that write the table anew.
+# For each part: the usual check, the long check, and the function that writes the table.
 PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, None),
          "bits": (functools.partial(walk.check, of=cores.USUAL), functools.partial(walk.check, whole=True), renew_bits),
          "costs": (functools.partial(cost.check, cost.USUAL), cost.check, cost.renew),

@@ -16,9 +16,11 @@ import re
 import images
 
 REFILL, WAIT = 3, 2
-# clocks of an interrupt's entry with stacking, and of its return, in memory without wait states (100166_0001, 3.9.1)
+# Clocks of the entry of an interrupt with stacking, and of its return, without wait states of the memory (100166_0001, 3.9.1).
 ENTRY, RETURN = 12, 10
-LAZY = 17  # clocks of an entry that also leaves room for the floating-point registers, which are stored when the first one is used
+# Additional clocks of an entry that reserves stack for the floating-point registers. The registers are stored when the
+# first of them is used.
+LAZY = 17
 LONG = {"sdiv": 12, "udiv": 12, "vdiv": 14, "vsqrt": 14, "vmla": 3, "vmls": 3, "vnmla": 3, "vnmls": 3, "vfma": 3, "mla": 2, "mls": 2,
         "ldrd": 3, "strd": 3, "vldr": 2, "vstr": 2, "isb": 4, "dsb": 4, "mrs": 2, "msr": 2, "cpsid": 2, "cpsie": 2, "vmrs": 2, "vmov": 2}
 BUSES = ((0x40000000, 0x40010000, 4), (0x40010000, 0x48000000, 2), (0x48000000, 0x60000000, 2), (0xE0000000, 0x100000000, 2))

@@ -13,8 +13,8 @@ RECORDS = cores.OUT / "records"
 PLUGIN = cores.OUT / "count_instructions.so"
 CASES = ("duty", "current", "hysteresis", "speed", "position", "product", "field")
 SOURCES = [cores.HERE / "cost" / "main.cpp", cores.HERE / "cost" / "entries.cpp"]
-USUAL = ("hysteresis", "position", "product", "field")  # position runs the speed loop, which runs the current loop, which sets the duty
-MORE = 1.05  # a larger ratio to the table's count is reported
+USUAL = ("hysteresis", "position", "product", "field")  # the position drive contains the speed loop, the current loop and the duty drive
+MORE = 1.05  # a cost that is higher than in the table by more than this factor is reported
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; written by
 # tools/check_target.sh --renew. ATmega2560: cycles; the others: instructions. tick_interrupt and hall_interrupt are the same

@@ -14,7 +14,7 @@ class Ride:
     """Calls the image's interrupts as a turning rotor does, with the image's own drive. The test sets the currents;
     they are not simulated."""
     codes = (0b101, 0b001, 0b011, 0b010, 0b110, 0b100)
-    fed = ((0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1))  # the positive pair of each
+    fed = ((0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1))  # the positive pair of each code
 
     def __init__(self, folder, sector_clocks):
         self.chip = TimedChip(folder)
@@ -191,7 +191,7 @@ def check_drives(folder):
         trouble += check_drive(changed_image(folder, way, (chopping, f"c.chopping = Chopping::{way};")), way)
     long = TimedChip(changed_image(folder, "long", ("dead_time_ps = 500000;", "dead_time_ps = 2000000;")))
     long.hall(0b101)
-    long.start()  # its dead time is longer than the time from the last compare instant of a period to its end
+    long.start()  # the dead time of this image is longer than the time from the last compare instant of a period to its end
     trouble += check_scripts(long, of_edges_at_once((0.95,), PAIRS[:1]), compares=False, dead=144)[1] + check_late_ticks(long, 144)
     short = changed_image(folder, "short", ("dead_time_ps = 500000;", "dead_time_ps = 486000;"))
     for way in WAYS:

@@ -81,7 +81,7 @@ def check_sensors(folder):
             tick(chip, (*counts, AT_REST[3]))
         trouble += stands(chip, reason, f"currents of {counts} counts")
     chip = running(folder)
-    for n in range(300):  # one wrong reading at intervals
+    for n in range(300):  # one wrong reading every few periods
         tick(chip, (2048 + (400 if n % 3 == 0 else 0), 2048, 2048, AT_REST[3]))
     if all_off(chip):
         trouble.append("a single disturbed reading stops the drive")
@@ -93,7 +93,7 @@ def check_sensors(folder):
 
 def check_break(folder):
     chip = running(folder)
-    chip.words[BDTR] &= ~MOE  # as the timer itself does at a break
+    chip.words[BDTR] &= ~MOE  # the timer itself does this at a break
     chip.interrupt(24)
     trouble = []
     if chip.words[TIM1 + 0x0C] & 1 << 7:
@@ -185,7 +185,7 @@ def check_resets(folder):
     hall = chip.core.mem_read(images.RAM, 40 * 1024)
     chip = running(folder)
     quiet = chip.core.mem_read(images.RAM, 40 * 1024)
-    chip.interrupt(5)  # no handler serves it
+    chip.interrupt(5)  # this interrupt has no handler
     program = chip.core.mem_read(images.RAM, 40 * 1024)
     for name, memory, cause, reason in (("hall", hall, 1 << 29, "hall"), ("nobody's interrupt", program, 1 << 29, "program"),
                                         ("no reason", quiet, 1 << 29, "watchdog")):

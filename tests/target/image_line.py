@@ -25,7 +25,8 @@ def check_line(folder):
         tick(chip)
     if not all_off(chip):
         trouble.append("the stop behind a number is lost")
-    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):  # the n-th is lost; ORE comes with the one before
+    # The n-th character is lost; ORE is set together with the character before it.
+    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):
         chip = running(folder)
         for n, character in enumerate(text):
             chip.line_status = 8 if n + 1 == lost else 0
@@ -72,7 +73,7 @@ def check_words(folder):
     next tick."""
     trouble = []
     chip = running(folder)
-    chip.line_status = 2  # a framing error, and 4 would be noise
+    chip.line_status = 2  # a framing error; 4 would be a noise error
     chip.type("s")
     chip.line_status = 0
     chip.go_on(60_000)
@@ -90,7 +91,7 @@ def check_words(folder):
     chip.interrupt(28)
     for _ in range(3):
         tick(chip)
-    chip.type("c")  # while its cause persists
+    chip.type("c")  # the cause of the stop persists
     chip.go_on(60_000)
     tick(chip)
     told_now = told(chip)

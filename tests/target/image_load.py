@@ -17,7 +17,7 @@ from timed_chip import DEAD, PAIRS, PERIOD, SAMPLE, WAYS, Bridge, TimedChip
 
 TICK, HALL, END = 18, 28, 27
 BOARD = images.build.REPOSITORY / images.EXAMPLES["stm32f303"] / "board.hpp"
-# counts from the start of the tick's period
+# Counts from the start of the period of the tick.
 LATE = (SAMPLE + 1, PERIOD - 40, PERIOD - 1, PERIOD, PERIOD + 100, PERIOD + 1100, PERIOD + SAMPLE - 400)
 
 
@@ -67,7 +67,7 @@ def ridden(chip, script):
     begin, now = chip.cycle_start(), chip.cycle_start()
     for wanted, at in script:
         chip.pass_to(now)
-        chip.tim1.write(0x10, ~(1 << 4))  # as the tick begins
+        chip.tim1.write(0x10, ~(1 << 4))  # the tick does this at its begin
         chip.pass_to(now + at)
         bridge.tick(wanted)
         if chip.armed() and chip.tim1.match_4:

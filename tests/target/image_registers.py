@@ -11,7 +11,7 @@ def fields(bits, values):
     return sum(value << bits * place for place, value in values.items())
 
 
-# Register, mask, its value after the set-up, and RM0316's words for it.
+# Each register with its mask, its value after the set-up, and the words of RM0316 for this value.
 TABLE = [
     ("RCC_CR", RCC + 0x00, 0x010D0000, 0x010D0000, "9.4.1: HSEON, HSEBYP, CSSON, PLLON"),
     ("RCC_CFGR", RCC + 0x04, 0x003DBFF3, 0x001D0402, "9.4.2: SW = PLL, HPRE = 1, PPRE1 = /2, PPRE2 = 1, PLLSRC = HSE, PLLMUL = 9"),

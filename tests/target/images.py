@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.append("/usr/lib/python3/dist-packages")  # Debian's folder, for any python3
+sys.path.append("/usr/lib/python3/dist-packages")  # Debian's folder of modules, for every python3
 import unicorn
 from unicorn import arm_const as arm
 
@@ -23,7 +23,7 @@ import build
 from image_registers import (ADC1, BDTR, CCER, CCMR1, CCMR2, EGR, GPIOA, GPIOB, IWDG, RCC, TABLE, TIM1, TIM2, USART2)
 
 FLASH, RAM = 0x08000000, 0x20000000
-NOWHERE = FLASH + 0x30000  # where a handler returns to
+NOWHERE = FLASH + 0x30000  # the return address of a handler
 COMG = 1 << 5
 RESET = {RCC: 0x83, RCC + 0x14: 0x14, GPIOA: 0xA8000000, GPIOA + 0x0C: 0x64000000, GPIOB: 0x280, GPIOB + 0x0C: 0x100}
 
@@ -52,7 +52,7 @@ class Chip:
         if self.passing and at in (TIM1 + 0x24, TIM2 + 0x24):
             self.words[at] = self.words.get(at, 0) + 1
         if at == TIM1 + 0x10 and self.late:
-            return 1 << 4  # the counter has passed its fourth match, and the period's end
+            return 1 << 4  # the counter has passed its fourth match and the end of the period
         if at == USART2 + 0x1C:
             return 0x80 | (0x20 if self.typed else 0) | self.line_status
         if at == USART2 + 0x24:
@@ -157,7 +157,7 @@ def end_of_period(chip):
     if not chip.words.get(TIM1 + 0x0C, 0) & 1 << 4:
         return True
     chip.words[TIM1 + 0x10] = chip.words.get(TIM1 + 0x10, 0) | 1 << 4
-    chip.passing = True  # the awaited counter continues
+    chip.passing = True  # the set-up waits for this counter, so it must count
     ended = chip.interrupt(27)
     chip.passing = False
     return ended
@@ -249,7 +249,7 @@ def check_end(chip):
 
 
 def check(whole=False):
-    import image_drives  # it uses this file
+    import image_drives  # image_drives imports this module
     import image_faults
     import image_line
     import image_load

@@ -20,12 +20,13 @@ CORES = ("cortex-m0", "cortex-m4", "riscv")
 SCALARS = ("q15", "float")
 CHAPTERS = build.REPOSITORY / "data" / "scenarios" / "thesis"
 USUAL = (*(CHAPTERS / f"{name}-exact-design.toml" for name in ("7.3.1-turning", "7.4-speed", "7.5-position")), build.scenario("product"),
-         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the general kernel runs the last
-# The angle comes from an encoder, from an ideal sensor (field weakening and finite set), or, without a sensor, from flux or pulses.
+         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # gear.toml needs the general kernel
+# The angle is from an encoder, an ideal sensor (field weakening and finite set), flux or pulses. With flux or pulses the drive
+# has no rotor sensor.
 FIELD = (build.scenario("field"), *(build.REPOSITORY / f"data/scenarios/gallery/{name}.toml"
                                    for name in ("field-weakened", "finite-set", "field-observer", "field-injection")))
 
-# These drives start by pulses, run by comparators at the terminals, run by Hall probes with a line that breaks, or run by an observer.
+# These drives start with pulses, use comparators at the terminals, have Hall probes with a line that breaks, or use an observer.
 SENSORLESS = [(build.REPOSITORY / f"data/scenarios/gallery/sensorless-{name}.toml", scalar, core) for name, scalar, core in
               (("pulses", "float", "cortex-m4"), ("comparators", "q15", "cortex-m0"), ("fallback", "q31", "riscv"), ("luenberger", "q15", "riscv"))]
 
@@ -63,7 +64,7 @@ def beside_the_host(case):
 
 def check_bits(files):
     cases = [(file, scalar, core) for file in files for scalar in SCALARS for core in CORES]
-    cases += [(file, "float", core) for file in FIELD for core in CORES]  # floating point alone
+    cases += [(file, "float", core) for file in FIELD for core in CORES]  # these drives have only floating-point numbers
     cases += SENSORLESS
     answers = build.side_by_side(beside_the_host, cases)
     trouble = [str(a) if isinstance(a, Failed) else a[0] for a in answers if isinstance(a, Failed) or a[0]]
@@ -79,7 +80,7 @@ def left_behind(folder):
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             words = os.fsdecode((process / "cmdline").read_bytes()).split("\0")
-        except OSError:  # it has just ended
+        except OSError:  # the process has just ended
             continue
         if any(folder in word for word in words):
             left.append(f"{process.name} {words[0]}")

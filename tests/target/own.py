@@ -15,7 +15,7 @@ from build import Failed
 HERE = cores.HERE / "own"
 IN_FLOAT = ("-DSIXSTEP_REAL=float", "-ffp-contract=off")
 CPP = (".cpp", ".cc", ".cxx")
-# These flags belong to the core or determine the flashed code. -fbuiltin: a chip without an operating system has sqrtf too.
+# These flags belong to the core, or determine the flashed code. -fbuiltin: even a chip without an operating system has sqrtf.
 ENTRIES = ("-ffunction-sections", "-fdata-sections", "-fbuiltin", "-Wdouble-promotion")
 DOUBLE = re.compile(r"^__aeabi_(c?d\w+|\w+2d)$|df\d?$|^__(extendsfdf2|truncdfsf2)$|df[sd]i$")
 
@@ -77,7 +77,7 @@ def record_course(controller, program, motor):
     name = told["controllers"][-1]["name"]
     refused = [note for note in told["notes"] if note.startswith((f"{name} is left out", f"{name} stopped"))]
     if refused:
-        raise Failed(f"{refused[0]}; or name a scenario that it can stand in")
+        raise Failed(f"{refused[0]}; or name a scenario that this controller can run")
 
 
 def compiled(core, controller):
@@ -86,7 +86,7 @@ def compiled(core, controller):
     folder.mkdir()
     entries = folder / "entries.o"
     bare = cores.BARE if controller.is_cpp else [flag for flag in cores.BARE if flag != "-nostdinc++"]
-    # The AVR's firmware compiler compiles C; it has no C++20.
+    # The compiler for the AVR's firmware compiles C, but not C++20.
     command = core.link if core.link and not controller.is_cpp else (*core.compile, *core.for_entries)
     said = controller.compile(command[0], HERE / "entries.c", entries, "-O2", *command[1:], *bare, *ENTRIES)
     return folder, entries, said
@@ -138,18 +138,18 @@ def size(core, folder, entries, bytes_of):
 def said_of_double(said):
     """The text after a remark: the place where the compiler found a double."""
     said = "\n".join(line for line in said.splitlines() if not line.startswith("In file included"))
-    return f": a literal like 0.5 is a double, (sixstep_real)0.5 is not\n{said}" if "[-Wdouble-promotion]" in said else ""
+    return f": a literal such as 0.5 is a double; write (sixstep_real)0.5\n{said}" if "[-Wdouble-promotion]" in said else ""
 
 
 def answered(core, text, said):
     """(name, sizes of config and state in bytes). Raises Failed if an answer differs from the host's."""
     if wrong := re.search(r"^(differs|room|design) (.*)$", text, re.M):
-        words = {"differs": "its answer to call {} of the run is not that of this machine's float",
-                 "room": "config or state is larger than the {} bytes that there is room for",
-                 "design": "its design says there, and not on this machine: {}"}
+        words = {"differs": "its answer to call {} of the run differs from the answer in float on this machine",
+                 "room": "config or state is larger than the reserved {} bytes",
+                 "design": "its design fails on this core, and not on this machine: {}"}
         raise Failed(f"{core.name}: {words[wrong[1]].format(wrong[2])}{said_of_double(said)}")
     own = re.search(r"^own (\d+) (\d+) (.*)$", text, re.M)
-    passes = 2 if core.unit == "cycles" else 1  # as functions, and as interrupts
+    passes = 2 if core.unit == "cycles" else 1  # the controller runs twice: called as functions, and called by interrupts
     if not own or len(re.findall(r"^answers [1-9]\d*$", text, re.M)) != passes:
         raise Failed(f"{core.name}: the program of the controller ended early")
     return own[3], (int(own[1]), int(own[2]))

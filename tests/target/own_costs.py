@@ -17,7 +17,7 @@ TABLE = own.HERE / "costs.txt"
 PAGE = cores.REPOSITORY / "docs/howto/write-a-controller.md"
 CONTROLLERS = cores.REPOSITORY / "data" / "controllers"
 CORE = "Cortex-M4F"
-CASES = {"six_step_again.cpp": "speed", "sine_voltage.c": "duty"}  # each with its scenario
+CASES = {"six_step_again.cpp": "speed", "sine_voltage.c": "duty"}  # the controllers with their scenarios
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, controller, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; of size: bytes of flash and RAM.
 # Written by tools/check_target.sh --renew own

@@ -15,7 +15,7 @@ from build import Failed
 AVR = cores.BY_NAME["ATmega2560"]
 BLOCKS = ("arithmetic", "pi", "drive+retune")
 KNOWN_WRONG = ("clang++-14", "clang++-15", "clang++-16")
-LIMIT_S = 60  # a miscompiled program may never end
+LIMIT_S = 60  # s; a program with wrong code may never end
 
 
 def wrong(core, limit_s=LIMIT_S):

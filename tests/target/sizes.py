@@ -15,7 +15,7 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, bytes of flash, bytes of RAM without the stack: both entries with state, telemetry and answer, and what
 # they need of the compiler's library; no start code. Written by tools/check_target.sh --renew
 """
-# The page's names, where this folder has others; an M3 needs nothing that an M4 does not.
+# Cores that have another name on the page. An M3 needs the same functions as an M4.
 ON_THE_PAGE = {"Cortex-M3": "Cortex-M4", "Cortex-M4F": "Cortex-M4"}
 
 
@@ -52,7 +52,7 @@ def measured(case):
     memory = [] if core.link else [compiled(core, f"memory-{drive}-{scalar}", cores.BARE_METAL / "memory.cpp", scalar, ())]
     linker = [*(core.link or core.compile)]
     file = entries.with_suffix(".elf")
-    # avr-libc has memory functions; its start code and vectors stay out.
+    # avr-libc has the memory functions. Its start code and vectors are not linked.
     build.told([*linker, "-nostartfiles", *([] if core.link else ["-nostdlib"]), "-Wl,--gc-sections", "-Wl,-e,entry_tick",
                 "-Wl,-u,entry_hall", entries, *memory, "-lgcc", "-o", file])
     text, data, bss = map(int, build.told([core.size, file]).splitlines()[1].split()[:3])

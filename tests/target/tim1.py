@@ -169,7 +169,7 @@ def check_itself():
                 trouble.append(f"complementary pulses with {short} clocks of dead time, {dead} wanted: {broken_laws(timer.edges, dead)[:2]}")
         timer.write(0x18, 0x4848)
         timer.write(0x14, 0x20)
-        timer.advance(timer.t + 500)  # the lower one is on
+        timer.advance(timer.t + 500)  # the lower switch is on
         timer.write(0x18, 0x4858)
         timer.write(0x20, 0x001)
         timer.write(0x14, 0x20)

@@ -9,14 +9,14 @@ from build import Failed
 
 TABLE = cores.HERE / "digests.txt"
 SHORT, LONG = 10_000, 1_000_000
-LEAST_SIGHTS = 5  # in 10 000 steps
+LEAST_SIGHTS = 5  # the smallest number of steps in 10 000 that must reach a case
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # block, scalar, digest of its first 10 000 steps and of 1 000 000; written by tools/check_target.sh --renew
 """
 
 
-# Each part is a program of its own: all blocks together would not fit, and a block's count would depend on its neighbours. A block is in
-# the part that names it most exactly.
+# Each part is a separate program. Otherwise the blocks would not fit, and the count of a block would depend on its neighbours. A
+# block is in the part with the most specific name.
 PARTS = {"": (), "rotor": ("-DTARGET_OF_ROTOR",), "observers": ("-DTARGET_OF_OBSERVERS",),
          "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",), "field": ("-DTARGET_OF_FIELD",)}
 BLOCKS = {"": "", "sensing/": "rotor", "sensorless/": "rotor", "commissioning/": "commissioning",

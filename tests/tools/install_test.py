@@ -31,7 +31,7 @@ share/sixstep/sixstep_control.hpp""".splitlines()
 FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
            "faces/loop/core", "sixstep/control"]
 DRIVES = ["LEAN", "PRODUCT", "SENSORLESS", "FIELD", "SENSORLESS_FIELD"]
-# zsh calls the function after it reads its file at the first Tab.
+# At the first Tab zsh reads the file and calls its function.
 ZSH = """
 compadd() {
   while (( $# )); do case $1 in (-S|-d) shift 2;; (-a) print -l -- ${(P)2}; shift 2;; (*) shift;; esac; done
@@ -75,7 +75,7 @@ class Installed(unittest.TestCase):
         for name in FILES:
             self.assertTrue((self.prefix / name).is_file(), name)
         examples = ["faces/c/example"] if (self.prefix / "lib/libsixstep.so").exists() else []
-        for name in FOLDERS + examples:  # all of git's files there
+        for name in FOLDERS + examples:  # the files of git in these folders
             listed = subprocess.run(["git", "ls-files", name], cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
             for file in filter(None, listed):
                 if pathlib.Path(file).name not in ("CMakeLists.txt", ".clang-tidy"):

@@ -13,7 +13,7 @@ import sys
 import unittest
 
 BUILD = pathlib.Path(sys.argv.pop())
-# Code that runs at least once a segment. A plant's set-up, once before a run, may be anywhere.
+# Code that runs at least once per segment. The set-up of a plant runs once before a run, and may be anywhere.
 ENGINE = re.compile(r"sixstep::(sim::run<|rig::Rig<|plant::(general::)?(Plant<\w+>::(?!Plant\()|mode_guards|expand|detail::copper_energy)|series::(first_root|detail::))")
 
 

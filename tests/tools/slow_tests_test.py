@@ -21,7 +21,7 @@ class SlowTests(unittest.TestCase):
         listed = subprocess.run(["ctest", "--test-dir", BUILD, "-N"], check=True, text=True, stdout=subprocess.PIPE).stdout
         there = set(re.findall(r"Test +#\d+: (.+)", listed))
         self.assertGreater(len(there), 1000)
-        # without a browser its tests are left out
+        # without a browser, the tests that need it are not registered
         self.assertEqual([name for name in names if name not in there and not name.startswith("browser.")], [])
 
 

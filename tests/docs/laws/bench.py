@@ -124,6 +124,6 @@ def hall_places(test, spot):
     rows = re.findall(r"offset +(-?[\d.]+): found +(-?[\d.]+) degrees, worst edge off by ([\d.]+)", spot.text)
     test.assertGreaterEqual(len(rows), 15)
     for offset, found, worst in rows:
-        # A trapezoid's rotor rests up to 1.12 degrees from a field of sines.
+        # The rest angle of a rotor with trapezoidal back-EMF differs by up to 1.12 degrees from the angle of a sinusoidal field.
         test.assertLessEqual(abs(float(found) - float(offset)), 1.12, str(spot))
         test.assertLessEqual(float(worst), 1.12, str(spot))

@@ -49,12 +49,13 @@ def judge_run(test, spot, command, rows):
     (torque, dip), (mean, missed), (sampled, spike), (peak, rise) = (rows[name] for name in sorted(rows))
     for value, against, deviation in ((torque, K_T * I, dip), (mean, I, missed), (sampled, I, spike), (peak, I, rise)):
         test.assertLess(abs(100 * (value / against - 1) - deviation), 0.06, told)
-    # The loop holds the ripple's minimum at the reference. The torque falls below K_t I only at commutations, and by at most the dip of a
-    # constant duty, apart from the delay of a sample and a period.
+    # The loop controls the minimum of the ripple to the reference. The torque is below K_t I only at commutations. Its dip is at
+    # most the dip at a constant duty and the change within a sample delay and a period.
     floor = left_at_a_fixed_duty(emf, "pattern=upper" in command) - ripple(emf, I, period) / 2
     test.assertLess(K_T * floor, torque, told)
     test.assertLess(torque, K_T * I, told)
-    # Peak and sampled current differ by the ripple at the peak. The duty there belongs to the peak's current, or still falls to it.
+    # The peak and the sampled current differ by the ripple at the peak. There the duty is that of the peak current, or is still
+    # decreasing to it.
     apart = (peak - sampled) / ripple(emf, sampled, period)
     test.assertTrue(0.7 < apart < 1.1, f"{told}: {apart} ripples apart")
     test.assertTrue(torque / K_T < mean < sampled and I < sampled, told)
@@ -69,7 +70,7 @@ def judge(test, spot):
     def of(*words, but=()):
         return next((x for command, x in found.items() if all(w in command for w in words) and not any(w in command for w in but)), None)
 
-    plain = (K_T * I * (1 - 0.185), I * 1.128)  # as the page's text gives for its first run
+    plain = (K_T * I * (1 - 0.185), I * 1.128)  # the values that the page's text states for its first run
     if of("pattern=upper"):
         step, short = of("duty-step", but=["period_s"]), of("period_s", but=["duty-step"])
         both, slow = of("period_s", "duty-step"), of("settle_s=2e-3")

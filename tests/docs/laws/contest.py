@@ -72,7 +72,7 @@ def judge(test, spot):
                 test.assertGreaterEqual(b * 1.006, a, f"{spot}: {controller}: the worst {column} is better than the nominal one")
     if of_worst:
         test.assertEqual(set(nominal), set(of_worst), str(spot))
-        # A drive with a wide nominal margin holds within some of its tolerances.
+        # A drive with a wide nominal margin passes with a part of its tolerances.
         test.assertTrue(any(not cells["hold"].startswith("0 of") for cells in of_worst.values()), f"{spot}: not one drive of any controller holds")
     sentences(test, spot, nominal)
 

@@ -40,7 +40,7 @@ def point(test, spot, name, p, duty):
     test.assertLessEqual(p["supply"], p["current"] * 1.001, f"{spot}: {name}: a chopped drive takes less than flows in the motor")
 
 
-# The 251601's thermal lines are in K/W and s, winding to housing, housing to air.
+# The thermal data of the 251601 in K/W and s: first winding to housing, then housing to air.
 THERMAL = {"thermal_resistance_winding_housing_K_W": 4.5, "thermal_resistance_housing_ambient_K_W": 4.25,
            "thermal_time_constant_winding_s": 17.7, "thermal_time_constant_motor_s": 212.0}
 

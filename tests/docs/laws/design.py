@@ -65,7 +65,7 @@ def loops(test, spot):
         return
     for n, f in enumerate(rows["crossover"]):
         at_once, late = (rows[f"phase margin, {when}"][n][0] for when in ("no computation delay", "one period late"))
-        if n == 0:  # an outer loop has its delay within the inner one
+        if n == 0:  # the delay of an outer loop is within its inner loop
             close(test, spot, "phase margin, one period late", late, at_once - 360 * f[0] * T, 0, 0.2)
             close(test, spot, "delay margin", rows["delay margin, one period late"][n][0], late / 360 / f[0], 1e-2)
         peak = rows["peak of sensitivity, one period late"][n][0]
@@ -94,12 +94,13 @@ def hall(test, spot):
     m = re.search(r"w_low +([\d.]+) rad/s.*\n +T +([\d.]+) ms +\(pi/3\)/\(p w_low\)", spot.text)
     if m:
         close(test, spot, "T", float(m.group(2)) * 1e-3, pi / 3 / 8 / float(m.group(1)), 1e-4)
-    for line in spot.text.splitlines():  # the loop is never faster with a slower rotor
+    for line in spot.text.splitlines():  # at a lower speed the loop is not faster
         cells = re.split(r" {2,}", line.strip())
         if cells[0].startswith("Hall, ") and len(cells) == 4:
             times = [quantity(c)[0] for c in cells[1:]]
             test.assertEqual(times, sorted(times, reverse=True), f"{spot}: {line}")
-            # The longest delay, (k + 1)/2 sectors, falls with the speed; the settling time falls by at most the same ratio.
+            # The longest delay is (k + 1)/2 sectors, which decreases with the speed. The settling time decreases by at most the
+            # same ratio.
             test.assertLessEqual(times[0] / times[2], 5.05, f"{spot}: {line}")
 
 
@@ -119,22 +120,22 @@ def sensors(test, spot):
         close(test, spot, "w_min", s["w_min"], s["dw"], 1e-6)
         close(test, spot, "delay", s["delay"], s["T"] / 2 + s["t_l"], 1e-4)
         test.assertLess(abs(s["T"] / (T * 1e6) - round(s["T"] / (T * 1e6))), 1e-6, "whole periods")
-    if "dw_3" in s:  # sectors of 54 and 66 degrees
+    if "dw_3" in s:  # here the sectors are 54 and 66 degrees
         close(test, spot, "dw_3", s["dw_3"], s["w_low"] / 10, 1e-4)
     if "2 D/w_n" in text:
         close(test, spot, "2 D/w_n", s["2 D/w_n"], 2e6 / s["w_n"], 1e-4)
         close(test, spot, "delay", s["delay"], s["2 D/w_n"] + s["t_l"], 1e-4)
         close(test, spot, "t_l", s["t_l"], T * 1e6, 1e-6)
-    if "dw_high" in s:  # far above the lowest speed: the same step, and the immediate response of both loops
+    if "dw_high" in s:  # far above the lowest speed: the same step of the speed, and the immediate response of both loops
         w, dw, I_N, full = s["w_high"], s["dw_high"], 2.33, 2.5 * 2.33
         test.assertTrue(0.89 * (U - R * I_N) / K_T < w < 0.9 * (U - R * I_N) / K_T * 1.001, f"{spot}: w_high")
         if "(2 pi/4N)/w_low" in text:
             close(test, spot, "dw_high", dw, w / s["w_low"] * s["dw"], 1e-4)
         elif "Speed from the absolute" in text:
             close(test, spot, "dw_high", dw, s["dw"], 1e-6)
-        else:  # six Hall edges, one tick of 1 MHz
+        else:  # the mean of six Hall edges, with ticks of 1 MHz
             close(test, spot, "dw_high", dw, w / (6e6 * pi / 3 / 8 / w), 1e-4)
-        # The crossover by d1 alone is d1 T_max/J, with T_max = K_t 2.5 I_N; the current loop's placed pair gives its d1.
+        # The crossover with d1 alone is d1 T_max/J, with T_max = K_t 2.5 I_N. The poles of the current loop give its d1.
         close(test, spot, "d1 dw", s["d1 dw"], s["w_c"] * 135e-7 / (K_T * full) * dw, 2e-3)
         close(test, spot, "u_left", s["u_left"], U - K_T * w - R * I_N / 2, 1e-3)
         close(test, spot, "du", s["du"] * (1e-3 if re.search(r"du +\S+ mV", text) else 1), s["d1 dw"] * full * 4.09559, 1e-3)

@@ -2,7 +2,7 @@
 """The law for the table that the firmware example prints."""
 from math import pi
 
-POLE_PAIRS, BUS_V, R_PAIR_OHM, NO_LOAD_RAD_S = 7, 12, 2 * 0.1153, 12 / 11.15e-3  # of the DJI 2212 920 KV
+POLE_PAIRS, BUS_V, R_PAIR_OHM, NO_LOAD_RAD_S = 7, 12, 2 * 0.1153, 12 / 11.15e-3  # data of the DJI 2212 920 KV
 
 
 def course(test, spot):

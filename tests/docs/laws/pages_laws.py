@@ -5,7 +5,7 @@ import re
 from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, tables
 from page import REPOSITORY
 
-# Blocks of a reader's input are no results.
+# Blocks with a reader's input contain no results.
 INPUT = {"run", "c", "write", "file", "chip", "host", "programs", "python"}
 
 TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
@@ -227,7 +227,7 @@ MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tou
             ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
             ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),
             ("docs/howto/size-a-capacitor.md", "grep ripple")]
-# Pages and tables of definitions: names, formulas, commands, exit codes, and pages of code.
+# Pages and tables with definitions: names, formulas, commands, exit codes, and pages with code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
 DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
@@ -244,7 +244,7 @@ DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file |
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
             ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |"), ("docs/howto/compare-a-log.md", "| quantity |"),
             ("docs/howto/take-over-parameters.md", "| program |")]
-# Tables with a named test that measures every row and has its own law.
+# Tables whose rows are all checked by a named test with its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
                  ("docs/reference/loops.md", "| law | a step"), ("docs/gallery/beliefs.md", "| wrong belief |")]

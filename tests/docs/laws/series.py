@@ -63,7 +63,7 @@ def judge_plan(test, spot):
                 test.assertFalse(cell.endswith("!"), f"{spot}: {line}: nothing is asked of [{n + 1}]")
                 continue
             bound = quantity(re.search(r"at (?:most|least) (.*)$", asked[str(n + 1)]).group(1))
-            if value[0] != bound[0]:  # equal in print: either is possible
+            if value[0] != bound[0]:  # the printed numbers are equal, so either verdict is possible
                 test.assertEqual(not meets(value[0], asked[str(n + 1)]), cell.endswith("!"), f"{spot}: {line}")
             misses += cell.endswith("!")
         if cells[-1] != "FAULT":

@@ -8,17 +8,17 @@ from page import BLOCK, REPOSITORY
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TABLE = re.compile(r"^\|.*\|\n\|[-|: ]+\|\n((?:\|.*\n)+)", re.M)
-FEWEST = 2  # number of values from which a block needs a law
+FEWEST = 2  # a block with this number of values needs a law
 
 
 class Spot(typing.NamedTuple):
     page: str
     line: int
     heading: str
-    kind: str     # of the block's test, or "table"
-    detail: str   # of the block's test
+    kind: str     # the kind of test of the block, or "table"
+    detail: str   # the details of the block's test
     text: str
-    before: str   # the paragraph above it
+    before: str   # the paragraph before it
 
     def __str__(self):
         return f"{self.page}:{self.line}"

@@ -142,7 +142,7 @@ def motor_list(test, spot):
             if x != "-" and name != "example-linear":
                 test.assertTrue(least <= float(x) <= most, line)
         if constant not in ("-", "linear") and volts != "-" and name != "example-linear" and "no_load_speed_rpm" in sheet:
-            # An ideal motor turns at U/K_t; a printed no-load speed is within a fifth of that.
+            # An ideal motor turns at U/K_t. The printed no-load speed differs from this speed by at most a fifth.
             rpm = float(volts) / float(constant) * 1e3 * 9.5493
             test.assertTrue(0.8 < value(sheet["no_load_speed_rpm"]) / rpm < 1.2, line)
 
