@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A current controller as it is written for a small chip: C, integers of mA and mV, gains in 1/1024, commutation by a table of the
- * Hall codes, a clamped integral. It holds the current, and in speed mode a speed around it, soft chopped. Its gains follow from the
- * motor's data by one rule: the PI's zero on the winding's pole, the loop's bandwidth a part of the control frequency. */
+/* A current controller for a small chip, in C. It calculates in integers of mA and mV, with gains in units of 1/1024. A table of the
+ * Hall codes selects the driven legs. The integral is clamped. In current mode the controller controls the current. In speed mode an
+ * outer loop controls the speed. The chopping is soft. The gains follow from the motor's data: the zero of the PI controller cancels
+ * the pole of the winding, and the bandwidth of the current loop is a fixed part of the control frequency. */
 #include "sixstep/control/own/own_controller.h"
 
 #define MODE_CURRENT SIXSTEP_CURRENT
@@ -9,7 +10,7 @@
 #define NO_LEG 3
 #define Q10_MILLI 1024000
 
-/* Which leg gives and which takes the current, by H1 H2 H3. */
+/* For each Hall code H1 H2 H3: the leg at the bus (source) and the leg at ground (sink). */
 static const uint8_t table[HALL_CODES][2] = {{NO_LEG, NO_LEG}, {2, 0}, {1, 2}, {1, 0}, {0, 1}, {2, 1}, {0, 2}, {NO_LEG, NO_LEG}};
 
 typedef struct {
@@ -38,26 +39,26 @@ static const sixstep_parameter numbers[] = {
 
 static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {
   config_t* const c = (config_t*)config;
-  /* Open loop kp/(2 L s): crosses over at 2 pi times the bandwidth. */
+  /* The open loop is kp/(2 L s), with the Laplace variable s. Its gain is 1 at the angular frequency 2 pi times the bandwidth in Hz. */
   const sixstep_real kp = (sixstep_real)6.283185307179586 * values[0] / given->period_s * 2 * given->L_H;
-  if (given->mode != SIXSTEP_CURRENT && given->mode != SIXSTEP_SPEED) return "holds a current or a speed, and nothing else";
-  if (kp * Q10_MILLI > 1000000000) return "has gains that its integers do not hold: lower the bandwidth";
+  if (given->mode != SIXSTEP_CURRENT && given->mode != SIXSTEP_SPEED) return "controls a current or a speed, and nothing else";
+  if (kp * Q10_MILLI > 1000000000) return "has gains that are too large for its integers: lower the bandwidth";
   c->mode = given->mode;
   c->kp = (int32_t)(kp * Q10_MILLI);
   c->ki = (int32_t)(kp * given->R_ohm / given->L_H * given->period_s * Q10_MILLI);
   c->bus_mV = milli(given->bus_V);
   c->limit_mA = milli(values[1]);
-  /* As the library's speed loop, in current. */
+  /* The gains of the library's speed loop, multiplied by the current of full torque: their output is a current. */
   c->speed_kp = (int32_t)(given->speed_d1 * given->full_current_A * Q10_MILLI);
   c->speed_ki = (int32_t)((given->speed_d1 + given->speed_d0) * given->full_current_A * Q10_MILLI);
   return 0;
 }
 
-/* The driven pair for the sign of the voltage. */
+/* Selects the driven pair from the Hall code and from the sign of the voltage. */
 static void drive(int32_t volts_mV, int32_t bus_mV, uint8_t hall, sixstep_answer* answer) {
   const uint8_t* const legs = table[hall & 7u];
   answer->enabled = legs[0] != NO_LEG;
-  answer->fault = !answer->enabled; /* a broken Hall line */
+  answer->fault = !answer->enabled; /* the Hall code is invalid */
   if (!answer->enabled) return;
   answer->source = legs[volts_mV < 0];
   answer->sink = legs[volts_mV >= 0];
@@ -93,7 +94,7 @@ static void hall(const void* config, void* state, uint8_t code, sixstep_answer* 
 const sixstep_controller* sixstep_own_controller(void) {
   static const sixstep_controller own = {
       SIXSTEP_OWN_INTERFACE, SIXSTEP_ANSWERS_PAIR, "PI in integers",
-      "counts in mA and mV, as a small chip does",
+      "calculates in integers of mA and mV, as on a small chip",
       sizeof(config_t), sizeof(state_t), sizeof numbers / sizeof numbers[0], numbers, design, 0, step, hall};
   return &own;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Three sines of voltage across the magnet, no loop at all: the setpoint is the signed duty, 1 for an amplitude of half the bus. The
- * simplest controller that answers three legs. */
+/* The simplest controller that commands all three legs. It has no control loop. It applies three sines of voltage, a quarter
+ * of an electrical turn ahead of the magnet. The setpoint is the signed duty: at 1, the amplitude is half the bus voltage. */
 #include "sixstep/control/own/own_controller.h"
 
 static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {
@@ -11,7 +11,7 @@ static const char* design(const sixstep_given* given, const sixstep_real* values
 static void step(const void* config, void* state, const sixstep_measured* seen, sixstep_real setpoint, sixstep_answer* answer) {
   static const sixstep_real half_root_3 = (sixstep_real)0.86602540378443864676;
   const sixstep_real c = seen->magnet_cos, s = seen->magnet_sin;
-  /* Of the axis a quarter turn ahead of the magnet, in phases a, b, c. */
+  /* The unit vector a quarter of an electrical turn ahead of the magnet, as values of the phases a, b, c. */
   const sixstep_real across[3] = {-s, s / 2 + half_root_3 * c, s / 2 - half_root_3 * c};
   int k;
   (void)config, (void)state;
@@ -24,7 +24,7 @@ static void step(const void* config, void* state, const sixstep_measured* seen, 
     answer->leg[k].switches = SIXSTEP_PWM_COMPLEMENTARY;
     answer->leg[k].duty = duty;
   }
-  answer->duty = setpoint < 0 ? -setpoint : setpoint; /* for the report */
+  answer->duty = setpoint < 0 ? -setpoint : setpoint; /* the report shows this duty */
 }
 
 const sixstep_controller* sixstep_own_controller(void) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's own six-step drive (sixstep/control/drive.hpp) through the door for controllers of one's own: what it answers is the
-// built-in drive's to the last bit. A place to start from where one block is to be another.
+// The built-in six-step drive (sixstep/control/drive.hpp), loaded as a user's controller. Its outputs are
+// equal to the outputs of the built-in drive to the last bit. A user can start from this file to replace one
+// block.
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/own/own_controller.hpp"
 #include "sixstep/control/own/own_pair.hpp"

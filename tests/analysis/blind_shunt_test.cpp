@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A single shunt measures currents only above a certain duty. The warning of a design about smaller currents
-// is compared with a formula for this duty and with the run.
+// A single shunt measures the current only above a certain duty. These tests compare the design's warning
+// about smaller currents with the formula for this duty, and with a run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ const design::Warning* of_shunt(const DesignStudy& s) {
   return nullptr;
 }
 
-/// The shunt's amplifier needs two settling times of 1 us in a period of 30 us: a duty of 2/30. The smallest
-/// measurable current is the current at this duty, 24 V/1.03 ohm times 2/30.
+/// The shunt's amplifier settles in 1 us, and a measurement needs two settling times. In a period of 30 us,
+/// the smallest measurable duty is 2/30. The smallest measurable current is this duty times 24 V/1.03 ohm.
 TEST(BlindShunt, ASmallerStepThanItSeesIsGrave) {
   const double unseen_A = 2 * 1e-6 / 30e-6 * 24 / 1.03;
   for (const double part : {0.5, 1.2}) {
@@ -56,8 +56,8 @@ TEST(BlindShunt, TheStepThatNobodyChoseIsSeen) {
   }
 }
 
-/// With half the nominal torque as load, the run with one shunt passes. Without a load, the same shunt makes
-/// the speed oscillate; with phase current sensors it does not.
+/// With half the nominal torque as load, the run with one shunt passes. Without a load, the speed oscillates
+/// with one shunt, but not with phase current sensors.
 TEST(BlindShunt, ASpeedThatSwingsWithoutALoadIsNotUsable) {
   for (const auto currents : {rig::CurrentMeasurement::dc_link, rig::CurrentMeasurement::phases}) {
     const auto study = designed("teknic-m2310p", Mode::speed, {}, currents);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning on the bench that commission_bench() makes from a sheet. The library's motors are identified
-// within the stated bounds, and unsuitable motors are refused with the reason.
+// Motors are commissioned on the bench that commission_bench() makes from a data sheet. The library's motors
+// are identified within the stated bounds. Unsuitable motors are refused with the reason.
 #include "sixstep/analysis/commission/commission_study.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ CommissionSubject subject_of(const char* motor) {
 
 struct OnBench {
   const char* motor;
-  double voltage_V;        ///< 0: nominal
+  double voltage_V;        ///< 0: nominal voltage
   double current_A = 0.0;  ///< 0: the default test current
 };
 constexpr OnBench benches[] = {
@@ -67,11 +67,11 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
     EXPECT_NEAR(s->shown_offset_deg, subject.hall_offset_deg, 1e-9) << on.motor;
     EXPECT_LE(s->worst_edge_deg(), s->bounds.edge_deg) << on.motor;
     EXPECT_TRUE(s->holds()) << on.motor;
-    // The bounds are also small: an infinite bound would always hold.
+    // The bounds must also be small, because an infinite bound would always contain the true value.
     EXPECT_LT(s->bounds.R_part, 0.01) << on.motor;
     EXPECT_LT(s->bounds.L_part, 0.05) << on.motor;
     // For a salient rotor, the effects of the currents along and across the magnet are not separable. The
-    // bound is wide, but the value is good.
+    // bound is wide, but the value is accurate.
     EXPECT_LT(is.beyond_L_H > 0 ? std::fabs(s->found.flux_linkage_Vs / is.flux_linkage_Vs - 1)
                                 : s->bounds.flux_part,
               is.beyond_L_H > 0 ? 0.02 : 0.08)
@@ -119,7 +119,8 @@ TEST(Commission, FindsTheLinesOfCrossedWires) {
   }
 }
 
-/// Different noise gives a different result within the same bounds. The same noise gives the same bits.
+/// Different noise gives different results within the same bounds. Equal noise gives results that are equal
+/// to the last bit.
 TEST(Commission, HoldsWhateverTheNoiseAndIsTheSameForOne) {
   InPart some;
   double first = 0.0;
@@ -151,9 +152,10 @@ TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
   EXPECT_LT(more->bounds.edge_deg, less->bounds.edge_deg);
 }
 
-/// Peak of the fundamental, relative to K_e (model.md 1): 4 sin g/(pi g) for a trapezoid with ramps of width
-/// 2 g; the first harmonic for given harmonics; the Fourier integral for a table, which is 8/pi^2 for a
-/// triangle.
+/// Peak of the fundamental, relative to K_e (model.md 1):
+/// - trapezoid with ramps of width 2 g: 4 sin g/(pi g)
+/// - given harmonics: the first harmonic
+/// - table: the Fourier integral, for a triangle 8/pi^2
 TEST(Commission, KnowsTheFundamentalOfEachShape) {
   plant::general::Machine m{.R_ohm = {1, 1, 1}, .K_e_V_s = {0.02, 0.02, 0.02}, .L_H = 1e-3, .pole_pairs = 4};
   for (const double flat_deg : {60.0, 100.0, 120.0, 150.0}) {

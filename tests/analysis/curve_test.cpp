@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of a curve, the quantities at each point, and the winding's thermal limits.
+// Tests the points of a curve, the quantities at each point, and the winding's thermal limits.
 #include "sixstep/analysis/curve/curve.hpp"
 
 #include <gtest/gtest.h>
@@ -50,8 +50,8 @@ TEST(Curve, ComparesTheNominalPointAtItsTorque) {
   EXPECT_EQ(*curve.nominal->current_A, 2.33);
   EXPECT_EQ(curve.nominal->at_speed->speed_rad_s, *curve.nominal->speed_rad_s);
   EXPECT_NEAR(curve.nominal->at_torque->shaft_torque_Nm, 83.4e-3, 1e-12);
-  // Curve and sheet differ: at the nominal speed, the torque is 12 % lower. At the nominal torque, the speed
-  // is 3.5 % lower.
+  // Curve and sheet differ. At the nominal speed, the torque of the curve is 12 % lower. At the nominal
+  // torque, the speed of the curve is 3.5 % lower.
   const double slower = curve.nominal->at_torque->speed_rad_s / *curve.nominal->speed_rad_s - 1;
   EXPECT_LT(curve.nominal->at_speed->shaft_torque_Nm, 0.89 * 83.4e-3);
   EXPECT_GT(slower, -0.04);
@@ -76,8 +76,8 @@ TEST(Curve, TellsTheSheetsGradientFromItsTwoPoints) {
   EXPECT_NEAR(d.ideal, 1.03 / (0.0335 * 0.0335), 1e-9);
   EXPECT_NEAR(*d.printed, 8.8 * per_mNm, 1e-9);
   EXPECT_NEAR(*d.sheet, (6710 - 5240) / 83.4 * per_mNm, 1e-9);
-  // The gradients of sheet and simulation are both more than twice the ideal gradient, because commutation
-  // lowers the speed in both.
+  // Commutation lowers the speed under load. Therefore the gradient of speed over torque exceeds twice the
+  // ideal gradient, both in the sheet and in the simulation.
   EXPECT_GT(*d.curve, 2 * d.ideal);
   EXPECT_NEAR(*d.curve, *d.sheet, 0.15 * *d.sheet);
 }
@@ -128,8 +128,7 @@ TEST(Curve, MarksOfAChoppedOneLieWithinItsPrecision) {
         *curve.marks.best_efficiency->efficiency);
 }
 
-/// Friction only consumes power: without friction, efficiency and no-load speed are higher than with
-/// friction.
+/// Friction only consumes power, so efficiency and no-load speed are higher without friction.
 TEST(Curve, WithoutFrictionSaysThatItsFiguresAreUpperBounds) {
   const CurveRequest with = request(3);
   CurveRequest without = request(3);
@@ -180,9 +179,9 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
   }
 }
 
-/// The limits are checked by the equations of the thermal network. The allowed current for the worse ends of
-/// the ranges heats the winding of a motor with these values exactly to its limit. The allowed current for
-/// the middle values heats it beyond the limit.
+/// The sheet states ranges, and the limits use the worse end of each range. The test computes the winding's
+/// temperature for these worse values. The allowed current heats the winding exactly to its limit. The
+/// current computed from the sheet's plain values heats it beyond the limit.
 TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   CurveRequest r = request(3);
   r.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
@@ -206,8 +205,8 @@ TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   EXPECT_LT(at_worst.continuous_A, by_values.continuous_A);
 }
 
-/// A second check: a file without ranges whose values are the worse ends gives the same limits, times and
-/// mark.
+/// A second check: a file without ranges, whose values are the worse ends of the ranges, gives the same
+/// limits, times and mark.
 TEST(Curve, LimitsOfRangesAreThoseOfAFileWithTheirWorseEnds) {
   CurveRequest ranged = request(3), plain = request(3);
   ranged.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
@@ -266,8 +265,8 @@ TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
 
 TEST(Curve, APointHeldTooLongOverheats) {
   const Curve curve = whole(request(5));
-  // The 559 W at the stall current heat 3.7 J/K to the limit within a second. The no-load point never reaches
-  // the limit.
+  // At the stall current, 559 W heat the winding's 3.7 J/K to the limit within a second. At no load, the
+  // winding never reaches the limit.
   ASSERT_TRUE(curve.warming.front().permissible_s);
   EXPECT_FALSE(curve.warming.front().winding_degC) << "copper runs away above 1/(a R)";
   EXPECT_LT(*curve.warming.front().permissible_s, 1.0);

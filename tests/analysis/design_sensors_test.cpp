@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design's test run uses the board's sensor: encoder, absolute encoder or resolver, on either side of a
-// gear. The verdict is about this run.
+// The test run of a design uses the board's sensor: encoder, absolute encoder or resolver, on either side of
+// a gear. The verdict refers to this run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using study::SensorShaft;
 constexpr RotorSensing shaft_sensors[] = {RotorSensing::encoder, RotorSensing::absolute,
                                           RotorSensing::resolver};
 
-/// A board with this rotor sensor, as a scenario names it.
+/// The board of a scenario with the given rotor sensor.
 study::Scenario board_with(RotorSensing rotor, Mode mode = Mode::speed) {
   study::Scenario s;
   s.motor = "maxon-251601";
@@ -59,7 +59,7 @@ TEST(DesignSensors, TheRunHasTheSensorOfTheBoard) {
     EXPECT_GT(s.design.lag.delay_s(), 0.0);
     // The loop settles as the linear design with the sensor's delay predicts.
     EXPECT_LT(figure(s, "settling time"), 1.25 * s.design.loop("speed").step.settling_s);
-    // The digest shows that the run does not use the ideal sensor.
+    // The digests differ, so the run does not use the ideal sensor.
     const auto ideal = study::run(with_ideal_sensors(s.scenario), {});
     ASSERT_TRUE(ideal);
     EXPECT_NE(ideal->digest, s.outcome.digest);
@@ -70,13 +70,14 @@ TEST(DesignSensors, AMoveRestsWithinWhatTheSensorTells) {
   for (const RotorSensing rotor : shaft_sensors) {
     const DesignStudy s = studied(board_with(rotor, Mode::position));
     EXPECT_TRUE(s.usable());
-    // Three counts are 0.26 degrees at 4 x 1024 counts per turn, and 0.07 degrees at 2^14.
+    // Three counts are 0.26 degrees with 4 x 1024 counts per turn, and 0.07 degrees with 2^14 counts per
+    // turn.
     EXPECT_LE(figure(s, "swing around the target"), rotor == RotorSensing::encoder ? 4 * 360.0 / 4096 : 0.1);
   }
 }
 
-/// The load makes one turn for n turns of the motor, so J_1 + J_2/n^2 gives the same loops. The sensor is on
-/// the load's side of the gear.
+/// The load makes one turn for n turns of the motor. The total inertia J_1 + J_2/n^2 (motor J_1, load J_2) is
+/// the same as without a gear, so the loops are equal. The sensor is on the load's side of the gear.
 TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   study::Scenario geared = board_with(RotorSensing::absolute);
   geared.load.gear = 5.0;
@@ -95,7 +96,7 @@ TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   EXPECT_NEAR(figure(s, "settling time"), figure(t, "settling time"), 0.1 * figure(t, "settling time"));
 }
 
-/// A probe edge that is 3 degrees late and a next edge that is 2 degrees early are 55 degrees apart instead
+/// One probe edge is 3 degrees late, and the next edge is 2 degrees early. They are 55 degrees apart instead
 /// of 60.
 TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   study::Scenario board = board_with(RotorSensing::hall);
@@ -116,8 +117,8 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
     }
   }
   EXPECT_EQ(told, 2);
-  // Without given edges, the derivation prints dw_3: the step of the speed if probes are 3 degrees off in
-  // alternate directions. A speed from six edges has no such step.
+  // If the board states no edge errors, the derivation prints dw_3. This is the step of the measured speed if
+  // successive edges are 3 degrees late and early in turn. A speed from six edges has no such step.
   const auto dw = [&board](std::vector<double> edges_deg, const char* symbol, int speed_edges) {
     board.sensors.hall_edges_deg = std::move(edges_deg);
     board.sensors.speed_edges = speed_edges;
@@ -147,8 +148,8 @@ TEST(DesignSensors, AnotherSensorThanTheBoardsTakesItsPlaceWhole) {
   EXPECT_EQ(board.sensors.shaft, SensorShaft::motor);
 }
 
-/// Peaks of the excitation coincide with control ticks: half an excitation period is a whole number of
-/// control periods, near 50 us (10 kHz).
+/// Peaks of the excitation coincide with control ticks. Half an excitation period is therefore a whole number
+/// of control periods, near 50 us (10 kHz).
 TEST(DesignSensors, AResolverIsExcitedInStepWithTheControl) {
   for (const double period_s : {10e-6, 25e-6, 30e-6, 40e-6, 50e-6, 100e-6}) {
     const study::Sensors s = with_rotor({}, RotorSensing::resolver, period_s);
@@ -179,7 +180,7 @@ TEST(DesignSensors, WhatASensorlessDriveComesToIsTold) {
   const DesignStudy s = studied(board);
   ASSERT_GE(s.sensorless.size(), 3u);
   EXPECT_EQ(s.sensorless[1].symbol, "w_low");
-  // The speed is at least 1/20 of the no-load speed.
+  // The lowest speed w_low is at least 1/20 of the no-load speed.
   EXPECT_GE(s.sensorless[1].value, 0.05 * 24 / s.design.motor.K_t_Nm_A * (1 - 1e-12));
   // A load that the start cannot accelerate is refused, and the message names the key.
   board.control.sensorless.greatest_load = 2.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs tested in the switching simulation. Without active limits, the run has the figures of the linear
-// design. The ripple is that of the two exponentials. The worst tolerance is the one that the test makes
-// worst.
+// Designs are tested in the switching simulation. If no limit acts, the run has the figures of the linear
+// design. The current ripple is computed from two exponentials. The robustness test must find the tolerance
+// that the test has made the worst.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,18 +62,18 @@ TEST(DesignedCurrentLoop, DoesInTheSimulationWhatWasDesigned) {
       const DriveDesign d = designed({.mode = Mode::current, .method = method, .delay_periods = late});
       const Outcome o = ran(design_scenario(d, subject));
       EXPECT_TRUE(o.passed());
-      // The design assumes the mean voltage spread over the period. The PWM applies the pulse at the period's
-      // start, so its effect decays longer until the next sample. The current is lower there: with these
-      // gains by at most 2.7 %. The settling time may differ by one sample.
+      // The design assumes a voltage that is spread over the period. The PWM applies the pulse at the start
+      // of the period, so the effect of the pulse decays longer until the next sample. At the sample, the
+      // current is lower by at most 2.7 % with these gains. The settling time may differ by one sample.
       EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"), 1.001 * period_s);
       EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), 0.027 * 2);
     }
   }
 }
 
-/// With samples in the middle of centred pulses, a duty acts half a period later. The linear loop predicts
-/// the overshoot within x/4 = 1.4 %, x = R T/L: this is the difference between the effect of half a pulse and
-/// that of half a spread voltage.
+/// With samples in the middle of centred pulses, a change of the duty acts half a period later. The linear
+/// loop predicts the overshoot within x/4 = 1.4 %, with x = R T/L (resistance R, period T, inductance L).
+/// This is the difference between the effects of half a pulse and of half a spread voltage.
 TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   for (const int late : {0, 1}) {
     const DriveDesign d = designed({.mode = Mode::current, .delay_periods = late, .sampled_in_middle = true});
@@ -86,8 +86,8 @@ TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   }
 }
 
-/// With one shunt, every specification samples in the middle of the period. A board's scenario states its own
-/// sample instant.
+/// Currents from one shunt are sampled in the middle of the period, for every specification. A board's
+/// scenario sets the sample instant itself.
 TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
   const auto late_of = [](const DesignSubject& on) {
     const auto s =
@@ -126,8 +126,8 @@ TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
   }
 }
 
-/// Ripple of straight current lines, computed by hand. The pair's voltage is 24 V during the pulse and -0.7 V
-/// while the diode conducts. Its mean is R I.
+/// The expected ripple assumes straight current lines and is computed by hand. The voltage across the pair is
+/// 24 V during the pulse and -0.7 V while the diode conducts. Its mean is resistance times current.
 TEST(DesignedCurrentLoop, ExpectsTheRippleThatTheDiodeMakes) {
   const DriveDesign d = designed({.mode = Mode::current});
   DesignSubject on = subject;
@@ -151,8 +151,8 @@ TEST(DesignedSpeedLoop, DoesInTheSimulationWhatWasDesigned) {
   const double ripple = measured(o, "speed ripple"), band = 0.02 * 10;
   EXPECT_LT(ripple, 2 * band);
   EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), ripple);
-  // Near its end, the response decays as exp(-xi w0 t), xi w0 = 4.6/T_reg. A level that is higher by a is
-  // therefore reached log(1 + a/band)/(xi w0) later.
+  // Near its end, the response decays as exp(-xi w0 t), with xi w0 = 4.6/T_reg (damping xi, natural frequency
+  // w0, settling time T_reg). A level that is higher by a is therefore reached log(1 + a/band)/(xi w0) later.
   EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"),
               std::log(1 + ripple / band) * 10e-3 / 4.6);
 }
@@ -202,7 +202,8 @@ TEST(Variations, AreAsWarmAsTheSheetLetsTheMotorBe) {
   EXPECT_EQ(all.size(), 1u + 9u + 16u);
   EXPECT_EQ(all[3].words, "R at 125 degC");
   EXPECT_NEAR(all[3].factors[0], 1.393, 1e-12);
-  // With 4.5 and 4.25 K/W and a winding at 125 degC, the housing reaches 25 + 100 4.25/8.75 degC.
+  // The thermal resistances are 4.5 and 4.25 K/W, and the winding is at 125 degC. The housing then reaches 25
+  // + 100 4.25/8.75 degC.
   EXPECT_EQ(all[8].words, "K_t at 74 degC");
   EXPECT_NEAR(all[8].factors[2], 1 - 0.0012 * 100 * 4.25 / 8.75, 1e-12);
 }
@@ -236,7 +237,7 @@ TEST(Robustness, FindsThePlantedTolerance) {
                                        {Strays::torque_constant, {{"K_t +1 %", 1.01}}}};
   std::size_t calls = 0;
   const Robustness r = robustness(d, s, planted, [&](std::size_t count, const auto& work) {
-    for (std::size_t n = count; n-- > 0; ++calls) work(n);  // in any order
+    for (std::size_t n = count; n-- > 0; ++calls) work(n);  // backwards: the order must not matter
   });
   EXPECT_EQ(calls, r.runs);
   ASSERT_EQ(r.figures.size(), 3u);
@@ -299,7 +300,7 @@ TEST(DesignStudy, RunsWithTheVeryGainsThatWereDesigned) {
       EXPECT_FALSE(s->robustness);
       ASSERT_EQ(s->outcome.gains.size(), s->design.loops.size());
       for (std::size_t n = 0; n < s->design.loops.size(); ++n) {
-        EXPECT_EQ(s->outcome.gains[n].d1, s->design.loops[n].gains.d1);  // to the bit
+        EXPECT_EQ(s->outcome.gains[n].d1, s->design.loops[n].gains.d1);  // equal to the last bit
         EXPECT_EQ(s->outcome.gains[n].d0, s->design.loops[n].gains.d0);
       }
     }
@@ -312,7 +313,7 @@ TEST(DesignStudy, CountsTheLoadsInertiaIn) {
                                .tolerances = {{Strays::inertia, {{"J +50 %", 1.5}}}}});
   ASSERT_TRUE(s && s->usable());
   EXPECT_EQ(s->outcome.gains[1].d1, s->design.loop("speed").gains.d1);
-  // The shaft is nearly an integrator: for the same poles, 3.35/1.35 times the inertia needs 3.35/1.35 times
+  // The shaft is nearly an integrator. For the same poles, 3.35/1.35 times the inertia needs 3.35/1.35 times
   // the gains, apart from friction.
   const DriveDesign bare = designed({.mode = Mode::speed, .settle_s = 20e-3});
   EXPECT_NEAR(s->design.loop("speed").gains.d1 / bare.loop("speed").gains.d1, 3.35 / 1.35, 0.01);
@@ -341,7 +342,8 @@ TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {
                                    .tolerances = sheet_tolerances(subject.sheet, Mode::position)});
   ASSERT_TRUE(moved && moved->robustness && moved->position);
   EXPECT_TRUE(moved->usable());
-  // The nominal motor would allow a higher gain: with twice the inertia it would overshoot.
+  // For the nominal motor alone, a higher gain would be allowed. With this higher gain, twice the inertia
+  // would cause overshoot.
   EXPECT_LT(moved->position->gain_rad_s_per_deg, 0.9 * moved->position->nominal);
   const RobustFigure& overshoot = moved->robustness->figures[1];
   EXPECT_EQ(overshoot.figure, "overshoot");

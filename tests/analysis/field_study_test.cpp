@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of a field-oriented drive, compared with the laws of its loops and of the voltage circle.
+// The figures of a field-oriented drive are compared with the laws of its loops and of the voltage circle.
 #include "sixstep/analysis/verify/field_study.hpp"
 
 #include <gmock/gmock.h>
@@ -48,8 +48,8 @@ double value(const std::vector<design::DerivationStep>& steps, const std::string
   return 0.0;
 }
 
-/// The loop with a delay is L = k/(z (z - 1)), k = z_1 (1 - z_1). At its crossover, 2 sin(w T/2) = k, and the
-/// phase is -90 degrees minus 3/2 w T.
+/// The loop with a delay is L = k/(z (z - 1)), with k = z_1 (1 - z_1) and the pole z_1. At the crossover w, 2
+/// sin(w T/2) = k with the period T, and the phase is -90 degrees minus 3/2 w T.
 TEST(FieldStudy, TheCurrentLoopHasTheMarginsOfItsRule) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.control.field.bandwidth_Hz = 800;
@@ -77,7 +77,8 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   const LoopDesign &d = f.design.loops[0], &q = f.design.loops[1];
   EXPECT_EQ(d.name, "current d");
   EXPECT_EQ(q.name, "current q");
-  // The zero of each axis cancels the pole of the axis's inductance, so both axes have the same loop.
+  // The zero of each axis's controller cancels the pole of the winding in this axis, so both axes have the
+  // same loop.
   EXPECT_NEAR(value(d.steps, "a0"), -std::exp(-R * T / 0.2e-3), 1e-12);
   EXPECT_NEAR(value(q.steps, "a0"), -std::exp(-R * T / 0.4e-3), 1e-12);
   EXPECT_NEAR(*d.figures.crossover_rad_s / *q.figures.crossover_rad_s, 1.0, 1e-9);
@@ -85,8 +86,8 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   EXPECT_NEAR(value(f.axes, "k"), 0.2e-3 * 8 / (2 * K_e), 1e-12);
 }
 
-/// At the crossover, |L| is the full torque times the PI's gain, divided by J w. The current loop and the
-/// sampling change it by less than w T.
+/// At the crossover w, the gain |L| of the loop is the full torque times the PI's gain, divided by J w. The
+/// current loop and the sampling change |L| by less than w T, with the period T.
 TEST(FieldStudy, TheSpeedLoopTurnsByTheTorqueOfIq) {
   study::Scenario s = field_oriented(Mode::speed, 300.0);
   s.control.speed.settle_s = 0.1;
@@ -127,8 +128,8 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// The settling time of a step of i_q at a locked rotor, predicted by the linear loop, is equal to the
-/// simulated one within one sample.
+/// The linear loop predicts the settling time of a step of i_q at a locked rotor. The simulated settling time
+/// is equal to it within one sample.
 TEST(FieldStudy, TheStepIsTheRuns) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.load.locked = true;
@@ -140,7 +141,7 @@ TEST(FieldStudy, TheStepIsTheRuns) {
   EXPECT_NEAR(figures_of(s)[0], f.design.loops[0].step.settling_s, T);
 }
 
-/// As for six-step loops, a phase margin below 20 degrees or an unstable loop causes a grave warning.
+/// As for six-step loops, a grave warning reports a phase margin below 20 degrees or an unstable loop.
 TEST(FieldStudy, LittlePhaseIsGrave) {
   int usable = 0, little = 0;
   for (double settle_s = 0.5e-3; settle_s < 20e-3; settle_s *= 1.1) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check of docs/howto/flash-an-image.md with the shaft held: twelve angles of an electrical turn
-// distinguish straight wires from all other wirings, for any first angle.
+// The check of docs/howto/flash-an-image.md measures the torque of the held shaft at twelve angles of an
+// electrical turn. These torques distinguish straight wires from all other wirings, for any first angle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ double trapezoid(double deg) {
 }
 double sine(double deg) { return std::cos((deg - 60) * pi / 180); }
 
-/// Least and largest torque per ampere, relative to K_e of a phase, at `places` equal steps of an electrical turn from `first_deg` on.
+/// Least and largest torque per ampere, relative to K_e of a phase, at `places` equally spaced angles of an
+/// electrical turn. The first angle is `first_deg`.
 std::pair<double, double> pulls(const rig::Wiring& wiring, double (*emf)(double), double first_deg,
                                 int places) {
   double least = 1e9, most = -1e9;
@@ -57,7 +58,7 @@ TEST(HeldShaft, SixPlacesDoNotShowAnEarlyPair) {
   ASSERT_NE(analysis::sectors_ahead(early), 0);
   const auto [least, most] = pulls(early, trapezoid, 30, 6);
   EXPECT_NEAR(least, most, 1e-12);
-  EXPECT_NEAR(most, 1.0, 1e-12);  // with straight wires it is 2
+  EXPECT_NEAR(most, 1.0, 1e-12);  // with straight wires: 2
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design's warnings about speeds far above the speed of its test: steps of the measured speed that reach a
-// limit, and speeds that cannot be reached.
+// A design warns about speeds far above the speed of its test. Such a speed may be unreachable, or the steps
+// of its measured value may reach a limit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ using namespace sixstep;
 using namespace sixstep::analysis;
 using design::Concern;
 
-/// An encoder of 1024 lines on the maxon motor; the board's timer captures its edges at 1 MHz.
+/// The order of a design for the maxon motor with an encoder of 1024 lines. The board's timer captures the
+/// encoder's edges with the clock `capture_Hz`.
 DesignOrder on_encoder_board(double capture_Hz = 1e6) {
   DesignOrder order{.subject = {"maxon-251601", sixstep::testing::maxon_sheet(), {}},
                     .spec = design::on_a_board(),
@@ -47,9 +48,9 @@ double held(const design::DriveDesign& d, DesignSubject subject, double rad_s) {
   return outcome ? outcome->verdicts.front().measured : 0.0;
 }
 
-/// If the measured speed changes by one timer tick, the speed loop responds with d1. The torque limit clips
-/// this response if it exceeds the torque that the load leaves. The speed stays where both are equal: d1 w/(f
-/// T) = 1 - load/limit. T is one period to within a count.
+/// The measured speed w has steps of w/(f T): one tick of the timer's clock f in the period T. The speed loop
+/// multiplies a step by its gain d1. The torque limit clips the result if it exceeds the torque that the load
+/// leaves. The speed stops where both are equal: d1 w/(f T) = 1 - load/limit.
 TEST(HighSpeed, StandsWhereATickIsWhatTheLoadLeavesOfTheLimit) {
   const DesignOrder order = on_encoder_board();
   const auto s = study_design(order);
@@ -85,8 +86,8 @@ TEST(HighSpeed, IsAdvisedAClockThatHolds) {
       << s->warnings.front().cure;
 }
 
-/// The largest error of a speed from edges counted in whole timer ticks, found by simulation. The edges are
-/// `edge_s` apart, or up to 2 % closer or farther.
+/// The largest error of a speed that is computed from edges counted in whole timer ticks. The edges are
+/// `edge_s` apart, or up to 2 % closer or farther. The simulation of the counter gives the error.
 double counted_step(double edge_s, int edges, double f_Hz, double speed) {
   double most = 0.0;
   for (int near = -20; near <= 20; ++near) {
@@ -115,8 +116,8 @@ TEST(HighSpeed, StepsOfTheMeasuredSpeedAreThoseThatATimerMakes) {
   EXPECT_NEAR(step, counted_step(count, counts, f, speed), 0.15 * step);
 }
 
-/// Misplaced probes: if a sector is longer by s, its measured speed is wrong by s/(60 degrees). Over a whole
-/// turn the errors cancel.
+/// If misplaced probes make a sector longer by the angle s, its measured speed is wrong by the part s/(60
+/// degrees). Over a whole turn the errors cancel.
 TEST(HighSpeed, StepsOfProbesBesideTheirPlacesAreTheirs) {
   const double p = 4, speed = 300, stray = 5 * base::pi / 180;
   design::RotorSensing hall{.hall = true, .edges = 1, .stray_rad = stray};
@@ -180,7 +181,7 @@ TEST(AskedStep, OutOfReachIsAdvisedASmallerOneThatHolds) {
   EXPECT_TRUE(next->usable());
 }
 
-/// For a long acceleration at the torque limit, the run's final window is after the acceleration.
+/// If the acceleration at the torque limit takes long, the run's final window begins after the acceleration.
 TEST(AskedStep, IsRunUntilItHasArrived) {
   DesignOrder order = on_encoder_board(16e6);
   order.spec.voltage_V = 48;

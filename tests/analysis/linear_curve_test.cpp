@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor's curve is equal to a rotary motor's curve, with force torque/r and speed r w.
+// A linear motor's curve is equal to the curve of the equivalent rotary motor. Force is torque/r, and speed
+// is r w, with the radius r and the angular speed w.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,7 +75,7 @@ TEST(LinearCurve, IsTheTurningOnesUnrolled) {
   expect_part(*analysis::speed_drop(moves, b).curve, *analysis::speed_drop(turns, a).curve * r * r, "drop");
 }
 
-/// A chopped point takes ten times as long to compute, so the test has only one.
+/// A chopped point takes ten times as long to compute, so the test has only one chopped point.
 TEST(LinearCurve, AChoppedPointIsTheTurningOnesUnrolled) {
   const CurveRequest turns = request(curve_sheet(), 0.5), moves = request(unrolled(curve_sheet()), 0.5);
   const double speed_rad_s = 0.2 * 0.5 * turns.bench.voltage_V / turns.bench.motor.K_t_Nm_A;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The design of a linear motor has the gains of the equivalent rotary motor in other units, and prints linear
-// units.
+// The design of a linear motor has the gains of the equivalent rotary motor in other units. Its texts are in
+// linear units.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(LinearDesign, IsToldInMetres) {
   EXPECT_EQ(linear.scenario.reference.unit, "mm");
 }
 
-/// Sectors of 54 and 66 degrees instead of 60: an error of a tenth of the lowest speed.
+/// Sectors are 54 and 66 degrees instead of 60, which gives a speed error of a tenth of the lowest speed.
 TEST(LinearDesign, ErrorsOfASpeedAreNamedAsTheSpeed) {
   DesignOrder order{.subject = {"m", unrolled(maxon_sheet()), {}}, .spec = design::on_a_board()};
   order.spec.mode = Mode::speed;

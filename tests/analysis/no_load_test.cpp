@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load point is compared with the zero of the curve's torque and with the final speed of a free rotor.
+// The no-load point is compared with the zero of the curve's torque, and with the final speed of a free
+// rotor.
 #include "sixstep/analysis/curve/no_load.hpp"
 
 #include <gtest/gtest.h>
@@ -21,17 +22,17 @@ NoLoad found(const Bench& b) {
   return n ? *n : NoLoad{};
 }
 
-/// The largest deviation of a free rotor's speed within a sector: half the torque's ripple over half of the
-/// sector. The error of the mean is at most this deviation.
+/// The largest deviation of a free rotor's speed from its mean within a sector. It is half the torque ripple,
+/// acting for half a sector, divided by the inertia. The error of the mean speed is at most this deviation.
 double swing_rad_s(const Bench& b, const NoLoad& n) {
   const double sector_s = base::sector_rad / (8 * std::fabs(n.point.speed_rad_s));
   return n.point.ripple_Nm / 2 * sector_s / 2 / b.motor.shaft.J_kg_m2;
 }
 
 TEST(NoLoad, OfThe251601IsThatOfTheIndependentSolver) {
-  // data/scenarios/thesis/7.2-no-load.toml gives 702.6128 rad/s and 0.15310 A. Tolerance of the speed: half
-  // of the last digit. Tolerance of the current: 1e-4 of the current, and as much again because the averaging
-  // window cuts a sector.
+  // data/scenarios/thesis/7.2-no-load.toml gives 702.6128 rad/s and 0.15310 A. The tolerance of the speed is
+  // half of the last digit. The tolerance of the current is 1e-4 of the current, and the same again because
+  // the averaging window cuts a sector.
   const NoLoad n = found(maxon_bench());
   EXPECT_NEAR(n.point.speed_rad_s, 702.6128, 5e-5);
   EXPECT_NEAR(n.point.winding_current_A, 0.15310, 3e-5);
@@ -55,7 +56,7 @@ TEST(NoLoad, AFreeRotorAgrees) {
     b.motor.shaft.coulomb_Nm = coulomb;
     const NoLoad n = found(b);
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, swing_rad_s(b, n));
-    // The relative difference of friction is equal to that of the speed.
+    // The relative difference of friction is equal to the relative difference of speed.
     const double part = swing_rad_s(b, n) / n.point.speed_rad_s;
     EXPECT_NEAR(n.free_winding_current_A, n.point.winding_current_A, 4 * part * n.point.winding_current_A);
     EXPECT_NEAR(n.free_bus_current_A, n.point.bus_current_A, 4 * part * n.point.bus_current_A);

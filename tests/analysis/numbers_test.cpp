@@ -21,7 +21,7 @@ std::string first(const base::Problems& problems) {
   return problems.empty() ? std::string() : to_string(problems.front());
 }
 
-/// Values within the limits give a drive, or a refusal with a message, but never an invalid result.
+/// Values within the limits give a drive or a refusal with a message, but never an invalid result.
 TEST(Numbers, ADesignAtTheEndsOfTheTableIsUsableOrRefused) {
   for (const double voltage_V : {1e-6, 1e-3, 100.0, 1e3, 1e5})
     for (const double period_s : {1e-9, 30e-6, 1e-3, 1.0})

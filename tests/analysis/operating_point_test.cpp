@@ -28,8 +28,8 @@ OperatingPoint at(const Bench& b, double speed) {
 
 const double speeds[] = {0.5, 20.0, 150.0, 400.0, 548.7, 702.6, 716.0, 900.0, 1500.0, -10.0, -300.0};
 
-/// Largest relative residual of a point's energies. It allows for the rounding of the integrals of some
-/// hundred segments, a few eps each, and of their sums.
+/// Largest relative residual of a point's energies. It allows for the rounding of the integrals over some
+/// hundred segments, a few machine epsilons each, and of their sums.
 constexpr double balance = 1e-12;
 
 TEST(OperatingPoint, EnergyBalances) {
@@ -41,8 +41,8 @@ TEST(OperatingPoint, EnergyBalances) {
       SCOPED_TRACE(speed);
       EXPECT_LE(std::fabs(p.energy_residual), balance);
       const double left = p.supplied_W - p.copper_W - p.devices_W - p.friction_W - p.shaft_W;
-      // The mean torque is computed separately from T_e w. The stored energy changes by the residual of the
-      // periodic orbit.
+      // The mean torque is computed separately from the mean of T_e w (torque times speed). The stored energy
+      // changes by the residual of the periodic orbit.
       EXPECT_NEAR(left, 0.0, balance * (p.copper_W + std::fabs(p.supplied_W) + std::fabs(p.shaft_W)));
       EXPECT_EQ(p.devices_W > 0, !ideal);
     }
@@ -73,7 +73,7 @@ TEST(OperatingPoint, RippleAndRmsAreOrderedAsTheyMustBe) {
   }
 }
 
-/// A run of the complete program at a speed that a large flywheel keeps constant: with 1e9 kg m^2, 0.8 N m
+/// A run of the complete program at a speed that a large flywheel keeps constant. With 1e9 kg m^2, 0.8 N m
 /// changes the speed by less than 1e-10 rad/s in 0.1 s.
 study::Outcome long_run(const Bench& b, double speed, double from_s, double seconds) {
   study::Scenario s = maxon_scenario(control::Mode::duty, b.duty);
@@ -109,7 +109,7 @@ TEST(OperatingPoint, IsTheTailOfALongRunTo1e9) {
       if (!ideal) b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
       const OperatingPoint p = at(b, speed);
       // The window has whole electrical turns and begins after 60 time constants. Its ends are rounded to
-      // picoseconds: an error of 1e-12 s of 40 A in at least 0.02 s.
+      // picoseconds, which is an error of 1e-12 s at 40 A in at least 0.02 s.
       const double turn_s = 2 * base::pi / (8 * std::fabs(speed));
       const study::Outcome run = long_run(b, speed, 0.035, std::ceil(0.02 / turn_s) * turn_s);
       const auto measured = [&](std::size_t n) { return run.comparisons[n].measured; };
@@ -132,8 +132,8 @@ TEST(OperatingPoint, WithoutInductanceIsTheIdealLine) {
     };
     const double coarse = missing(1e-3), fine = missing(0.5e-3);
     EXPECT_GT(coarse, 0.0) << speed;
-    // To first order, the torque lost to inductance is linear in L. The relative error of second order is the
-    // ratio of lost torque to ideal torque.
+    // To first order, the torque lost to inductance is proportional to L. The relative error of second order
+    // is the ratio of lost torque to ideal torque.
     EXPECT_NEAR(fine / coarse, 0.5, 2 * coarse / ideal) << speed;
     EXPECT_NEAR(2 * fine - coarse, 0.0, 2 * coarse * coarse / ideal) << speed;
   }
@@ -164,8 +164,8 @@ TEST(OperatingPoint, MirroredItIsTheSame) {
   }
 }
 
-/// Mean over rotors held at many angles, by Gauss quadrature on each piece of the back-EMF's shape. It is
-/// exact if the pieces are linear.
+/// Mean over rotors held at many angles. Gauss quadrature on each piece of the back-EMF's shape is exact if
+/// the pieces are linear.
 struct HeldMeans {
   double torque = 0.0, square = 0.0, low = 1e9, high = -1e9;
 };
@@ -240,7 +240,7 @@ TEST(OperatingPoint, ALockedRotorLoadsTwoPhasesAndItsAngleDecides) {
 TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   for (const Bench& b : {maxon_bench(), shaped(design::BackEmfShape::sine, 120)}) {
     const OperatingPoint still = at(b, 0.0), slow = at(b, 0.01), slower = at(b, 0.005);
-    // The effects are of first order in the speed: the back-EMF, and the fraction of time in commutations.
+    // Two effects are of first order in the speed: the back-EMF, and the part of the time in commutations.
     EXPECT_NEAR(2 * slower.torque_Nm - slow.torque_Nm, still.torque_Nm, 1e-9);
     EXPECT_LT(slow.torque_Nm, slower.torque_Nm);
     EXPECT_LT(slower.torque_Nm, still.torque_Nm);
@@ -248,8 +248,8 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   }
 }
 
-/// Dry friction stays constant as the rotor slows down. At speed 0, the friction is that of slow rotation,
-/// but at most the driving torque.
+/// Dry friction remains constant as the rotor slows down. At speed 0, the friction is equal to the friction
+/// of slow rotation, but at most equal to the driving torque.
 TEST(OperatingPoint, WhatJustTurnsHasTheFrictionOfSlowRotation) {
   Bench b = maxon_bench();
   b.motor.shaft.coulomb_Nm = 0.1;
@@ -285,8 +285,8 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // With random phases, 16 intervals of 99 % have more than one miss in one of 90 runs. The phases in this
-  // test are evenly spread.
+  // The intervals have a confidence of 99 %. With random phases of the PWM, more than one of 16 intervals
+  // would miss in one of 90 runs. The phases in this test are evenly spread.
   EXPECT_LE(missed, 1) << "seed " << seed;
 }
 
@@ -300,8 +300,8 @@ TEST(OperatingPoint, ChoppedAtNearlyFullDutyComesToFullDuty) {
 }
 
 TEST(OperatingPoint, HeldRotorUnderChoppingIsTheMeanVoltageOverTheResistance) {
-  // Current always flows with ideal devices. The mean voltage is d U for soft and complementary chopping, and
-  // (2 d - 1) U for hard chopping.
+  // With ideal devices, the current never stops. The mean voltage is d U for soft and complementary chopping,
+  // and (2 d - 1) U for hard chopping, with duty d and bus voltage U.
   for (const control::Chopping chopping :
        {control::Chopping::soft, control::Chopping::hard, control::Chopping::complementary}) {
     Bench b = maxon_bench();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds that allow for the time of commutation: the tolerances of a sheet's speeds, and the speed of a
-// design's test. Both are checked with the simulated motor.
+// Two bounds allow for the time of commutation: the tolerances of a sheet's speeds, and the speed of a
+// design's test. Both bounds are checked with the simulated motor.
 #include <gtest/gtest.h>
 
 #include "sixstep/analysis/curve/curve.hpp"
@@ -17,7 +17,7 @@ using base::Quantity;
 using design::RelationVerdict;
 using design::Sheet;
 
-/// The sheet of a 24 V motor; the nominal point is later computed from the curve.
+/// The sheet of a 24 V motor. The tests compute its nominal point later from the curve.
 Sheet motor(design::BackEmfShape shape, double L_mH, int pole_pairs, double idle_mA) {
   Sheet s;
   s.name = "simulated";
@@ -42,7 +42,7 @@ RelationVerdict verdict(const Sheet& sheet, const std::string& name) {
   return RelationVerdict::broken;
 }
 
-/// The same sheet with the points that the simulation gives for the cold motor.
+/// The same sheet with the points that the simulation of the cold motor gives.
 Sheet with_its_points(Sheet s) {
   analysis::CurveRequest r{.sheet = s, .points = 2};
   r.bench.motor = *design::motor_model(s);
@@ -76,7 +76,8 @@ TEST(SheetOfCurve, TheSimulatedMotorsPointsHold) {
       Sheet silent = s;
       silent.no_load_speed_rpm.reset();
       EXPECT_EQ(verdict(silent, "nominal speed"), RelationVerdict::holds) << c.L_mH << " " << c.idle_mA;
-      // Commutation only lowers the speed, so a no-load speed above the ideal line violates the relation.
+      // Commutation only lowers the speed, so a no-load speed above the ideal line contradicts the data
+      // sheet's other values.
       Sheet fast = s;
       fast.no_load_speed_rpm->value =
           1.05 * (24 - 1.5e-3 * s.no_load_current_mA->value) / 35e-3 * base::rpm_per_rad_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each member of a specification has an effect. In each mode, method and kind of sensor, a changed member
-// changes the design or its run, or is refused by name.
+// changes the design or its run, or the member is refused by name.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -41,8 +41,8 @@ const Member members[] = {
     {"lowest_speed_rad_s", [](DesignSpec& w) { w.lowest_speed_rad_s = 55.0; }},
 };
 
-/// Results of a specification, without the values that it requests: gains and figures of each loop, the
-/// number of warnings, and the values of the run.
+/// Results of a design without the values that the specification requests: gains and figures of each loop,
+/// the number of warnings, and the values of the run.
 std::vector<double> result_of(const DesignSpec& w) {
   const auto d = design::design_drive(*design::motor_model(subject.sheet), w);
   if (!d) return {};
@@ -88,8 +88,8 @@ TEST(SpecUse, EachMemberChangesTheDesignOrIsRefusedByName) {
         for (const bool bandwidth : {false, true}) {
           if (method == GainMethod::symmetrical_optimum && mode == Mode::current) continue;
           if (method == GainMethod::pole_placement && bandwidth) continue;
-          // A position loop contains the speed loop of the same method, so the speed mode covers these
-          // methods.
+          // A position loop contains the speed loop of the same method. These methods are therefore tested in
+          // speed mode only.
           if (method != GainMethod::pole_placement && mode == Mode::position) continue;
           DesignSpec w = design::on_a_board();
           w.mode = mode;
@@ -102,7 +102,7 @@ TEST(SpecUse, EachMemberChangesTheDesignOrIsRefusedByName) {
         }
 }
 
-/// A refused member must change no result.
+/// A member that is refused as unused must change no result.
 TEST(SpecUse, WhatIsRefusedChangesNothing) {
   for (const Mode mode : {Mode::current, Mode::speed, Mode::position})
     for (const bool hall : {true, false}) {

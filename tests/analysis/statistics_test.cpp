@@ -34,7 +34,7 @@ TEST(Statistics, QuantilesAreValuesThatOccurred) {
   EXPECT_EQ(s.quantile(1.0), 40.0);
 }
 
-/// The number of values above the median is equal to the number of values below it.
+/// The median has as many values above it as below it.
 TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({30, 10, 40}).median(), 30.0);
   EXPECT_EQ(of({30, 10, 40, 20}).median(), 25.0);
@@ -47,7 +47,8 @@ TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({1, 2, never}).median(), 2.0);
   EXPECT_EQ(of({never, never}).median(), never);
   EXPECT_EQ(of({most, most}).median(), most);
-  // Mirrored values have the mirrored median. Either of the two middle values would not have this symmetry.
+  // Mirrored values have the mirrored median. If the median were one of the two middle values, this symmetry
+  // would not hold.
   EXPECT_EQ(*of({-30, -10, -40, -20}).median(), -*of({30, 10, 40, 20}).median());
 }
 
@@ -75,7 +76,7 @@ TEST(Statistics, WhatHasNoValueIsCountedApart) {
   EXPECT_EQ(s.mean(), 2.0);
 }
 
-/// The values differ only in their last digits, which plain sums of the large values would lose.
+/// The values differ only in their last digits. Plain sums of the large values would lose these digits.
 TEST(Statistics, KeepsTheDigitsOfFiguresThatHardlyDiffer) {
   const double base = 1e9, step = 0x1p-20;
   Statistics s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conditions of a usable design, computed from its figures, and the default current loop.
+// Tests the conditions of a usable design, which are computed from its figures, and the default current loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ double swing_of(const DesignStudy& study) {
   return 0.0;
 }
 
-/// With one pole pair, a Hall step is 60 degrees, so the rotor oscillates by a few such steps around its
-/// target.
+/// With one pole pair, a Hall step is 60 degrees, so the rotor oscillates around its target by a few such
+/// steps.
 TEST(UsableDesign, APositionOnHallProbesOfOnePolePairIsNone) {
   DesignOrder order = on_a_board(Mode::position);
   order.subject.sheet.pole_pairs = 1;
@@ -59,8 +59,8 @@ void holds_its_figures(const DesignStudy& study) {
   }
 }
 
-/// At each end of the tolerances, the overshoot is below the step, the start settles, and the rotor rests
-/// near its target.
+/// At each end of the tolerances, three conditions are met: the overshoot is below the step, the start
+/// settles, and the rotor rests near its target.
 TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   int usable = 0;
   for (const Mode mode : {Mode::speed, Mode::position}) {
@@ -77,8 +77,8 @@ TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   EXPECT_GE(usable, 2);
 }
 
-/// A move of height h with torque T takes 2 sqrt(h J/T). If the bus voltage ends the acceleration at the
-/// speed `top`, it takes h/top + top J/T.
+/// A move by the angle h with the torque T takes 2 sqrt(h J/T), with the inertia J. If the bus voltage ends
+/// the acceleration at the speed `top`, the move takes h/top + top J/T.
 TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
   for (const double bus_V : {6.0, 24.0, 200.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -96,7 +96,7 @@ TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
 }
 
 /// A move of two turns accelerates the rotor to 167 rad/s. If the sheet limits the speed to 130 rad/s, the
-/// loop keeps the speed below this limit.
+/// loop keeps the speed below 130 rad/s.
 TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   for (const double most_rad_s : {0.0, 130.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -136,8 +136,8 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
   EXPECT_EQ(study.problems().front().where, "lowest_speed_rad_s");
 }
 
-/// At full torque, the step takes J w/T_max. With a flywheel, the default settling time and the run time are
-/// longer than this.
+/// At full torque T_max, a step of the speed by w takes J w/T_max. With a flywheel, the default settling time
+/// and the run time are longer than this time.
 TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   DesignOrder order = on_a_board(Mode::speed);
   order.spec.load_inertia_kg_m2 = 1e-3;
@@ -147,8 +147,8 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   const double soonest = 1.0135e-3 * 35.5 / 0.195;
   EXPECT_GT(*usual->design.spec.settle_s, soonest);
   for (const design::Warning& w : usual->warnings) EXPECT_NE(w.of, design::Concern::settling) << w.what;
-  // If the settling time is too short, the run is still long enough to show the actual settling time, and the
-  // advice is a slower loop.
+  // If the requested settling time is too short, the run is still long enough to show the actual settling
+  // time. The advice is a slower loop.
   order.spec.settle_s = 0.037;
   order.advises = true;
   const auto hasty = study_design(order);
@@ -161,8 +161,7 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   EXPECT_NE(late->cure.find("settle_s = 0.28"), std::string::npos) << late->cure;
 }
 
-/// In the test, the speed falls to the lowest speed, but not below it, for any lowest speed below the top
-/// speed.
+/// In the test run, the speed falls exactly to the lowest speed, for any lowest speed below the top speed.
 TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
   for (const double lowest_rad_s : {71.0, 300.0, 420.0, 450.0}) {
     DesignOrder order = on_a_board(Mode::speed);
@@ -211,7 +210,8 @@ TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
   EXPECT_GE(slower, 1);
 }
 
-/// Pole placement gives a positive d1 as long as 2 x 4.6/T_reg is above R/L.
+/// Pole placement gives a positive gain d1 if 2 x 4.6/T_reg exceeds R/L (settling time T_reg, resistance R,
+/// inductance L).
 TEST(UsualCurrentLoop, OfAnyWindingGainsPositively) {
   for (const double times : {1.0, 0.3, 0.1, 0.03}) {
     design::MotorModel motor = *design::motor_model(sixstep::testing::maxon_sheet());

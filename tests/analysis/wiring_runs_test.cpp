@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All 36 ways to connect a motor, as bench runs. The measured behaviour is equal to the theory, which the run
-// does not use.
+// Bench runs of all 36 ways to connect a motor. The measured behaviour is equal to the theory, although the
+// runs do not use the theory.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,8 @@ WiringStudy studied(const design::Sheet& sheet) {
   return s ? *s : WiringStudy{};
 }
 
-/// Torque per ampere differs from theory only during a commutation, that is for five L/R of each sector.
+/// The torque per ampere differs from theory only during a commutation, which takes five time constants L/R
+/// in each sector.
 void expect_theory_and_runs_agree(const WiringStudy& s) {
   ASSERT_EQ(s.cases.size(), 36u);
   const double straight = s.cases.front().measured.torque_Nm_A;
@@ -61,11 +62,11 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
   EXPECT_EQ(s.bench.from, analysis::BenchCurrent::nominal);
   EXPECT_NEAR(s.bench.duty, 2.33 / (24 / 1.03), 1e-15);
   EXPECT_EQ(s.symptom(WiringDoes::hums).ways, 18u);
-  // The symptom on a bench: without load, a motor with a rough wiring draws half of the stalled current, a
-  // motor with straight wires almost no current.
+  // The symptom on a bench is the current without load. A motor with a rough wiring draws half of the stalled
+  // current; a motor with straight wires draws almost no current.
   EXPECT_NEAR(s.symptom(WiringDoes::forward_late).phase_rms_A, std::sqrt(2.0 / 3) * 0.5 * 2.33, 0.05 * 2.33);
   EXPECT_LT(s.symptom(WiringDoes::forward).phase_rms_A, 0.05 * 2.33);
-  // A motor at constant speed draws the losses of friction and copper from its supply.
+  // A motor at constant speed takes from its supply exactly the losses of friction and copper.
   for (const WiringDoes does : {WiringDoes::forward, WiringDoes::backward, WiringDoes::forward_early,
                                 WiringDoes::forward_late, WiringDoes::backward_early}) {
     const analysis::Symptom told = s.symptom(does);
@@ -78,7 +79,7 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
 }
 
 /// A drone motor's winding current decays within a PWM period of 50 us. Its torque per ampere is still equal
-/// to theory.
+/// to the theory.
 TEST(WiringRuns, OfAShortTimeConstantHaveTheTorqueOfTheory) {
   design::Sheet sheet = nominal_sheet();
   sheet.inductance_mH->value = 0.02;
@@ -114,11 +115,11 @@ TEST(WiringRuns, OfASalientMotorWithCoggingDoWhatTheorySays) {
   expect_theory_and_runs_agree(studied(sheet));
 }
 
-/// Half the torque does not overcome this friction, although theory without friction predicts rotation. The
-/// study reports the difference.
+/// Half of the torque does not overcome this friction, although the theory without friction predicts
+/// rotation. The study reports the contradiction.
 TEST(WiringRuns, ThatFrictionHoldsDisagreeAndSayHow) {
   design::Sheet sheet = nominal_sheet();
-  // at this current the motor's whole torque is 78 mNm
+  // At this current, the full torque of the motor is 78 mN m.
   sheet.coulomb_friction_mNm = base::Quantity{60, "", ""};
   const WiringStudy s = studied(sheet);
   EXPECT_EQ(s.agreeing(), 24u);
@@ -126,7 +127,8 @@ TEST(WiringRuns, ThatFrictionHoldsDisagreeAndSayHow) {
     EXPECT_EQ(c.measured.does, analysis::runs_well(c.theory.does) ? c.theory.does : WiringDoes::hums);
 }
 
-/// Six starts with `turns` turns each, half of them within the evaluated time.
+/// Results of six starts, each with `turns` electrical turns in total. Half of these turns are within the
+/// evaluated time.
 WiringMeasured measured(std::array<double, 6> turns, double torque, std::array<float, 2> halves) {
   WiringMeasured m;
   for (std::size_t n = 0; n < 6; ++n) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The theory of the 36 ways to connect a motor is checked by independent tables and by numerical integration
-// of the shapes. Renaming phases and probes together must not change a result.
+// of the shapes. If phases and probes are renamed together, no result may change.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const std::string words[] = {"abc", "bca", "cab", "acb", "cba", "bac"};
 constexpr int probes[6][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}};
 constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
 
-/// The phase at each leg and the probe at each pin, one letter for each.
+/// The phase at each leg, and the probe at each pin. One letter names a phase or a probe.
 struct Words {
   std::string phases, probes;
 };
@@ -58,7 +58,8 @@ double of_sines(double deg, const std::vector<plant::general::Harmonic>& all) {
   return sum;
 }
 
-/// A motor, and the torque per ampere of a pair of its phases, computed according to model.md 7.
+/// A motor, and the torque per ampere of a pair of its phases. The torque is computed according to model.md
+/// 7.
 struct Motor {
   const char* name;
   Machine machine;
@@ -111,9 +112,9 @@ std::vector<Motor> motors() {
 
 constexpr double current = 3.0;
 
-/// At a corner, the midpoint rule with h = pi/18000 has an error of h^2/8 times the change of slope. Six
-/// corners with a change of (180/pi)/30 K per line give 2e-8 K together. The error for a cosine, (h^2/24)
-/// f'', is smaller.
+/// Numerical integration with the midpoint rule, step h = pi/18000. At a corner, its error is h^2/8 times the
+/// change of slope. Six corners with a change of (180/pi)/30 K per line give an error of 2e-8 K in total. For
+/// a cosine f, the error (h^2/24) f'' is smaller.
 struct BruteForce {
   std::array<double, 6> sector{};
   double mean = 0, square = 0, first = 0, second = 0;
@@ -137,7 +138,7 @@ WiringDoes expected(const BruteForce& b, const BruteForce& straight) {
   if (*least <= 0 && *most >= 0) return WiringDoes::hums;
   const bool forward = *least > 0, well = std::fabs(b.mean) > 0.75 * straight.mean;
   if (well) return forward ? WiringDoes::forward : WiringDoes::backward;
-  // The torque of an early pair increases during the sector.
+  // If the pair is early, the torque increases during the sector.
   const bool comes = forward ? b.second > b.first : std::fabs(b.first) > std::fabs(b.second);
   if (forward) return comes ? WiringDoes::forward_early : WiringDoes::forward_late;
   return comes ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -169,12 +170,12 @@ TEST(WiringTheory, IsTheTorqueIntegratedByBruteForce) {
   });
 }
 
-/// For each shape, three wirings run well forward and three backward. Six run roughly in each direction, and
-/// eighteen hum.
+/// For each shape, three wirings run well forward, and three run well backward. Six wirings run roughly in
+/// each direction, and eighteen hum.
 TEST(WiringTheory, CountsTheWays) {
   for (const Motor& m : motors()) {
-    // With a large current, a salient rotor turns almost as well with a pair one sector ahead, except at the
-    // end of each sector.
+    // At a large current, a salient rotor turns almost as well with a pair that is one sector ahead, except
+    // at the end of each sector.
     for (const double amperes : {current, 5 * current}) {
       std::array<int, analysis::kinds_of_wiring> count{};
       const analysis::PairTorque torque(m.machine, amperes);
@@ -198,8 +199,9 @@ TEST(WiringTheory, OfAlikePhasesHasHalfTheTorqueASectorOff) {
   });
 }
 
-/// With flat tops, a pair that is one sector off has mean(g^2) = 4/3 K^2, where K is the mean of g. Without
-/// load the motor runs 1.5 times as fast as with straight wires and draws half of the stalled current.
+/// With flat tops, a pair that is one sector off has the torque g per ampere with mean(g^2) = 4/3 K^2, where
+/// K is the mean of g. Without load, the motor runs 1.5 times as fast as with straight wires and draws half
+/// of the stalled current.
 TEST(WiringTheory, KnowsWhatATrapezoidDrawsWithoutLoad) {
   const Motor m = motors()[0];
   const analysis::PairTorque torque(m.machine, current);
@@ -250,8 +252,8 @@ TEST(WiringTheory, DoesNotSeeNamesThatMoveOnTogether) {
   });
 }
 
-/// If phases a and b, and probes 2 and 3, exchange their names and the angle is reversed, the result is the
-/// mirrored motor.
+/// Phases a and b exchange their names, probes 2 and 3 exchange their names, and the angle is reversed. The
+/// result is the mirrored motor, which turns in the opposite direction.
 TEST(WiringTheory, RunsTheMirroredMotorTheOtherWay) {
   const auto renamed = [](WireOrder order, char x, char y) {
     std::string word = words[static_cast<int>(order)];
@@ -271,7 +273,7 @@ TEST(WiringTheory, RunsTheMirroredMotorTheOtherWay) {
   });
 }
 
-/// The wires at the three terminals after the moves, one letter for each.
+/// The wires at the three terminals after the moves. One letter names a wire.
 std::string moved(const std::string& word, const analysis::Moves& moves) {
   std::string out(3, ' ');
   for (std::size_t n = 0; n < 3; ++n) out[moves[n]] = word[n];
@@ -325,7 +327,7 @@ TEST(Cures, OfThePhaseWiresAloneReachNoMoreThanARunBackwardWhereTwoHallLinesAreS
     const bool keeps = analysis::keeps_the_turn(w.probes);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::forward)], keeps ? 1 : 0);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::backward)], keeps ? 0 : 1);
-    // The rough wirings run in the opposite direction.
+    // Wirings that run roughly change their direction of rotation.
     EXPECT_EQ(count[static_cast<int>(WiringDoes::backward_early)], keeps ? 1 : 0);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::forward_late)], keeps ? 0 : 1);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::hums)], 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A printed decimal that is converted to another unit is equal to the double of the decimal written in that
-// unit.
+// A printed decimal is converted to another unit. The result is equal to the double of the decimal that is
+// written in the other unit.
 #include "sixstep/base/decimal.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guarantees of base/elementary.hpp: errors below 1 ulp, exact results where required, special values,
-// and the same bits everywhere.
+// Tests the guarantees of base/elementary.hpp: errors below 1 ulp, exact results where required, special
+// values, and the same bits on every platform.
 #include "sixstep/base/elementary.hpp"
 
 #include <gtest/gtest.h>
@@ -25,10 +25,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double max = std::numeric_limits<double>::max();
 constexpr double tiny = std::numeric_limits<double>::denorm_min();
 
-// The reference must have about ten bits more than a double.
+// The reference needs about ten bits more than a double.
 constexpr bool has_oracle = std::numeric_limits<Wide>::digits >= 64;
 
-/// Distance between `got` and the true value, in units of the last place of the nearest double.
+/// Error of `got` against `truth`, in units of the last place (ulp) of the nearest double.
 double ulps(double got, Wide truth) {
   const double nearest = static_cast<double>(truth);
   if (std::isinf(nearest) || nearest == 0.0) return got == nearest ? 0.0 : inf;
@@ -46,7 +46,7 @@ class Elementary : public ::testing::Test {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   }
-  /// Any exponent in [2^low, 2^high), any mantissa.
+  /// A random number with an exponent from `low` to `high` and any mantissa.
   double wide(double low, double high) {
     return std::ldexp(uniform(1.0, 2.0), static_cast<int>(std::floor(uniform(low, high))));
   }
@@ -119,7 +119,7 @@ TEST_F(Elementary, PowIsWithinOneUlpOverItsWholeRange) {
   EXPECT_LE(worst, 0.8) << "seed " << seed;
 }
 
-// Known values of single doubles need no library for comparison.
+// The values are known from the literature, so no library is needed for comparison.
 TEST(ElementaryHardCases, SineOfTheDoubleNextToAMultipleOfHalfPi) {
   // The double nearest to a multiple of pi/2 is 6381956970095103 * 2^797: its cosine is -4.6871659242546277e-19 (J.-M. Muller, Elementary
   // Functions, 3rd ed., section 11.5).
@@ -180,7 +180,7 @@ TEST(ElementaryHardCases, SpecialValuesAreThoseOfTheStandard) {
   const std::vector<double> values{0.0,  -0.0, 1.0,  -1.0, 0.5,   -0.5, 2.0,  -2.0, 3.0,
                                    -3.0, inf,  -inf, tiny, -tiny, max,  -max, 2.5,  9007199254740993.0};
   for (const double x : values) {
-    // std::pow and std::atan2 are the reference: the results are exact or special
+    // std::pow() and std::atan2() are the reference, because these results are exact or special values.
     for (const double y : values) {
       const double power = std::pow(x, y), got = base::pow(x, y), angle = base::atan2(y, x);
       if (std::isnan(power)) {
@@ -199,7 +199,7 @@ TEST(ElementaryHardCases, SpecialValuesAreThoseOfTheStandard) {
 }
 
 TEST(ElementaryProperties, NeighboursNeverChangePlaces) {
-  // If the error is well below 1 ulp, monotone functions stay monotone for neighbouring doubles.
+  // If the error is well below 1 ulp, a monotone function is monotone even between neighbouring doubles.
   for (const double start : {-700.0, -2.0, -0.3466, -1e-9, 0.3465, 1.0395, 2.0, 500.0}) {
     double x = start, last = base::exp(x);
     for (int n = 0; n < 5000; ++n) {
@@ -234,7 +234,8 @@ TEST(ElementaryProperties, SymmetriesHoldToTheBit) {
   }
 }
 
-/// FNV-1a over the bits, least significant byte first, so that the byte order in memory has no influence.
+/// FNV-1a hash over the bits. The least significant byte comes first, so the byte order in memory has no
+/// effect.
 struct Digest {
   std::uint64_t value = 0xcbf29ce484222325u;
   void add(double x) {
@@ -244,9 +245,9 @@ struct Digest {
 };
 
 TEST(ElementaryBits, AreTheSameOnEveryCompilerAndPlatform) {
-  // The arguments come from a 64-bit linear congruence and exact arithmetic only. A platform that fails here
-  // contracts a b + c or computes in more than double precision. Check its compiler flags; never change this
-  // number.
+  // The arguments are computed from a 64-bit linear congruential generator with exact arithmetic only. If a
+  // platform fails in this test, its compiler contracts a b + c or computes with more than double precision.
+  // Check the compiler flags; never change this number.
   std::uint64_t state = 1;
   const auto next = [&state] {  // in [1, 2)
     state = state * 6364136223846793005u + 1442695040888963407u;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Known results of the generator's authors, and moments within bounds that the sample's size determines.
+// Compares with known results of the generator's authors. Moments must be within bounds that follow from the
+// number of samples.
 #include "sixstep/base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 namespace sixstep::base {
 namespace SIXSTEP_TEST_FILE {
 
-// Random123's kat_vectors, philox4x32 with 10 rounds: counter, key, result.
+// Known answers of Random123 (kat_vectors) for philox4x32 with 10 rounds: counter, key, result.
 static_assert(philox({0, 0, 0, 0}, {0, 0}) ==
               PhiloxBlock{0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u});
 static_assert(philox({~0u, ~0u, ~0u, ~0u}, {~0u, ~0u}) ==
@@ -21,7 +22,7 @@ static_assert(philox({~0u, ~0u, ~0u, ~0u}, {~0u, ~0u}) ==
 static_assert(philox({0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u}, {0xa4093822u, 0x299f31d0u}) ==
               PhiloxBlock{0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u});
 
-// Both ends of the open interval, and its symmetry.
+// Both ends of the open interval, and the symmetry of the interval.
 static_assert(open_unit(0) == 0x1p-53 && open_unit(~std::uint64_t{0}) == 1.0 - 0x1p-53);
 static_assert(open_unit(0) + open_unit(~std::uint64_t{0}) == 1.0);
 
@@ -41,7 +42,7 @@ double mean_of_power(const std::vector<double>& x, double centre, int power) {
   return sum / static_cast<double>(x.size());
 }
 
-/// The mean of n draws has the standard deviation sqrt(variance/n). The error exceeds five standard
+/// The mean of n draws has the standard deviation sqrt(variance/n). Its error exceeds five standard
 /// deviations in one of 1.7 million means.
 double five_sigma(double variance) { return 5.0 * std::sqrt(variance / count); }
 
@@ -49,7 +50,10 @@ TEST(Random, UniformHasItsMoments) {
   for (const std::uint64_t stream : {0u, 1u, 77u}) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", stream " + std::to_string(stream));
     const std::vector<double> x = draws(draw_uniform, stream);
-    // Variances: of x: 1/12; of (x - 1/2)^2: 1/80 - 1/144 = 1/180; of (x - 1/2)^4: 1/2304 - 1/6400.
+    // Variances of the three powers:
+    // - x: 1/12
+    // - (x - 1/2)^2: 1/80 - 1/144 = 1/180
+    // - (x - 1/2)^4: 1/2304 - 1/6400
     EXPECT_NEAR(mean_of_power(x, 0.0, 1), 0.5, five_sigma(1.0 / 12));
     EXPECT_NEAR(mean_of_power(x, 0.5, 2), 1.0 / 12, five_sigma(1.0 / 180));
     EXPECT_NEAR(mean_of_power(x, 0.5, 4), 1.0 / 80, five_sigma(1.0 / 2304 - 1.0 / 6400));
@@ -60,7 +64,8 @@ TEST(Random, NormalHasItsMoments) {
   for (const std::uint64_t stream : {0u, 1u, 77u}) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", stream " + std::to_string(stream));
     const std::vector<double> x = draws(normal, stream);
-    // Moments E x^2k = (2k - 1)!!, so Var(x^2) = 3 - 1, Var(x^3) = 15, Var(x^4) = 105 - 9.
+    // The moments are E x^2k = (2k - 1)!!, so Var(x) = 1, Var(x^2) = 3 - 1, Var(x^3) = 15, and Var(x^4) = 105
+    // - 9.
     EXPECT_NEAR(mean_of_power(x, 0.0, 1), 0.0, five_sigma(1.0));
     EXPECT_NEAR(mean_of_power(x, 0.0, 2), 1.0, five_sigma(2.0));
     EXPECT_NEAR(mean_of_power(x, 0.0, 3), 0.0, five_sigma(15.0));
@@ -68,7 +73,8 @@ TEST(Random, NormalHasItsMoments) {
   }
 }
 
-/// The Kolmogorov-Smirnov bound: sqrt(n) D exceeds 2.8 with probability 2 exp(-2 2.8^2) = 3e-7.
+/// The Kolmogorov-Smirnov distance D of n samples: sqrt(n) D exceeds 2.8 with the probability 2 exp(-2 2.8^2)
+/// = 3e-7.
 double deviation(std::vector<double> x, double (*distribution)(double)) {
   std::sort(x.begin(), x.end());
   double worst = 0.0;
@@ -85,7 +91,8 @@ TEST(Random, BothFollowTheirDistribution) {
       << "seed " << seed;
 }
 
-/// Neighbours in seed, stream and counter are independent: the product of two centred uniforms has variance 1/144.
+/// Numbers of neighbouring seeds, streams and counters are independent. The product of two independent
+/// centred uniform numbers has the variance 1/144.
 TEST(Random, NeighboursAreNotCorrelated) {
   double by_seed = 0.0, by_stream = 0.0, by_counter = 0.0;
   for (std::uint64_t n = 0; n < count; ++n) {
@@ -118,7 +125,7 @@ TEST(Random, EveryBitOfThePlaceCounts) {
   }
 }
 
-/// The bits are equal on every platform: normal() depends only on base/elementary.
+/// The bits are equal on every platform, because normal() uses only base/elementary.
 TEST(Random, HasTheSameBitsEverywhere) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(uniform({1, 2, 3})), 0x3fd98fbfd3f7822eu);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(normal({1, 2, 3})), 0xbfb26ab5baedb393u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan on a cluster gives the same rows as one process, for any distribution of the runs. Threads with
-// mailboxes replace the processes.
+// A plan on a cluster gives the same rows as one process, for any distribution of the runs. In this test,
+// threads with mailboxes replace the processes.
 #include "batch/cluster.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::testing;
 
-/// Mailboxes in memory.
+/// Mailboxes in memory, one for each process.
 struct Post {
   std::mutex guard;
   std::map<unsigned, std::deque<Mail>> boxes;
@@ -62,7 +62,7 @@ base::Result<analysis::PlannedRun> drive(const study::Scenario& s, std::uint64_t
   return analysis::planned_drive(s, seed, n);
 }
 
-/// A leader and its followers, `others`. Each follower has requested its seed from the leader.
+/// A leader and its followers (`others`). Each follower has already requested its first work from the leader.
 struct Together {
   study::Scenario scenario = half_ms();
   analysis::Plan plan{.axes = {}, .drives = 60, .seed = 5};
@@ -152,7 +152,7 @@ TEST(Cluster, HasTheRowsOfOneProcess) {
   }
 }
 
-/// No run ends before each process has begun a run, so a fast process cannot make all runs.
+/// No run ends before each process has begun a run. Therefore no process can do all runs.
 TEST(Cluster, LetsEverybodyWork) {
   Together cluster;
   cluster.begins_with = 3;
@@ -232,8 +232,8 @@ TEST(Cluster, AnExceptionOfWhoTakesTheRowsComesOut) {
   }
 }
 
-/// The leader's disk is full while a run waits for its answer. No answer arrives, and the follower must end
-/// nevertheless.
+/// The leader's disk is full while a run waits for the leader's answer. The answer never arrives, but the
+/// follower must still end.
 TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
   Together cluster;
   Cluster leader = cluster.post.of(0, 2);
@@ -251,7 +251,7 @@ TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
   EXPECT_EQ(cluster.exits.at(1), 4);
 }
 
-/// A row that does not fit the leader's columns, as from another build, is discarded by the leader.
+/// A follower from another build sends a row with other columns. The leader discards this row.
 TEST(Cluster, RowsOfOtherColumnsAreNoRows) {
   Together cluster;
   cluster.plan.drives = 1'000'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A comparison of controllers: its results obey physical laws, for any number of threads.
+// The results of a comparison of controllers obey physical laws, for any number of threads.
 #include "batch/contest.hpp"
 
 #include <gtest/gtest.h>
@@ -45,8 +45,9 @@ double gauge(const ContestRow& row, Gauge g) {
   return analysis::gauges_of(*row.nominal)[static_cast<std::size_t>(g)];
 }
 
-/// A sine machine with sine currents has T = 3/2 p psi I and a loss of 3/2 R I^2, to which ripple and PWM
-/// add. The loss of six-step control is at least the loss of its best current, 2 R i^2 with T = K_t i.
+/// A sine machine with sine currents has the torque T = 3/2 p psi I and the copper loss 3/2 R I^2 (symbols of
+/// model.md). Ripple and PWM increase the loss. Six-step control has at least the loss 2 R i^2 of its best
+/// current i, with T = K_t i.
 TEST(Contest, CopperLossIsThatOfTheTorque) {
   const Contest c = compared("teknic-m2310p", 0, 2);
   const design::MotorModel& m = c.bench.design.motor;
@@ -79,7 +80,8 @@ TEST(Contest, ComplementaryChoppingSparesTheDiode) {
   EXPECT_LT(gauge(c.rows[1], Gauge::conduction), 0.5 * gauge(c.rows[0], Gauge::conduction));
 }
 
-/// Each controller holds the course's low speed. The lowest speed is found by halving.
+/// In this test, each controller runs well at the course's low speed. Half of this speed, half of the half,
+/// and so on are tried to find the lowest speed.
 TEST(Contest, TheLowestSpeedIsAHalvingOfTheCoursesLowOne) {
   const Contest c = compared("maxon-251601", 0, 2);
   const std::vector<double> speeds = analysis::slow_speeds(c.bench.course);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve is the same for any number of threads.
+// The curve does not depend on the number of threads.
 #include "batch/curve.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random motors on a bench: scenarios of usual recordings, and recordings of them with the faults of instruments.
+// Random motors on a bench: scenarios of common recordings, and the recordings with the errors of
+// instruments.
 #pragma once
 #include <cmath>
 #include <string>
@@ -39,7 +40,8 @@ inline design::Sheet sheet_of(const BenchMotor& m) {
   return s;
 }
 
-/// A motor whose constants are those of small servo motors: time constants of 0.2 to 1 ms and of 5 to 20 ms.
+/// A motor with the constants of small servo motors: electrical time constants of 0.2 to 1 ms, mechanical
+/// time constants of 5 to 20 ms.
 inline BenchMotor drawn_motor(Draw& draw) {
   BenchMotor m;
   m.K_mNm_A = draw.decades(10.0, 60.0);
@@ -52,7 +54,8 @@ inline BenchMotor drawn_motor(Draw& draw) {
   return m;
 }
 
-/// Constants as a sheet would print them of another sample: each is wrong by up to `part`.
+/// Constants as a data sheet prints them for another sample of the motor. Each constant is wrong by up to
+/// `part`.
 inline BenchMotor printed(const BenchMotor& m, Draw& draw, double part) {
   const auto off = [&] { return std::exp(draw.between(-part, part)); };
   return {m.R_ohm * off(),  m.L_mH * off(),         m.K_mNm_A * off(),
@@ -96,7 +99,7 @@ inline study::Scenario bench_scenario(Bench kind, const BenchMotor& m) {
   return s;
 }
 
-/// What an instrument makes of a column.
+/// Errors that an instrument adds to a column.
 struct Instrument {
   double noise = 0.0,
          step = 0.0;  ///< standard deviation, and width of a converter's step, in the column's unit
@@ -106,7 +109,7 @@ struct Instrument {
   double dropped = 0.0;  ///< part of the rows that are missing
 };
 
-/// A recording of some columns of the scenario's run.
+/// A recording of some columns of the scenario's run, with the errors of the instruments `by`.
 inline study::Trace recorded(const study::Scenario& s, const std::vector<study::ColumnId>& columns,
                              double interval_s, const std::vector<Instrument>& by, Draw& draw) {
   study::Trace log;

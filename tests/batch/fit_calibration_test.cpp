@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reliability of fit() over random motors and recordings. The 95 % bounds contain the truth in 93 to 97 of 100 cases, and
-// their median width is within 1.5 of the least possible one (Cramer and Rao).
+// Reliability of fit() over random motors and recordings. The 95 % bounds contain the true value in 93 to 97
+// of 100 cases. Their median width is at most 1.5 times the least possible width (Cramer and Rao).
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -39,7 +39,8 @@ double true_value(const DrawnFit& drawn, const std::string& key, const std::stri
   return found != motor.end() ? found->second : drawn.probes.at(key + " of " + bench);
 }
 
-/// An instrument for a column of this size: noise of 0.2 to 2 %, often a converter of 6 to 10 bits, an offset.
+/// A random instrument for a column of this size. Its noise is 0.2 to 2 %, it has an offset, and often a
+/// converter of 6 to 10 bits.
 Instrument drawn_instrument(Draw& draw, double size) {
   Instrument by{.noise = draw.decades(2e-3, 2e-2) * size, .offset = draw.between(-0.05, 0.05) * size};
   if (draw.chance(0.6)) by.step = size * std::pow(2.0, -draw.between(6.0, 10.0));
@@ -97,8 +98,8 @@ DrawnFit drawn_fit(std::uint64_t seed) {
   return drawn;
 }
 
-/// Least standard deviations at the fitted values, by the true noise of each column and the start's factor of e (Cramer
-/// and Rao).
+/// Least possible standard deviations at the fitted values (Cramer and Rao). The noise of each column is the
+/// true noise; the start values are uncertain by the factor e.
 std::map<std::string, double> least_deviations(const DrawnFit& drawn, const Fit& fit) {
   const auto parameters = batch::fit_parameters(drawn.request);
   std::vector<double> u(parameters->size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits of motors to simulated recordings, judged by the truth.
+// Motors are fitted to simulated recordings. The results are compared with the true constants.
 #include "batch/fit/fit.hpp"
 
 #include <gmock/gmock.h>
@@ -64,7 +64,7 @@ TEST(Fit, ExactRecordingsGiveTheExactConstants) {
   std::printf("%zu simulations\n", found->simulations);
 }
 
-// A locked rotor shows R and L; nothing else has an effect on its current.
+// The current of a locked rotor depends on R and L only.
 TEST(Fit, SaysWhatARecordingDoesNotDetermine) {
   Draw draw(2);
   batch::FitRequest request;
@@ -84,8 +84,8 @@ TEST(Fit, SaysWhatARecordingDoesNotDetermine) {
   }
 }
 
-// With an unknown scale of the probe, the end value U d/R determines no more than the ratio of scale and R. The rise
-// determines L/R, so that L is known relative to R alone.
+// The scale of the probe is unknown. The end value U d/R then determines only the ratio of scale and R. The
+// rise determines L/R, so L is also known only relative to R.
 TEST(Fit, AnUnknownScaleAndTheResistanceCannotBeToldApart) {
   Draw draw(3);
   batch::FitRequest request;
@@ -102,7 +102,7 @@ TEST(Fit, AnUnknownScaleAndTheResistanceCannotBeToldApart) {
               HasSubstr("motor_override.resistance_ohm"));
 }
 
-// Coasting shows how fast the friction brakes the inertia, not one of them alone.
+// Coasting shows the ratio of friction to inertia, but neither friction nor inertia alone.
 TEST(Fit, CoastingDoesNotDetermineTheInertia) {
   Draw draw(4);
   batch::FitRequest request;
@@ -110,7 +110,7 @@ TEST(Fit, CoastingDoesNotDetermineTheInertia) {
   auto found = batch::fit(request);
   ASSERT_TRUE(found) << to_string(found.problems()[0]);
   EXPECT_TRUE(undetermined(*found, "motor_override.inertia_gcm2"));
-  // With the true inertia in the scenario the frictions follow.
+  // If the scenario contains the true inertia, the fit determines the frictions.
   request.free = {"motor_override.viscous_friction_Nm_s", "motor_override.coulomb_friction_mNm", "offset"};
   request.benches[0].scenario.sheet.inertia_gcm2->value = truth.J_gcm2;
   found = batch::fit(request);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the processes of a cluster are read back to the bit. Any other bytes are refused.
+// Messages between the processes of a cluster are read back to the last bit. Any other bytes are refused.
 #include "batch/letters.hpp"
 
 #include <gmock/gmock.h>

@@ -17,7 +17,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::testing;
 using ::testing::ElementsAre;
 
-/// The rotor is locked at full voltage for thirty time constants: the figure is the final current.
+/// The rotor is locked at full voltage for thirty time constants. The figure is the final current.
 struct Held {
   std::optional<double> min, max;
   std::size_t drives = 0;
@@ -114,7 +114,7 @@ TEST(Optimise, WithoutRequirementsEndsInTheCornerOfTheLeastCurrent) {
   EXPECT_TRUE(found.best->limits[1].upper);
 }
 
-/// With enough points, the search ends at the smallest current, I = 6 V/4 ohm. With too few points it stops
+/// With enough points, the search ends at the smallest current, I = 6 V/4 ohm. With too few points, it stops
 /// earlier and reports this.
 TEST(Optimise, SaysWhetherItEndedByItself) {
   const Found enough = search({}, 400), few = search({}, 4);
@@ -140,7 +140,8 @@ TEST(Optimise, StopsAtARequirementAndNamesIt) {
   EXPECT_FALSE(found.best->limits[0].upper);
 }
 
-/// Among the varied drives, the drive with the largest resistance determines the result.
+/// The drives of the spread differ in their resistance. The drive with the largest resistance determines the
+/// result.
 TEST(Optimise, IsRobustOverTheDrives) {
   const Held held{.min = 10.0, .drives = 6, .spread = 0.1};
   const Found found = search(held, 60, 2);

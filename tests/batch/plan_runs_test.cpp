@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The runs of a plan are equal to runs made singly, on any number of threads. They can be stopped and
+// The runs of a plan are equal to single runs, for any number of threads. They can be stopped and
 // interrupted.
 #include "batch/plan_runs.hpp"
 
@@ -29,7 +29,7 @@ study::Spread spread(const char* key, double relative) {
   return s;
 }
 
-/// The drives of one scenario, as with --runs.
+/// Several drives of one scenario, as the option --runs simulates them.
 struct Drives {
   study::Scenario scenario;
   analysis::Plan plan;
@@ -63,7 +63,8 @@ struct Drives {
   }
 };
 
-/// A locked rotor at full voltage: the final current is U/R_tt (1 - exp(-t/tau)), here after 30 time constants.
+/// A locked rotor at full voltage. The final current is U/R_tt (1 - exp(-t/tau)) with the bus voltage U, the
+/// line-to-line resistance R_tt and the time constant tau. The run lasts 30 time constants.
 study::Scenario stall(double limit_A) {
   study::Scenario s = maxon_scenario(sixstep::control::Mode::duty, 1.0);
   s.load.locked = true;
@@ -95,8 +96,8 @@ TEST(PlanRuns, GiveTheSpreadThatTheCircuitsLawGives) {
     expected.add(24.0 / R * (1.0 - std::exp(-s.duration_s / tau_s)));
     holds += R >= 1.03;
   }
-  // The engine's error here is 2e-15 of the current (README, R1), nine roundings. exp() in the expected value
-  // adds its rounding error.
+  // The error of the engine is 2e-15 of the current (README, R1), which is nine roundings. exp() in the
+  // expected value adds its own rounding error.
   constexpr double bound = 16 * 0x1p-52 * 24.0 / 0.927;
   for (const double p : {0.0, 0.05, 0.5, 0.95, 1.0})
     EXPECT_NEAR(*current.statistics.quantile(p), *expected.quantile(p), bound) << p;
@@ -166,7 +167,7 @@ TEST(PlanRuns, CountWhatCouldNotStartAndGoOn) {
 }
 
 /// As in a single run, the measured values fulfil the requirements although a fault stopped the run. The
-/// report names the fault as well.
+/// report also names the fault.
 TEST(PlanRuns, AFaultIsToldBesideRequirementsThatTheValuesHold) {
   const Drives drives(stall(100.0), 2, 1);
   const base::Result<study::Outcome> whole = study::run(stall(100.0));

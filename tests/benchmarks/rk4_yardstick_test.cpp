@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference solvers must be fair: they solve the same machine, and their only error is that of the step.
+// The reference solvers must be fair. They solve the same machine, and their only error is the error of the
+// step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,8 @@ void expect_rl_rise() {
   for (int n = 1; n <= 3000; ++n) {
     motor.step();
     const double exact = held.U / (2 * held.R) * (1.0 - std::exp(-n * held.step_s * held.R / held.L));
-    // The error is of fourth order: (h R/L)^5/120 per step, times the number of steps in one time constant.
+    // The error is of fourth order: (h R/L)^5/120 per step of length h, times the number of steps in one time
+    // constant L/R.
     ASSERT_NEAR(motor.current(0), exact, 1e-12 * 24) << n;
     ASSERT_EQ(motor.current(2), 0.0);
   }
@@ -45,7 +47,7 @@ Errors errors(double step_s, bool floating_phase_conducts = true, const char* tr
 }
 
 TEST(Rk4Tuned, HasTheFloatingPhaseAndFirstOrderErrorsUnderSoftChopping) {
-  // The remaining error comes from switching instants between steps. It decreases with the step.
+  // The remaining error is caused by switching instants between two steps. It decreases with the step.
   const double coarse = errors(1e-6).current, fine = errors(1e-7).current;
   std::printf("RK4 with it: %.2f %% of peak current at 1 us, %.3f %% at 0.1 us\n", 100 * coarse, 100 * fine);
   EXPECT_LT(coarse, 1e-2);
@@ -65,9 +67,9 @@ TEST(Rk4Textbook, HasFirstOrderErrorsUnderSoftChoppingToo) {
   const Errors coarse = errors<Rk4Textbook>(1e-6), fine = errors<Rk4Textbook>(1e-7);
   std::printf("textbook: %.2f %% of peak current at 1 us, %.3f %% at 0.1 us\n", 100 * coarse.current,
               100 * fine.current);
-  // The error is ten times that of the tuned solver. The textbook solver also evaluates conditions within a
-  // stage, where a diode's current may appear reversed. An independent program of this kind has errors of 6 %
-  // and 1 %.
+  // The error is ten times the error of the tuned solver. The textbook solver also evaluates conditions
+  // within a stage, in which a diode's current may appear reversed. An independent program of this kind has
+  // errors of 6 % and 1 %.
   EXPECT_LT(coarse.current, 6e-2);
   EXPECT_LT(fine.current, 1e-2);
   EXPECT_LT(fine.current, coarse.current / 4);
@@ -80,14 +82,14 @@ TEST(Rk4Textbook, LeavingTheSameOutCostsItTheSame) {
 }
 
 TEST(Yardsticks, RunUpAsTheReference) {
-  // At full voltage, only commutations and diode stops are between the steps.
+  // At full voltage, only commutations and diode stops occur between two steps.
   for (const double step_s : {1e-6, 1e-7}) {
     const Errors plain = errors<Rk4Textbook>(step_s, true, "R2.csv", 1.0),
                  tuned = errors<Rk4Tuned>(step_s, true, "R2.csv", 1.0);
     std::printf("full voltage at %.1f us: textbook %.3f %%, tuned %.3f %% of peak current\n", 1e6 * step_s,
                 100 * plain.current, 100 * tuned.current);
-    // Commutations are up to one step late, and the resulting error of the angle delays later commutations,
-    // so the error is of first order. An independent program of this kind has 1.2 % at 1 us and 0.12 % at 0.1
+    // Commutations are up to one step late. The resulting error of the angle delays later commutations, so
+    // the error is of first order. An independent program of this kind has 1.2 % at 1 us and 0.12 % at 0.1
     // us.
     EXPECT_NEAR(plain.current, 1.2e4 * step_s, 0.05e4 * step_s);
     EXPECT_NEAR(tuned.current, 1.2e4 * step_s, 0.05e4 * step_s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instruments around the charts: read-out, units, bridge, every row, spectra, comparison of several runs.
+// The instruments around the charts: the read-out, the units, the bridge, the rows, the spectra, and the comparison of runs.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {allEqual, close, drag, eventually, opened, scales} from './page.mjs';
@@ -20,7 +20,7 @@ test('the table reads every curve at the cursor and at two marks, with the diffe
   for (const [name, cursor, a, b, difference] of rows) {
     if (!difference) continue;
     assert.equal(cursor, b, name);
-    // Each value is rounded to four digits or more: three roundings of half a unit of the last digit.
+    // Each value is rounded to at least four digits. The tolerance is three errors of half a unit of the last digit.
     const unit = 10 ** -Math.min(...[a, b, difference].map((v) => v.split('.')[1]?.length ?? 0));
     assert.ok(Math.abs(number(b) - number(a) - number(difference)) <= 1.5 * unit || name.startsWith('rotor'), [name, a, b, difference].join(' '));
   }
@@ -45,7 +45,7 @@ test('a curve is read on its line between two rows', async () => {
     }
     return error;
   });
-  assert.ok(worst <= 8 * Number.EPSILON * 6, String(worst));  // a few roundings of some 6 A
+  assert.ok(worst <= 8 * Number.EPSILON * 6, String(worst));  // some rounding errors of about 6 A
   await close(page);
 });
 
@@ -85,7 +85,7 @@ test('the bridge lights what conducts at the cursor, and the keys step through t
     seen.add(state.lit.join());
     assert.match(state.words, /^a .*, b .*, c /);
   }
-  assert.ok(seen.size >= 2, [...seen].join(' | '));  // the bridge chops
+  assert.ok(seen.size >= 2, [...seen].join(' | '));  // the bridge changes its state by chopping
   await close(page);
 });
 
@@ -134,14 +134,14 @@ test('close looks into a long run draw every row, as exact as the envelope', asy
     return {error, compared, zeros, high: Math.max(...raw) - Math.max(...full.raw), low, step};
   });
   assert.ok(worst.compared > 100);
-  // The tolerance is half a step, and a few per cent of one for the envelope's 32 bits and times in picoseconds.
+  // The tolerance is half a step. A small part of a step is added, because the envelope has 32 bits and the times are whole picoseconds.
   assert.ok(worst.error <= 0.55, JSON.stringify(worst));
   assert.ok(Math.abs(worst.high) <= 0.55 * worst.step, JSON.stringify(worst));
   assert.ok(worst.zeros > 0, 'a current that has gone out is zero');
   await page.evaluate(() => sixstep.show(0.3, 0.301));
   const rows = await page.evaluate(() => sixstep.drawnRows());
-  assert.ok(rows.every((n) => n > 33 && n === rows[0]), String(rows));  // at least one a PWM period
-  // The rows contain the conducting devices: midway between two rows the highlighted ones are those that conduct.
+  assert.ok(rows.every((n) => n > 33 && n === rows[0]), String(rows));  // at least one row per PWM period
+  // The rows contain the conducting devices. In the middle between two rows, exactly the conducting devices are highlighted.
   const lit = await page.evaluate(async () => {
     const {axis} = sixstep.entries.find((e) => e.chart.logic).curves[0].full, seen = [];
     for (let n = axis.findIndex((t) => t >= 0.3); seen.length < 20; ++n) {
@@ -168,7 +168,7 @@ test('compared runs lie over each other, each on its own rows, with their differ
   await eventually(async () => {
     const [one, two] = await read('chart-speed'), [less] = await read('chart-speed-difference');
     assert.ok(two < one, `${two} ${one}`);
-    // The synthetic grid holds a row for 30 us, in which 5 A · 33.5 mNm/A on 135 gcm2 change either speed by 0.37 rad/s.
+    // A row of the synthetic grid is valid for 30 us. In this time the torque 5 A · 33.5 mNm/A at 135 gcm2 changes each speed by 0.37 rad/s.
     assert.ok(Math.abs(two - one - less) < 0.4, `${two} - ${one} against ${less}`);
   });
   assert.equal(await page.locator('#bridge').isVisible(), false);

@@ -22,7 +22,7 @@ after(() => browser?.close());
 /** Opens a page; close() fails on its errors, warnings and network requests. */
 export async function opened(name, {theme = 'light', hash = ''} = {}) {
   const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: theme});
-  // A busy machine delays frames. This delay is permanent here, so that a test that does not wait for a frame fails on any machine.
+  // A busy machine delays frames. This page always has such a delay. Thus a test that does not wait for a frame fails on any machine.
   await page.addInitScript(() => {
     const soon = requestAnimationFrame;
     globalThis.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 60);
@@ -43,7 +43,7 @@ export async function close(page) {
 export const scales = (page) => page.evaluate(() => sixstep.charts.map((u) => [u.scales.x.min, u.scales.x.max]));
 export const allEqual = (list) => list.every((x) => JSON.stringify(x) === JSON.stringify(list[0]));
 
-/** Cursor, theme and size reach the page with its next frames: repeats the check until it passes, for 5 s. */
+/** Repeats the check until it passes, for at most 5 s. A page applies cursor, theme and size only in its next frames. */
 export async function eventually(check) {
   for (const begin = performance.now(); ; await new Promise((done) => setTimeout(done, 20))) {
     try {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's page: every drawing contains the runs of its columns and ranges, and its best run is the best.
+// The page of a plan. Every drawing shows the runs of its columns and ranges. The marked run is the best run.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {close, eventually, opened} from './page.mjs';
 
-/** Which part of a drawing is not its ground. */
+/** The part of a drawing's pixels that are not transparent. */
 const inked = (page, id) => page.locator(`#${id} canvas`).evaluate((canvas) => {
   const copy = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height});
   const ctx = copy.getContext('2d', {willReadFrequently: true});
@@ -37,7 +37,7 @@ test('the front is what comparing every run with every other finds', async () =>
     let seed = 1;
     const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
     for (let round = 0; round < 200; ++round) {
-      const size = Math.floor(random() * 60), coarse = 1 + Math.floor(random() * 12);  // coarse: many values are equal
+      const size = Math.floor(random() * 60), coarse = 1 + Math.floor(random() * 12);  // if coarse is small, many values are equal
       const draw = () => Array.from({length: size}, () => (random() < 0.05 ? NaN : random() < 0.05 ? Infinity : Math.floor(random() * coarse)));
       const xs = draw(), ys = draw();
       for (const signs of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
@@ -96,7 +96,7 @@ test('long words stand whole beside a drawing, on a phone too', async () => {
     });
     for (const drawing of ['heat', 'scatter']) {
       await page.selectOption(`#${drawing}-y`, {label: 'pwm.chopping'});
-      // The point lies to the right of the axis's name, which stands upright in the first 16 pixels.
+      // The point is to the right of the axis's name. The name is vertical, in the first 16 pixels.
       await eventually(async () => assert.ok(await page.evaluate((of) => written[of].some(([text, x]) => text === 'complementary' && x >= 16), drawing), drawing));
     }
     await close(page);
@@ -113,7 +113,7 @@ test('a run that is clicked or typed tells all of itself, and how to make its re
   await page.fill('#number', '1000');
   await page.press('#number', 'Enter');
   assert.match(await page.locator('#run').textContent(), /no such run/);
-  const [x, y] = await page.evaluate(() => {  // position of run 40
+  const [x, y] = await page.evaluate(() => {  // the position of run 40
     const {table, scaleOf} = sixstep, box = document.querySelector('#scatter canvas').getBoundingClientRect();
     const [settle, , , figure] = table.columns;
     return [64 + scaleOf(settle).at(settle.of[0][40]) * (box.width - 80), 12 + (1 - scaleOf(figure).at(figure.of[0][40])) * (box.height - 54)];
@@ -175,7 +175,7 @@ test('a hundred thousand runs can be looked at', {skip: !process.env.SIXSTEP_ALL
     await page.reload();
     best = Math.min(best, await page.evaluate(() => sixstep.ready_ms));
   }
-  assert.ok(best < 5000, `${best} ms`);  // bound for a loaded machine without a graphics card
+  assert.ok(best < 5000, `${best} ms`);  // limit for a busy machine without a graphics card
   const redrawn = await page.evaluate(() => {
     const select = document.getElementById('scatter-y'), begin = performance.now();
     select.value = select.options[select.options.length - 1].value;

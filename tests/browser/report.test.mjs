@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report as a reader opens it: from a file, in Chromium, without a network.
+// The report, opened as by a reader: from a file, in Chromium, without a network.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {inflateSync} from 'node:zlib';
@@ -7,7 +7,7 @@ import {allEqual, close, drag, eventually, opened, plotArea, scales} from './pag
 
 test('opens quickly, with verdict and all charts', async () => {
   const page = await opened('short.html');
-  // A loaded machine may delay a single opening, so that the best of several counts, and the bound has a margin.
+  // A busy machine may delay a single opening. Thus the shortest of several times is tested, and the limit has a margin.
   let best = Infinity;
   for (let n = 0; n < 4; ++n) {
     await page.reload();
@@ -70,7 +70,7 @@ test('every chart says in words what it shows, and colours can be told from thei
     await page.emulateMedia({colorScheme: theme});
     const ratios = await page.evaluate(() => {
       const probe = document.body.appendChild(document.createElement('i'));
-      const rgb = (name) => {  // the canvas reads every colour notation
+      const rgb = (name) => {  // the canvas accepts every notation of a colour
         probe.style.color = `var(--${name})`;
         const ctx = document.createElement('canvas').getContext('2d');
         ctx.fillStyle = getComputedStyle(probe).color;
@@ -124,7 +124,7 @@ test('labels switch curves off and on', async () => {
   await close(page);
 });
 
-/** What a PDF holds: its pages, and the colours that its areas and letters are filled with. */
+/** The number of pages of a PDF, and the fill colours of its areas and letters. */
 function inside(pdf) {
   const text = pdf.toString('latin1');
   const fills = new Map();
@@ -132,7 +132,7 @@ function inside(pdf) {
     let drawn = '';
     try {
       drawn = inflateSync(Buffer.from(stream[1], 'latin1')).toString('latin1');
-    } catch { /* not packed */ }
+    } catch { /* this stream is not compressed */ }
     for (const [, r, g, b] of drawn.matchAll(/([\d.]+) ([\d.]+) ([\d.]+) rg/g)) {
       const colour = `rgb(${[r, g, b].map((x) => Math.round(255 * x)).join(', ')})`;
       fills.set(colour, (fills.get(colour) ?? 0) + 1);

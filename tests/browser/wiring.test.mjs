@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {close, opened} from './page.mjs';
 
-/** Of each drawing: texts that leave it or their card, and texts that lie over each other. */
+/** For each drawing: the texts outside of the drawing or of their card, and the texts that overlap. */
 const clashes = (page) => page.evaluate(() => [...document.querySelectorAll('figure.wiring svg')].map((svg) => {
   const box = (e) => e.getBoundingClientRect(), said = (t) => t.textContent;
   const texts = [...svg.querySelectorAll('text')], whole = box(svg), slack = 1;
@@ -27,7 +27,7 @@ test('all 36 wirings and what each kind looks like can be read, in light and dar
       assert.ok(label.length > 20, label);
     assert.deepEqual(await clashes(page), [[], [], []]);
     inks.push(await page.locator('figure.wiring text').first().evaluate((t) => getComputedStyle(t).fill));
-    // Marks distinguish kinds without colour, and colours without words.
+    // The marks distinguish the kinds of wirings without colour. The colours distinguish them without words.
     const kinds = await page.locator('figure.wiring .w-bar').evaluateAll((all) => new Set(all.map((bar) => getComputedStyle(bar).fill)).size);
     assert.equal(kinds, 4);
     await close(page);

@@ -39,8 +39,8 @@ std::string page(const sixstep_tests::SyntheticRun& run) {
                          .scenario_text = scenario_text});
 }
 
-/// A grid of a synthetic run, which has no polynomials: the row of an instant is the last row at or before
-/// it.
+/// A grid of a synthetic run. Such a run has no polynomials, so the value at an instant is the last row at or
+/// before the instant.
 sixstep::study::Trace sampled(const sixstep::study::Trace& trace) {
   sixstep::study::Trace grid{.columns = trace.columns, .values = {}, .every_event = false};
   grid.values.resize(trace.values.size());

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""libsixstep through ctypes: the declarations of sixstep.h in Python, as any language's foreign functions need them."""
+"""Calls libsixstep through ctypes. The table DECLARED repeats the declarations of sixstep.h in Python, as every
+language with foreign functions needs them."""
 import ctypes as C
 
 OK, OVER, REFUSED, MISUSE, NO_MEMORY = range(5)
@@ -58,7 +59,7 @@ DECLARED = {
 
 
 def load(path):
-    """The library with every function declared."""
+    """Loads the library and declares every function."""
     library = C.CDLL(str(path))
     for name, (result, arguments) in DECLARED.items():
         function = getattr(library, name)
@@ -67,7 +68,7 @@ def load(path):
 
 
 class Session:
-    """A session that frees itself; `status` is that of its opening."""
+    """A session that is freed together with this object. `status` is the status of the call that opened the session."""
 
     def __init__(self, library, handle, status):
         self.library, self.handle, self.status = library, handle, status

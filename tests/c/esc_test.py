@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The example faces/c/example/esc: one firmware on a simulated motor and, unchanged, compiled for a chip.
-   esc_test.py LIBRARY SOURCE"""
+"""Tests the example faces/c/example/esc. The same firmware runs on a simulated motor and, unchanged, compiles for a
+chip.
+esc_test.py LIBRARY SOURCE"""
 import math
 import pathlib
 import shutil
@@ -17,7 +18,7 @@ PERIOD_s, DEAD_ps, HOLD_ps = 50e-6, 500_000, 2_000_000
 CLAMPED_s, RELEASED_s = 0.50, 0.51  # s; main.c clamps and releases the rotor at these instants
 # DJI 2212 920 KV and the scenario of main.c
 POLE_PAIRS, K_E, R_PAIR, L_s, BUS_V = 7, 6.741e-3, 2 * (0.1153 + 5e-3), 17.6e-6, 12.0
-K_T = 3 * math.sqrt(3) / math.pi * K_E  # of a pair, sine back-EMF, over a sector
+K_T = 3 * math.sqrt(3) / math.pi * K_E  # torque constant of a pair with a sine back-EMF, as the mean over a sector
 
 
 def load_Nm(speed):
@@ -25,13 +26,14 @@ def load_Nm(speed):
 
 
 def duty_at(speed):
-    """Duty that holds the speed: back-EMF, resistance, and the voltage that each commutation costs, 3/pi L omega I."""
+    """The duty at which the speed is constant. The voltage has three parts: the back-EMF, R times the current, and
+    the mean voltage 3/pi L omega I that the commutations consume."""
     current = load_Nm(speed) / K_T
     return (K_T * speed + (R_PAIR + 3 / math.pi * POLE_PAIRS * speed * L_s) * current) / BUS_V
 
 
 class Program:
-    """The example, built from its sources, or with another firmware."""
+    """The example, built from its sources. A test may replace the firmware or edit it."""
 
     def __init__(self, folder, firmware=None, edit=None):
         if edit:
@@ -52,7 +54,7 @@ class Program:
 
 
 class Course:
-    """Rows of the table by their ms, and events of the log: (ps, word, number)."""
+    """The rows of the table, by their time in ms, and the events of the log as (ps, word, number)."""
 
     def __init__(self, text, log):
         self.text = text
@@ -89,7 +91,8 @@ class Firmware(unittest.TestCase):
             self.assertAlmostEqual(rows[end][3] - rows[begin][3], expected, delta=1 + 0.004 * expected)
 
     def test_steady_speed_is_that_of_the_motor_s_sheet(self):
-        """Chopped, the dead time takes up to itself from the on-time: nothing where the ripple reverses the current."""
+        """While the upper switch is chopped, the dead time shortens the on-time by at most its own length. It does
+        not shorten the on-time if the ripple reverses the current."""
         for ms, duty, lost in ((360, 0.40, DEAD_ps * 1e-12 / PERIOD_s), (920, 1.00, 0)):
             speed = self.course.rows[ms][0]
             self.assertTrue(0.985 * (duty - lost) < duty_at(speed) < 1.015 * duty, (speed, duty_at(speed)))
@@ -109,14 +112,16 @@ class Firmware(unittest.TestCase):
         self.assertGreater(turned_on, 10000)
 
     def test_crossings_are_found_to_the_picosecond(self):
-        """The comparator's output changes at 20 mV of back-EMF: of a star whose pair is driven it shows the free phase's."""
+        """The comparator's output changes at 20 mV of back-EMF. While one pair of the star is driven, the comparator
+        measures the back-EMF of the free phase."""
         changed, exact = 0, 0
         for at, word, number in self.course.events:
             if word == "gates":
                 changed = at
             elif word == "taken":
                 self.assertGreaterEqual(at, changed + HOLD_ps)
-                if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:  # full duty: no diode of the free phase conducts
+                # From 0.44 s on: full duty, so that no diode of the free phase conducts.
+                if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:
                     self.assertAlmostEqual(abs(number), 20e6, delta=100)  # nV; the back-EMF changes by 35 nV per picosecond
                     exact += 1
         self.assertGreater(exact, 300)
@@ -129,7 +134,7 @@ class Firmware(unittest.TestCase):
             else:
                 self.assertEqual(word, "taken" if at >= end else "masked")
                 masked += word == "masked"
-        self.assertGreater(masked, 1000)  # the leaving phase's current lifts its terminal beyond a rail
+        self.assertGreater(masked, 1000)  # after a commutation the current of the leaving phase raises its terminal beyond a supply rail
 
     def test_without_blanking_the_firmware_loses_step(self):
         bare = Program(self.folder, edit=("is.interval / 8 : is.interval / 4", "0 : 0")).run(0.04)
@@ -140,7 +145,8 @@ class Firmware(unittest.TestCase):
         rows = self.course.rows
         sector_s = 2 * math.pi / (6 * POLE_PAIRS * rows[480][0])
         off = next(at for at, _, gates in self.course.of("gates") if at >= CLAMPED_s * 1e12 and gates == 0) * 1e-12
-        # up to one sector, then four missed crossings of 1.5 sectors each
+        # At most one sector passes before the first missed crossing. Then the drive waits 1.5 sectors for each of four missed
+        # crossings.
         self.assertLess(off - CLAMPED_s, (1 + 4 * 1.5) * sector_s + PERIOD_s)
         self.assertEqual(rows[520][2], "wait")
         self.assertEqual([rows[ms][5] for ms in (480, 520, 920)], [0, 1, 1])
@@ -154,7 +160,7 @@ class Firmware(unittest.TestCase):
     def test_a_failing_supply_turns_the_bridge_off_for_good(self):
         failed = self.program.run(0.04, "8")
         off = [at for at, _, gates in failed.of("gates") if gates == 0 and at >= 0.44e12][0]
-        self.assertLess(off, 0.44e12 + 3e12 * PERIOD_s)  # the change at a control tick, then one sample
+        self.assertLess(off, 0.44e12 + 3e12 * PERIOD_s)  # the throttle changes at a control tick, and the gates follow one sample later
         self.assertEqual({failed.rows[ms][2] for ms in range(480, 940, 40)}, {"fault"})
         self.assertEqual(failed.of("gates")[-1][0], off)
 
@@ -168,7 +174,8 @@ class Firmware(unittest.TestCase):
         rows = Program(self.folder, SOURCE / "tests/c/hall_esc.c").run(0.04).rows
         speed = (rows[880][0] + rows[920][0]) / 2
         self.assertAlmostEqual(rows[920][3] - rows[880][3], 6 * POLE_PAIRS * speed / (2 * math.pi) * 0.04, delta=2)
-        self.assertAlmostEqual(duty_at(speed), 0.25, delta=0.015 * 0.25)  # the ripple reverses the current
+        # The ripple reverses the current, so the dead time does not shorten the on-time.
+        self.assertAlmostEqual(duty_at(speed), 0.25, delta=0.015 * 0.25)
 
 
 class Chip(unittest.TestCase):

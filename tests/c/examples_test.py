@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examples of faces/c/example/ print what the program finds. Those whose language is not installed are skipped.
-   examples_test.py LIBRARY PROGRAM SOURCE"""
+"""The examples of faces/c/example/ print the same results as the program. A test is skipped if its language is not
+installed.
+examples_test.py LIBRARY PROGRAM SOURCE"""
 import csv
 import json
 import os
@@ -58,7 +59,7 @@ class Examples(unittest.TestCase):
             self.skipTest(f"{command} is not installed")
 
     def told(self, printed):
-        """(lines of numbers, the outcome) of what an example printed."""
+        """From the text that an example printed: the lines of numbers, and the outcome as a dictionary."""
         numbers, brace, outcome = printed.partition("{\n")
         return [[float(x) for x in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", line)] for line in numbers.splitlines()], json.loads(brace + outcome)
 
@@ -75,7 +76,7 @@ class Examples(unittest.TestCase):
         with open(self.here / "trace.csv", encoding="utf-8") as file:
             rows = {round(1e6 * float(row["t_s"])): row for row in csv.DictReader(line for line in file if line[0] != "#")}
         self.assertEqual([line[0] for line in lines], list(range(1, 20)))
-        for ms in range(3, 20, 3):  # the milliseconds that are control ticks, every 30 us
+        for ms in range(3, 20, 3):  # only these milliseconds are also control ticks, which come every 30 us
             self.assertAlmostEqual(lines[ms - 1][1], float(rows[1000 * ms]["speed_rad_s"]), delta=5.1e-5)
             self.assertAlmostEqual(lines[ms - 1][2], float(rows[1000 * ms]["i_m_A"]), delta=5.1e-5)
 
@@ -89,12 +90,13 @@ class Examples(unittest.TestCase):
         outcome = json.loads(self.call("./controller_outside", SCENARIO).stdout)
         (self.here / "inside.c").write_text(INSIDE, encoding="utf-8")
         self.call("cc", "-ffp-contract=off", "-shared", "-fPIC", "-fvisibility=hidden", "-ffunction-sections", "-Wl,--gc-sections", f"-I{EXAMPLES}",
-                  *FLAGS[:2], "inside.c", "-o", "inside.so")  # without outside(), which needs libsixstep
+                  *FLAGS[:2], "inside.c", "-o", "inside.so")  # without the function outside(), which needs libsixstep
         told = self.program("--set", "control.drive=own", "--set", f"control.own.controller={self.here / 'inside.so'}")
         self.assertEqual(outcome["digest"], told["digest"])
 
     def test_the_controller_outside_turns_the_motor_as_the_setpoint_says(self):
-        """A proportional loop u = k U (r - i) on R i + e leaves i = (k U r - e)/(k U + R): the torque of nearly 5 A, then of -5 A."""
+        """The controller u = k U (r - i), with the gain k, bus voltage U and reference r, drives R i + e, with the
+        back-EMF e. The steady current is (k U r - e)/(k U + R): nearly 5 A, and then -5 A."""
         lines, outcome = self.c_example()
         peak = max(line[1] for line in lines)
         self.assertGreater(outcome["energy"]["kinetic_J"] + outcome["energy"]["friction_J"], 0)
@@ -103,7 +105,7 @@ class Examples(unittest.TestCase):
         self.assertIsNone(mine["fault"])
         self.assertGreater(mine["events"]["sector edges"], 0)
         self.assertGreater(peak, 30)
-        ratio = mine["energy"]["copper_J"] / outcome["energy"]["copper_J"]  # (i/5 A)^2, i between 12/13.2 of 5 A and 5 A
+        ratio = mine["energy"]["copper_J"] / outcome["energy"]["copper_J"]  # (i/5 A)^2, with i between 12/13.2 of 5 A and 5 A
         self.assertTrue(0.7 < ratio < 1.05, ratio)
 
     def test_rust_prints_the_same(self):
@@ -126,7 +128,8 @@ class Examples(unittest.TestCase):
             self.assertAlmostEqual(mine[1], theirs[1], delta=5.1e-5)
 
     def test_julias_declarations_are_those_of_the_header(self):
-        """Debian 12 has no Julia: at least names, number of arguments and kinds of results are read."""
+        """Debian 12 has no Julia, so the example cannot run. This test compares the names, the number of arguments
+        and the result types with the header."""
         header = re.sub(r"/\*.*?\*/", "", (SOURCE / "faces/c/sixstep.h").read_text(encoding="utf-8"), flags=re.S)
         kinds = {"uint32_t": "UInt32", "sixstep_status": "Cint", "int": "Cint", "double": "Cdouble", "void": "Cvoid", "const char*": "Cstring"}
         calls = re.findall(r"ccall\(\(:(\w+), sixstep\), (\w+), \((.*?),?\)[,)]", (EXAMPLES / "advance.jl").read_text(encoding="utf-8"))
@@ -137,7 +140,8 @@ class Examples(unittest.TestCase):
             self.assertEqual(len([a for a in arguments.split(",") if a.strip()]), 0 if declared == "void" else len(declared.split(",")), name)
 
     def test_what_calls_cost_is_in_order(self):
-        """Reading is cheaper than a period, a long advance than steps; tenfold room above the goals, for a machine that is busy."""
+        """Reading a value takes less time than a period. A period of one long advance takes less time than an advance
+        by one period. The absolute limits are ten times the goals, because the machine may be busy."""
         self.call("cc", "-O2", EXAMPLES / "costs.c", *FLAGS, "-o", "costs")
         us = {name.strip(): float(x) for name, x in re.findall(r"^(.*?) +([\d.]+) us$", self.call("./costs", SCENARIO).stdout, re.M)}
         self.assertLess(us["read a value"], 0.5)
@@ -153,7 +157,7 @@ class Examples(unittest.TestCase):
         self.assertEqual([line[:columns] for line in lines[:len(mine)]], [line[:columns] for line in mine])
 
     def test_each_is_short(self):
-        for file in (f for f in EXAMPLES.iterdir() if f.is_file()):  # esc/ is a program of several files
+        for file in (f for f in EXAMPLES.iterdir() if f.is_file()):  # the folder esc/ is skipped: it is a program of several files
             text = file.read_text(encoding="utf-8")
             self.assertIn("SPDX-License-Identifier: Apache-2.0", text.splitlines()[0], file)
             self.assertLess(len(text.splitlines()), 60, file)

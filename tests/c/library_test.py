@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""libsixstep: its bits are the program's, a controller outside has the bits of the same one inside, and no call crashes.
-   library_test.py LIBRARY PROGRAM SOURCE CONTROLLERS SIZES"""
+"""libsixstep computes the same bits as the program. A controller outside of the library has the same bits as inside,
+and no call crashes.
+library_test.py LIBRARY PROGRAM SOURCE CONTROLLERS SIZES"""
 import ctypes as C
 import json
 import math
@@ -36,7 +37,7 @@ SINE = PLAIN.replace('"current"', '"duty"').replace("value = 1.5", "value = 0.1"
 
 
 def program(file, *words):
-    """The program's own result of a file or a text; None: it refuses it."""
+    """The program's own result of a file or of a text, or None if the program refuses it."""
     if not isinstance(file, pathlib.Path):
         with tempfile.TemporaryDirectory() as folder:
             written = pathlib.Path(folder) / "text.toml"
@@ -60,7 +61,7 @@ def digest(session):
 
 class Bits(unittest.TestCase):
     def test_steps_of_any_length_have_the_digest_of_the_program(self):
-        """30 of the scenarios that ship, at 1 ms, 37 us, 10 us and drawn steps."""
+        """Runs 30 of the shipped scenarios with steps of 1 ms, 37 us, 10 us and random length."""
         draw = random.Random(39)
         short = [file for file in FILES if opened(file).duration() <= 0.06]
         self.assertGreater(len(short), 30)
@@ -105,7 +106,8 @@ class Bits(unittest.TestCase):
         self.assertIn("voltage_V = 20", text)
 
     def test_hall_edges_of_a_drive_are_events_and_reads_go_on_behind_them(self):
-        """A session that stands at an edge, to the picosecond, reads what another one does that never stood there."""
+        """One session stops exactly at a Hall edge and continues. Another session does not stop there. Both read the
+        same values."""
         session, code, edges = opened(text=PLAIN), None, 0
         while session.advance_to_hall_edge(5.9e-3) == c.OK and session.time() < 5.9e-3:
             self.assertNotEqual(session.value_of("hall"), code)
@@ -152,7 +154,7 @@ class Bits(unittest.TestCase):
 
 
 class OwnController(unittest.TestCase):
-    """The same compiled controller in the run, and called by this program between advances."""
+    """The same compiled controller runs inside the simulation, and is called by this program between advances."""
 
     def controlled(self, name, chip, text):
         own = C.CDLL(str(CONTROLLERS / f"{name}.so"))
@@ -176,7 +178,7 @@ class OwnController(unittest.TestCase):
             if session.advance_to_tick() != c.OK:
                 break
         self.assertGreater(tick, 100)
-        loaded = c.Session.loaded(LIB, saved)  # stands at tick 40, with its command given
+        loaded = c.Session.loaded(LIB, saved)  # the session was saved at tick 40, after its command was set
         self.assertEqual(loaded.status, c.OK)
         self.assertAlmostEqual(loaded.time(), 40 * session.period(), delta=1e-15)
         return session, program(text, "--set", "control.drive=own", "--set", f"control.own.controller={CONTROLLERS / name}.so")
@@ -208,10 +210,10 @@ class OwnController(unittest.TestCase):
 
 
 class Gates(unittest.TestCase):
-    PAIRS = [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)]  # source and sink by sector
+    PAIRS = [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)]  # source and sink of each sector
 
     def chopped(self, read_step, duty=0.4, period=50e-6, end=5e-3):
-        """The pair of the sector, its upper switch chopped."""
+        """Drives the pair of the sector and chops its upper switch."""
         session = opened(text=PLAIN.replace("speed_rad_s = 100", "speed_rad_s = 0"), chip=c.GATES)
         for n in range(round(end / period)):
             source, sink = self.PAIRS[int(session.value_of("sector"))]
@@ -229,9 +231,10 @@ class Gates(unittest.TestCase):
         self.assertEqual(digest(read), digest(wanted))
 
     def test_current_rises_as_the_pair_of_a_held_rotor_does(self):
-        """i(t) = U/R_ab (1 - exp(-t R_ab/L_ab)) in the pair, nothing in the third phase, and the bus carries the same current."""
+        """The current in the pair is U/R_ab (1 - exp(-t R_ab/L_ab)), with the resistance R_ab and inductance L_ab
+        between the terminals. The third phase has no current, and the bus has the current of the pair."""
         session = opened(text=HELD, chip=c.GATES)
-        session.set_gates(0b001001)  # upper a, lower b
+        session.set_gates(0b001001)  # upper switch of leg a, lower switch of leg b
         R, L, U = 1.03, 0.572e-3, 24  # terminal values of data/motors/maxon-251601.toml
         for t in (20e-6, 130e-6, 1e-3):
             session.advance(t)
@@ -260,7 +263,8 @@ class Gates(unittest.TestCase):
                 self.assertAlmostEqual(session.time(), n * 1e-4 / 7, delta=1e-12)
 
     def test_crossings_are_found_to_the_picosecond(self):
-        """A copy is on the old side a picosecond before, and at every tenth of the time until then."""
+        """One picosecond before the crossing, a copy of the session is still on the old side of the level. The same
+        is true at every tenth of the time before."""
         draw, found, jumps = random.Random(5), 0, 0
         session = opened(CURRENT, chip=c.GATES, settings=["load.locked=false", "initial.speed_rad_s=100"])
         while session.time() < 4e-3:
@@ -283,12 +287,12 @@ class Gates(unittest.TestCase):
                     self.assertEqual(self.above(before, leg) > level, side)
                 session.advance(end)
         self.assertGreater(found, 20)
-        self.assertGreater(jumps, 3)  # a diode turns on or off
+        self.assertGreater(jumps, 3)  # a diode turned on or off during the advance
         for arguments in ((3, 0.0, 1.0), (-1, 0.0, 1.0), (0, math.nan, 1.0), (0, 0.0, math.nan)):
             self.assertEqual(session.advance_to_crossing(*arguments), c.REFUSED)
 
     def above(self, session, leg):
-        """Voltage of a terminal against the mean of the three."""
+        """The voltage of a terminal, relative to the mean of the three terminal voltages."""
         u = [session.value_of(name) for name in ("u_a_V", "u_b_V", "u_c_V")]
         return u[leg] - sum(u) / 3
 
@@ -301,7 +305,7 @@ class Gates(unittest.TestCase):
         self.assertEqual((session.time(), session.value_of("hall")), (before[0], before[2]))
         self.assertAlmostEqual(session.value_of("i_a_A"), before[1], delta=1e-9)
         self.assertEqual(session.copied().time(), before[0])
-        self.assertEqual(session.advance_to_hall_edge(5e-3), c.OK)  # the next edge: 60 electrical degrees of 8 pole pairs on
+        self.assertEqual(session.advance_to_hall_edge(5e-3), c.OK)  # the next edge is 60 electrical degrees later, with 8 pole pairs
         self.assertAlmostEqual(session.time() - before[0], math.pi / 24 / 300, delta=0.2 * math.pi / 24 / 300)
 
     def test_lags_that_counts_do_not_have_are_refused(self):
@@ -366,7 +370,7 @@ class Misuse(unittest.TestCase):
         self.assertEqual(digest(other), (session.advance(1), digest(session))[1])
 
     def test_a_change_that_is_refused_late_leaves_gates_as_they_are(self):
-        """bridge.phases needs the general kernel, which only the compiled change shows."""
+        """bridge.phases needs the general kernel. The session can refuse the change only after it has compiled it."""
         def run(asked):
             session = opened(text=HELD, chip=c.GATES)
             session.set_gates(0b001001)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Prints the layout of the structs of sixstep.h in strict C99. Declarations in other languages are compared with it. */
+/* Prints the layout of the structs of sixstep.h in strict C99. The tests compare it with the declarations in other languages. */
 #include <stdio.h>
 
 #include "faces/c/sixstep.h"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""[believed] and offset_deg from the command line: settings, a plan's axis, design and an exported header."""
+"""[believed] and offset_deg on the command line: settings, the axis of a plan, design, and an exported header."""
 import json
 import math
 import unittest
@@ -8,7 +8,8 @@ import unittest
 from program import SOURCE, ProgramTest
 
 GALLERY = SOURCE / "data/scenarios/gallery"
-K, CURRENT = 1.5 * 33.5e-3 / 1.6539867, 5.0  # N m/A, A: the sine of the 251601 in belief-offset
+# N m/A and A: the torque constant of the 251601 with a sine, and the current in belief-offset.toml.
+K, CURRENT = 1.5 * 33.5e-3 / 1.6539867, 5.0
 
 
 class Believed(ProgramTest):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep motor identify and sixstep motor emf: what they print and write goes back into files that the program takes, and what
-is no recording gets one line and exit code 2."""
+"""sixstep motor identify and sixstep motor emf: the program can read the files that they write. For a file that is no
+recording, each prints one line and returns exit code 2."""
 import json
 import math
 import re
@@ -12,19 +12,20 @@ from program import SOURCE, Started
 
 RECORDINGS = SOURCE / "data/recordings"
 CODES = [0b100, 0b110, 0b010, 0b011, 0b001, 0b101]  # docs/reference/notation.md, forward
-OWN_DEG = [3, -1, 2, -4, 1, -1]  # how late each edge is, in degrees
+OWN_DEG = [3, -1, 2, -4, 1, -1]  # the delay of each edge in degrees
 TURN_S = 0.05
 
 
 def sector(deg, edges=(0,) * 6):
-    """The sector that the probes see, with their edges out of place."""
+    """The sector that the Hall probes report. `edges` is the displacement of each edge in degrees."""
     turn, within = divmod(deg, 360)
     passed = sum(within >= 60 * n + edge for n, edge in enumerate(edges))
     return int(6 * turn + passed - 1)
 
 
 def log(turns=12, rows=180, volts=True, edges=OWN_DEG, swapped=False, separator=",", comma=False):
-    """Steady turning, as text; 180.3 rows a turn, so that rows and edges are in no step. u_ab leads e_a by 30 degrees."""
+    """The log of a steady turn, as text. One turn has 180.3 rows, so that the rows and the edges are not synchronous.
+    u_ab is 30 degrees ahead of e_a."""
     lines = [["time [s]", "hall1", "hall2", "hall3"] + (["u_ab [V]", "u_bc [V]", "u_ca [V]"] if volts else [])]
     for row in range(int(turns * rows)):
         deg = 360 * row / (rows + 0.3)
@@ -57,7 +58,7 @@ class Bench(Started):
         self.assertEqual(told["place"]["wires"][0], {"spacing_deg": 120, "hall_lines": "123", "hall_inverted": "none"})
         mean = sum(OWN_DEG) / 6
         for edge, own in zip(told["edges"], OWN_DEG):
-            self.assertLess(abs(edge["own_deg"]["value"] - (own - mean)), 1)  # half of the two degrees between rows
+            self.assertLess(abs(edge["own_deg"]["value"] - (own - mean)), 1)  # the rows are two degrees apart
         self.assertEqual(told["place"]["turned"], "forward")
         text = self.run_program("motor", "identify", "log.csv").stdout
         self.assertIn("each at its own pin", text)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep run --compare LOG: a run's own trace, in a board's units and by a clock that is off, lies on the run."""
+"""sixstep run --compare LOG: the trace of a run, converted to the units of a board and with a wrong clock, agrees
+with the run."""
 import csv
 import re
 import unittest
@@ -36,7 +37,7 @@ class BoardLog(LogTest):
         self.assertEqual(set(found), {"i_m_A", "speed_rad_s"}, made.stdout)
         self.assertRegex(made.stdout, r"\n +hall +123 rows +0 differ\n")
         self.assertEqual(found["i_m_A"][0], 123)
-        self.assertLess(found["i_m_A"][1], 0.6e-3)  # at most half a milliampere
+        self.assertLess(found["i_m_A"][1], 0.6e-3)  # the log shows the current in whole mA
         self.assertLess(found["speed_rad_s"][1], 1e-4)
         self.assertIn("mean of the samples at 3 A", made.stdout)
 
@@ -87,7 +88,7 @@ RPM = 30 / 3.141592653589793
 
 
 class LogsOfOthers(LogTest):
-    """One run, as drives of many makers would have logged it."""
+    """The same run, as the logs of several drive makers record it."""
 
     def setUp(self):
         super().setUp()
@@ -109,8 +110,9 @@ class LogsOfOthers(LogTest):
         self.assertEqual(set(found), set(columns), text)
         for name in columns:
             self.assertEqual(found[name][0], len(self.rows), text)
-        self.assertLess(found["speed_rad_s"][1], 0.01)  # 0.1 rpm and the eRPM's step are less
-        self.assertLess(found["i_m_A"][1], 0.006)       # half of 0.01 A, and the interpolation between instants
+        self.assertLess(found["speed_rad_s"][1], 0.01)  # the resolutions of 0.1 rpm and of the eRPM are smaller
+        # Half of the resolution of 0.01 A, and the error of the interpolation between the rows.
+        self.assertLess(found["i_m_A"][1], 0.006)
         self.assertNotIn("moved by", text)
         return text
 

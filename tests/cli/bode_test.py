@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep run --bode: what it prints and writes, and what it refuses."""
+"""sixstep run --bode: its text and its files, and the scenarios that it refuses."""
 import json
 import math
 import re
@@ -43,14 +43,15 @@ class Bode(ProgramTest):
         self.assertIn("current around -5 A", made.stdout)
         told = json.loads((self.path / "b.json").read_text())
         table = (self.path / "b.csv").read_text().splitlines()
-        self.assertRegex(table[0], r"^# sixstep \d")  # marks sixstep's own file, which the command may overwrite
+        self.assertRegex(table[0], r"^# sixstep \d")  # this line marks a file of sixstep, which the command may overwrite
         self.assertEqual(len([line for line in table if not line.startswith("# ")]), 1 + len(told["points"]))
         self.assertIn("Frequency response of", (self.path / "b.html").read_text())
         self.assertAlmostEqual(told["measured"]["crossover_Hz"] / told["designed"]["crossover_Hz"], 1, delta=0.03)
         self.assertTrue(all(math.isfinite(p["gain_dB"]) for p in told["points"]))
 
     def test_a_loop_that_does_not_answer_is_not_measured(self):
-        """A sensorless drive whose rotor is held has given up before the multisine comes: nothing at all comes back."""
+        """A sensorless drive with a held rotor stops with a fault before the multisine begins. The loop does not
+        respond at all."""
         (self.path / "held.toml").write_text(HELD)
         files = ("--json", "b.json", "--csv", "b.csv", "--html", "b.html")
         made = self.run_program("run", "held.toml", "--bode", *files, code=1)
@@ -71,7 +72,8 @@ class Bode(ProgramTest):
         self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n"))
 
     def test_refuses_a_drive_that_is_still_on_its_way(self):
-        """400 rad/s take 20 s there. A straight way has a coherence of 1 in every line: the curve would be that of the way."""
+        """This drive needs 20 s to reach 400 rad/s. While the speed rises along a straight line, every line of the
+        spectrum has a coherence of 1, but the curve is wrong."""
         (self.path / "slow.toml").write_text(SLOW)
         made = self.run_program("run", "slow.toml", "--bode", "--json", "b.json", code=2)
         self.assertRegex(made.stderr, r"^slow: duration_s = 0\.\d+ ends while the drive still moves towards 400 rad/s: .*; lengthen duration_s")
@@ -79,7 +81,8 @@ class Bode(ProgramTest):
         self.run_program("run", "slow.toml", "--set", "load.inertia_kg_m2=0", "--bode")
 
     def test_says_why_a_loop_is_beside_the_designed_one(self):
-        """Soft chopping without a load cannot brake: the phase margin falls by ten degrees, and complementary chopping has it back."""
+        """With soft chopping and no load, the drive cannot brake. The phase margin is ten degrees smaller than
+        designed. With complementary chopping it is as designed."""
         speed = str(SOURCE / "data/scenarios/thesis/7.4-speed-exact-design.toml")
         for words, beside in (((), True), (("--set", "pwm.chopping=complementary"), False)):
             made = self.run_program("run", speed, "--bode", *words, "--json", "b.json", "--html", "b.html").stdout
@@ -94,10 +97,11 @@ class Bode(ProgramTest):
             (self.path / "b.html").unlink()
 
     def test_a_cause_is_named_where_its_cure_works(self):
-        """Complementary chopping was named where the rotor's sensor was the cause, and cured nothing. With the cure no loop is beside the designed one."""
+        """The program once suggested complementary chopping although the rotor sensor was the cause. With the cure
+        that the program names, no loop differs from the designed loop."""
         for mode, name in (("speed", "sp"), ("position", "po")):
             self.run_program("new", name, "--motor", "maxon-251601", "--mode", mode)
-        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # around zero current a dead time distorts the loop too
+        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # near zero current the dead time also changes the loop
         both, ideal = ("--set", "pwm.chopping=complementary"), ("--set", "sensors.rotor=ideal")
         encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
         for words, said, cures in some((

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of many runs as their readers take them, each row a dictionary by the columns' names: CSV, store, JSON, page. And the
-checksum of a stored row, written a second time."""
+"""Reads the tables of many runs from CSV, store, JSON and page. Each row is a dictionary with the names of the
+columns as keys. It also has a second implementation of the checksum of a stored row."""
 import base64
 import contextlib
 import csv
@@ -17,7 +17,7 @@ PREFIXES = {"": 1, "n": 1e-9, "u": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6}
 
 
 def shown(text, unit):
-    """The number that a table's cell stands for, in the unit; None for none."""
+    """The number that a cell of a printed table shows, in the given unit; None for "-"."""
     text = text.removesuffix(" *").removesuffix(" !")
     if text == "-":
         return None
@@ -30,7 +30,7 @@ def shown(text, unit):
 
 
 def value(text):
-    """A cell of CSV as the number that it is; None where it is empty."""
+    """A cell of a CSV file as a number, or as text; None if it is empty."""
     try:
         return math.inf if text == "never" else float(text)
     except ValueError:
@@ -71,7 +71,7 @@ def of_json(path):
 
 
 def of_page(path):
-    """The columns that the page draws from, in single precision, by name; a value per run."""
+    """The columns of the page's data, by name, with one value per run in single precision."""
     data = json.loads(path.read_text().split('id="data">', 1)[1].split("</script>", 1)[0])
     columns = {}
     for column in data["plans"][0]["columns"]:
@@ -83,7 +83,7 @@ def of_page(path):
 
 
 def figures_alone(path):
-    """What one run said of itself: figures by name and unit, as its own JSON has them."""
+    """The figures of one run by name and unit, read from the JSON of this run."""
     alone = json.loads(path.read_text())
     told = {"never": math.inf, "-never": -math.inf}
     return alone["digest"], {with_unit(f["figure"], f["unit"]): told.get(f["measured"], f["measured"])
@@ -108,7 +108,8 @@ def text_digest(text, before=0):
 
 
 def checksum(cells, plan, inputs):
-    """Of a stored row, as files/store/stored_row.hpp has it: kind and bits of each value, behind plan and inputs."""
+    """The checksum of a stored row, as in files/store/stored_row.hpp. It covers the plan, the inputs, and the kind
+    and bits of each value."""
     words = [text_digest(inputs, text_digest(plan))]
     for cell in cells:
         if cell is None:
@@ -124,7 +125,8 @@ def checksum(cells, plan, inputs):
 
 
 def sealed(path, change):
-    """Changes the store by SQL, and gives each row the checksum that it would have been written with."""
+    """Changes the store with SQL. Then it corrects the checksum of each row, as if the changed values had been
+    written."""
     with contextlib.closing(sqlite3.connect(path)) as db:
         db.execute(change)
         about = dict(db.execute("SELECT word, value FROM about"))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Values travel with their names: every cell of a table of many runs, wherever it is written, is the figure of the same run made
-alone, under the same name."""
+"""Every cell of a table of many runs is equal to the figure with the same name in the same run, made alone. This is
+true for every kind of file."""
 import contextlib
 import csv
 import json
@@ -14,7 +14,7 @@ import unittest
 import cells
 from program import SHORT, SOURCE, ProgramTest
 
-# Figures of different sizes and units; some have no value.
+# Figures of different sizes and units. Some of them have no value.
 FIGURES = """
 [[require]]
 metric = "max"
@@ -53,7 +53,7 @@ relative = 0.05
 
 class Cells(ProgramTest):
     def held(self, more=""):
-        """Twenty milliseconds of a held rotor: the current is U/R, the heat 2/3 .. of it, and nothing turns."""
+        """Twenty milliseconds with a held rotor. The current is U/R, and the speed is 0."""
         (self.path / "a.toml").write_text(SHORT.format(limit=25).replace("1e-4", "20e-3") + FIGURES + more)
         return "a.toml"
 
@@ -64,7 +64,8 @@ class Cells(ProgramTest):
             self.assertLessEqual(abs(printed - exact), 0.51 * 10.0 ** -(digits - 1) * abs(exact), where)
 
     def check(self, words, alone, runs):
-        """All tables of a plan against its runs alone: `alone` with the number behind it makes one of them."""
+        """Compares all tables of a plan with its single runs. `alone` is the command of one run, without the run's
+        number."""
         table = self.run_program("run", *words, "--store", "s.sqlite", "--csv", "t.csv", "--json", "t.json", "--html", "t.html", code=None).stdout
         of_csv, of_store = cells.of_csv(self.path / "t.csv"), cells.of_store(self.path / "s.sqlite")
         of_json, of_page = cells.of_json(self.path / "t.json"), cells.of_page(self.path / "t.html")
@@ -91,7 +92,7 @@ class Cells(ProgramTest):
         return table, of_csv
 
     def held_rotor(self, drawn, row):
-        """The law: what flows is what voltage and resistance of this very row let flow."""
+        """The law: the current is the voltage divided by the resistance, both of this row."""
         names = {key.removeprefix("drive: ").partition(" [")[0]: cell for key, cell in drawn.items()}
         U, R = names.get("supply.voltage_V", 24), names.get("motor_override.resistance_ohm", 1.03)
         self.assertAlmostEqual(row["current [A]"], U / R, delta=1e-9 * U / R)
@@ -128,7 +129,8 @@ class Cells(ProgramTest):
         self.check(words, [*words, "--only"], 6)
 
     def test_names_that_are_alike_or_act(self):
-        """No two columns have one name; nothing in a name ends a line, moves a cursor or is run by a spreadsheet."""
+        """No two columns have the same name. No name contains the end of a line or a control sequence, and a
+        spreadsheet executes no name as a formula."""
         self.held('[[compare]]\nmetric = "mean"\nsignal = "speed"\nvalue = 0\nsource = "none"\nlabel = "HEAT"\n'
                   '[[compare]]\nmetric = "mean"\nsignal = "copper_loss_W"\nvalue = 0\nsource = "none"\nlabel = "Heat"\n' +
                   "".join(f'[[compare]]\nmetric = "mean"\nsignal = "speed"\nvalue = 0\nsource = "none"\nlabel = "{label}"\n'
@@ -170,7 +172,8 @@ class Cells(ProgramTest):
             self.assertEqual({"never": math.inf}.get(best[figure], best[figure]), measured, figure)
 
     def test_of_points_that_are_searched_with_drives(self):
-        """Each row is the drive at its point, made alone from what the row itself says."""
+        """Each row is the run of one drive at one point. The same run, made alone with the values of the row, has the
+        same result."""
         self.held('[[spread]]\nkey = "motor_override.inductance_mH"\nrelative = 0.2\n')
         (self.path / "p.toml").write_text('scenario = "a.toml"\nminimise = "heat"\nevaluations = 3\ndrives = 2\n'
                                           '[[vary]]\nkey = "supply.voltage_V"\nfrom = 6\nto = 24\n')
@@ -188,7 +191,8 @@ class Cells(ProgramTest):
         self.assertEqual([row["drive: motor_override.inductance_mH [mH]"] for row in rows], [inductances[n % 2] for n in range(6)])
 
     def test_of_a_loop_that_is_measured(self):
-        """A row per frequency, as long as the head, the same numbers in CSV, JSON and table; the frequencies are the multisine's."""
+        """The table has one row per frequency of the multisine. CSV, JSON and the printed table have the same
+        numbers."""
         drive = str(SOURCE / "data/scenarios/thesis/7.3.1-locked-exact-design.toml")
         told = self.run_program("run", drive, "--bode", "--csv", "b.csv", "--json", "b.json", code=None).stdout
         rows = cells.lines_of_csv(self.path / "b.csv")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program as a user meets it: exit codes, messages, and files that are whole or absent."""
+"""The program from a user's view: exit codes, messages, and files that are either complete or absent."""
 import csv
 import json
 import os
@@ -15,7 +15,7 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest
 
 R1 = str(SOURCE / "data/scenarios/reference/R1.toml")
 
-# A winding resistance that varies by a tenth: half of the drives hold 23.3 A.
+# A winding resistance with a tolerance of a tenth. Half of the drives reach 23.3 A.
 SPREAD = """
 [[spread]]
 key = "motor_override.resistance_ohm"
@@ -83,7 +83,7 @@ class CommandLine(ProgramTest):
         self.assertIn("same outputs", self.run_program("run", *files, "--out", "out", code=2).stderr)
 
     def test_an_output_never_takes_the_place_of_an_input(self):
-        """sixstep run a.toml --html a.toml wrote the report over the scenario."""
+        """Once `sixstep run a.toml --html a.toml` replaced the scenario by the report."""
         text = (SOURCE / "data/scenarios/current-square.toml").read_text().replace('"maxon-251601"', '"own.toml"')
         sheet = (SOURCE / "data/motors/maxon-251601.toml").read_text()
         (self.path / "a.toml").write_text(text)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep motor commission: what the chip finds as text, as JSON and as a motor's file, and what it says where it cannot."""
+"""sixstep motor commission: its results as text, as JSON and as a motor file, and its message if it cannot find them."""
 import json
 import tomllib
 import unittest
@@ -61,7 +61,8 @@ class Commission(Started):
         self.assertIsNone(self.found("dji-2212-920kv", "--current", "4", code=1)["hall"])
 
     def test_crossed_phases_are_named(self):
-        """Two swapped phases turn the chip's forward over; three that all moved on do not."""
+        """If two phases are swapped, the chip's forward direction is backward for the motor. A cyclic exchange of all
+        three phases does not reverse it."""
         for phases, turns_over in (("abc", False), ("bca", False), ("bac", True)):
             text = self.commission("maxon-251601", "--phases", phases).stdout
             self.assertEqual(f"Phases {phases} are at the legs a b c." in text, phases != "abc")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep compare MOTOR: what it prints and writes, that a scenario it writes is the one it ran, and what it refuses."""
+"""sixstep compare MOTOR: its text and its files, and the input that it refuses. A scenario that it writes is the
+scenario that it ran."""
 import html
 import json
 import math
@@ -16,8 +17,8 @@ import cells
 from program import PROGRAM, ProgramTest
 
 MOTOR = "maxon-251601"
-R_OHM = 1.03  # of its sheet, from terminal to terminal
-# The parts of each figure of a comparison, by the labels of its scenarios: added and subtracted ones.
+R_OHM = 1.03  # terminal resistance on the sheet
+# The gauges that make up each figure of a comparison, by their labels in the scenarios: the added ones and the subtracted ones.
 MADE_OF = {
     "settling after the start": (["settling of the start"], []),
     "overshoot of the start": (["overshoot of the start"], []),
@@ -44,7 +45,7 @@ RUNS, SEED = 2, 3
 
 
 class Compare(ProgramTest):
-    """One comparison with all that it writes; tests read it."""
+    """Runs one comparison with all its files. The tests read these files."""
 
     @classmethod
     def setUpClass(cls):
@@ -64,13 +65,13 @@ class Compare(ProgramTest):
         return self.made / "all" / (name.replace(",", "").replace(" ", "-") + ".toml")
 
     def alone(self, name, *words):
-        """The figures of a controller's run that is made alone, by their labels, and whether it holds."""
+        """Runs one controller alone. Returns the digest, the figures by their labels, and whether the run passes."""
         self.run_program("run", str(self.scenario(name)), *words, "--json", "one.json", "--force", code=None)
         digest, figures = cells.figures_alone(self.path / "one.json")
         return digest, figures, json.loads((self.path / "one.json").read_text())["passed"]
 
     def figure_of(self, figures, phrase):
-        """A figure of the comparison, of the gauges that it is made of."""
+        """Computes one figure of the comparison from the measured figures of a run."""
         labels = {name.partition(" [")[0]: math.inf if x is None else x for name, x in figures.items()}
         plus, minus = MADE_OF[phrase]
         return sum(labels[label] for label in plus) - sum(labels[label] for label in minus)
@@ -81,12 +82,14 @@ class Compare(ProgramTest):
         for name, controller in self.controllers.items():
             self.assertIn(name, self.printed)
             self.assertEqual(set(controller["nominal"]), set(self.told["units"]))
-        self.assertRegex((self.made / "c.csv").read_text(), r"^# sixstep \d")  # marks sixstep's own file, which the command may overwrite
+        # This line marks a file of sixstep, which the command may overwrite.
+        self.assertRegex((self.made / "c.csv").read_text(), r"^# sixstep \d")
         rows = cells.lines_of_csv(self.made / "c.csv")
         self.assertEqual([row["controller"] for row in rows], [name for name in self.controllers for _ in ("nominal", "worst")])
 
     def test_every_cell_is_that_of_the_run_alone(self):
-        """Store, CSV, JSON, page and tables against the same runs, made one by one from the scenarios that were written."""
+        """The store, the CSV, the JSON, the page and the tables agree with the same runs, which are repeated one by
+        one from the written scenarios."""
         stored = cells.of_store(self.made / "c.sqlite")
         self.assertEqual(len(stored), RUNS * len(self.controllers))
         rows = {(row["controller"], row["drive"]): row
@@ -114,7 +117,7 @@ class Compare(ProgramTest):
                     self.assertEqual(float(cell), exact, (name, kind, phrase))
 
     def test_tables_and_page_show_the_same(self):
-        """Each cell of the four tables, read as its reader reads it, against the JSON under the same name."""
+        """Each cell of the four printed tables is equal to the value with the same name in the JSON."""
         page = html.unescape((self.made / "c.html").read_text(encoding="utf-8"))
         tables = [[re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", re.sub("</?b>", "", row)) for row in re.findall(r"<tr>(.*?)</tr>", table)]
                   for table in re.findall(r"<table>(.*?)</table>", page, re.S)]
@@ -143,9 +146,10 @@ class Compare(ProgramTest):
             self.assertTrue(set(head[1:]) - set(SHORT_NAMES) <= {"hold", "holds", "lowest", "tick", "flash"}, head)
 
     def test_the_figures_keep_the_laws(self):
-        """A worst drive is no better than the nominal one, no more hold than were drawn, a winding of at least 0.9 R carries no more than
-        the bus drives through it (twice, where a hard or complementary bridge turns it round against the back-EMF), no time is longer
-        than its part of the course, and the losses are those of copper and bridge."""
+        """The worst drive is not better than the nominal drive. At most as many drives pass as were drawn. The
+        current is at most what the bus drives through a winding with 0.9 R, or twice this current if a hard or
+        complementary bridge reverses the voltage. No time is longer than its part of the course. The losses are the
+        sum of copper and bridge."""
         course_s = max(float(x) for x in re.findall(r"^duration_s = (\S+)", self.scenario("six-step, soft").read_text(), re.M))
         for name, controller in self.controllers.items():
             self.assertTrue(controller["runs"] and controller["holds"], name)

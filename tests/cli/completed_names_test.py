@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tab on files of hostile names, in each shell as a user has it: what stands in the line then is the file's name, and
-nothing else is run."""
+"""Completion by Tab of files with hostile names, in each shell with its usual settings. The completed word is the
+name of the file, and the shell executes nothing else."""
 import os
 import pty
 import select
@@ -12,7 +12,7 @@ import unittest
 from hostile import FILES, is_visible
 from program import PROGRAM, ProgramTest
 
-# A script that calls the program for completions, and logs every other call.
+# A script that passes completions to the program, and records the arguments of every other call.
 NOTING = """#!/bin/bash
 case $1 in __complete | completion) exec {program} "$@";; esac
 printf '%s\\0' "$@" >{folder}/called.part && mv {folder}/called.part {folder}/called
@@ -42,7 +42,7 @@ class CompletedNames(ProgramTest):
         return pid, terminal
 
     def typed(self, terminal, line):
-        """What sixstep is called with then."""
+        """Types a line in the terminal, and returns the arguments with which the shell calls sixstep."""
         called = self.path / "called"
         called.unlink(missing_ok=True)
         os.write(terminal, line.encode())
@@ -67,7 +67,7 @@ class CompletedNames(ProgramTest):
                 found = self.typed(terminal, "sixstep run \t\n")
                 if name.startswith(b"-"):  # fish completes no word that begins with a dot
                     self.assertIn(found, ([b"run", b"./" + name + b".toml"], [b"run"] if shell == "fish" else []))
-                elif is_visible(name):  # the program offers no other names; the shell may offer them itself
+                elif is_visible(name):  # the program offers only visible names; the shell may offer other names itself
                     self.assertEqual(found, [b"run", name + b".toml"])
         self.typed(terminal, f"cd {self.path}; sixstep here\n")
         self.assertEqual(self.typed(terminal, "sixstep run d0/\t\n"), [b"run", b"d0/" + FILES[0] + b".toml"])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Completion as the three shells ask for it, each with its own script and its own ways to split words."""
+"""Completion in the three shells. Each shell has its own script and splits the line into words in its own way."""
 import os
 import shutil
 import subprocess
@@ -8,7 +8,7 @@ import unittest
 
 from program import PROGRAM, ProgramTest
 
-# The work of a shell's function at Tab: it prints the candidates, one per line.
+# What a shell's function does after Tab: it prints the candidates, one per line.
 BASH = """
 set -u
 source <("$PROGRAM" completion bash)
@@ -65,7 +65,7 @@ class Completion(ProgramTest):
 
     def test_options(self):
         self.everywhere("sixstep run --js", ["--json"])
-        self.everywhere("sixstep run --quiet --q", [])  # given already
+        self.everywhere("sixstep run --quiet --q", [])  # --quiet is already in the line
 
     def test_scenario_files_and_folders(self):
         self.everywhere("sixstep run hi", ["high/", "hill.toml"])
@@ -90,7 +90,8 @@ class Completion(ProgramTest):
         self.assertEqual(self.noted, "")
 
     def test_every_word_that_is_offered_is_taken(self):
-        """What an option offers its verb accepts: no list has grown old."""
+        """A verb accepts every word that the completion offers for its option. Thus the lists of words are up to
+        date."""
         def offered(*words):
             return [line.split("\t")[0] for line in self.run_program("__complete", *words, "").stdout.splitlines()]
         for words, end in ((("new", "--mode"), ["--voltage", "0"]), (("design", "--method"), ["x"]), (("design", "--chopping"), ["x"]),

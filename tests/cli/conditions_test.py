@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions that a reader must be told: heat of a limit, the supply behind a clearance, a sheet that contradicts itself."""
+"""Messages that must be printed: the heating at a current limit, the supply that a clearance assumes, and a data
+sheet that contradicts itself."""
 import json
 import math
 import re
@@ -14,7 +15,8 @@ SHEET = (SOURCE / "data/motors/maxon-251601.toml").read_text()
 
 class Conditions(ProgramTest):
     def test_the_time_that_a_winding_withstands_its_limit_is_that_of_two_bodies(self):
-        """Winding and housing integrated step by step, with the worse ends of the sheet's ranges (5.3 K/W, 11.7 s), from 25 to 125 degC."""
+        """Integrates the temperatures of winding and housing step by step from 25 to 125 degC. It uses the worse ends
+        of the ranges on the sheet (5.3 K/W, 11.7 s)."""
         remarks = json.loads(self.run_program("run", CORTEX, "--json", "-").stdout)
         told = re.search(r"lets ([\d.]+) A flow.*withstands this current for .* from 25 degC, and by the worse ends of the thermal ranges for ([\d.]+) s", json.dumps(remarks))
         current, seconds = map(float, told.groups())
@@ -31,7 +33,8 @@ class Conditions(ProgramTest):
         self.assertNotIn("nominal current", within)
 
     def test_the_worse_ends_of_the_thermal_ranges_are_told_beside_the_values(self):
-        """A motor file with these ends as its values has the same time, and it is the bound of protection.stall_s."""
+        """A motor file with the worse ends as its values has the same time. This time is also the upper limit of
+        protection.stall_s."""
         def seconds(*words):
             return float(re.search(r"for ([\d.]+) s; no protection", self.run_program("run", CORTEX, *words).stdout).group(1))
         ends = seconds()
@@ -42,7 +45,8 @@ class Conditions(ProgramTest):
             self.run_program("export", "header", CORTEX, "--set", f"protection.stall_s={part * ends}", "--out", "d.hpp", "--force", code=code)
 
     def test_all_that_a_clearance_states_is_printed(self):
-        """Each warning and note of the header's comment, and each reason that was overridden, is a line on the terminal too."""
+        """Each warning and note in the header's comment is also a line on the terminal. The same is true for each
+        reason that the user has overridden."""
         (self.path / "bare.toml").write_text("\n".join(line for line in SHEET.splitlines() if not re.match("thermal_|max_|nominal_current", line)))
         bare = (SOURCE / "data/scenarios/firmware/cortex-m.toml").read_text().replace('"maxon-251601"', '"bare.toml"')
         (self.path / "bare-drive.toml").write_text(bare)
@@ -63,7 +67,8 @@ class Conditions(ProgramTest):
             self.assertEqual(sorted(told), sorted(stated), words)
 
     def test_a_clearance_names_the_supply_that_it_needs(self):
-        """The same drive with the stated supply decides: where it fails by itself, the note must be there."""
+        """Compares the note with a run of the same drive on the stated supply. If that run fails, the note must be
+        printed."""
         brakes = ("--set", "protection.brake_current_A=2", "--set", "supply.capacitance_F=1e-3")
         sinks = (*brakes, "--set", "supply.sinks=true")
         cleared = self.run_program("export", "header", CORTEX, *sinks)
@@ -76,14 +81,15 @@ class Conditions(ProgramTest):
         self.run_program("export", "header", CORTEX, *brakes, *large, "--out", "yes.hpp")
 
     def test_the_example_for_a_bench_holds_on_any_supply_within_its_tolerances(self):
-        """As it is, without its load, and in drives with displaced Hall edges."""
+        """The example passes as it is, without its load, and with displaced Hall edges."""
         cleared = self.run_program("export", "header", CORTEX)
         self.assertNotIn("takes current back", cleared.stderr + cleared.stdout)
         for load in ("0.02", "0"):
             self.run_program("run", CORTEX, "--set", f"load.torque_Nm={load}", "--tolerances", "--runs", "20")
 
     def test_a_drive_without_protection_is_told(self):
-        """By the note and by the constant that an image reads; the product drive protects."""
+        """A note and a constant in the header state that the drive has no protection. The product drive has
+        protection and no such note."""
         self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--toml", "lean.toml")
         for file, told in (("lean.toml", True), (CORTEX, False)):
             cleared = self.run_program("export", "header", file)
@@ -120,7 +126,8 @@ class Conditions(ProgramTest):
         self.assertIn("resistance_ohm = 1 is taken as 1 +- 50 %", told)
 
     def test_figures_with_the_sensor_are_of_one_loop(self):
-        """Delay margin = phase margin over crossover, in the rows that include the speed's sensor."""
+        """The delay margin is the phase margin divided by the crossover frequency. This is true in the rows that
+        include the speed sensor."""
         text = self.run_program("design", "--scenario", CORTEX, "--quick").stdout
         def last(row, unit):
             return float(re.search(rf"{row} with the speed's sensor .* ([\d.]+) {unit}\n", text).group(1))

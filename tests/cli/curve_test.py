@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep curve: table, files, refusals."""
+"""sixstep curve: its table, its files, and the input that it refuses."""
 import json
 import re
 import unittest
@@ -15,7 +15,7 @@ class Curve(ProgramTest):
         rows = (self.path / "a.csv").read_text().splitlines()
         self.assertEqual(rows[2], "# command: sixstep curve maxon-251601 --csv a.csv --json a.json --html a.html")
         self.assertTrue(rows[1].startswith("# motor: maxon-251601; "), rows[1])
-        # It names the conditions of the limits, as the table does, and what its first row leaves out.
+        # The header of the limits names their conditions, as the table does, and what the first row neglects.
         worse = re.search(r"worse ends of the motor file's ranges \((.*?)\)", " ".join(shown.split())).group(1)
         self.assertIn(f"25 degC ambient and the worse ends {worse}", rows[1])
         self.assertIn("speed 0 without friction", rows[1])
@@ -33,7 +33,8 @@ class Curve(ProgramTest):
         self.assertEqual(json.loads(self.run_program("curve", "maxon-251601", "--json", "-").stdout), curve)
 
     def test_ratings_are_told_with_their_source(self):
-        """Those of the 251601 are of a set-up file, not of its sheet; where a sheet says nothing else they are its own."""
+        """The ratings of the 251601 are from a set-up file, and the text names this file. Without a named source, the
+        text calls them ratings of the sheet."""
         told = self.run_program("curve", "maxon-251601", "--points", "3").stdout
         self.assertIn("\nNominal point, public ESCON set-up file: 83.40 mNm, 5240 rpm, 2.330 A; ", told)
         plain = (SOURCE / "data/motors/maxon-251601.toml").read_text().replace(', source = "public ESCON set-up file"', "")
@@ -44,7 +45,7 @@ class Curve(ProgramTest):
         told = " ".join(self.run_program("curve", "maxon-251601", "--voltage", "48", "--points", "3").stdout.split())
         allowed, no_load = map(float, re.search(r"The sheet allows (\d+) rpm, but the no-load speed is (\d+) rpm", told).groups())
         self.assertEqual(allowed, 10000)
-        self.assertGreater(no_load, 1.8 * 6710)  # twice the voltage, about twice the speed
+        self.assertGreater(no_load, 1.8 * 6710)  # at twice the voltage the speed is about twice as high
         self.assertNotIn("The sheet allows", self.run_program("curve", "maxon-251601", "--points", "3").stdout)
 
     def test_a_linear_motors_curve_is_in_newtons(self):
@@ -53,7 +54,7 @@ class Curve(ProgramTest):
         self.assertTrue(rows[0].startswith("speed_m_s,force_N,air_gap_force_N,ideal_force_N,"))
         linear = json.loads((self.path / "a.json").read_text())
         turning = json.loads(self.run_program("curve", "maxon-251601", "--points", "5", "--json", "-").stdout)
-        for a, b in zip(linear["points"], turning["points"]):  # the 251601 unrolled at 20 mm
+        for a, b in zip(linear["points"], turning["points"]):  # linear motor: the 251601 unrolled, with a radius of 20 mm
             self.assertAlmostEqual(a["force_N"], b["torque_Nm"] / 0.02, 9)
             self.assertAlmostEqual(a["speed_m_s"], b["speed_rad_s"] * 0.02, 10)
         self.assertIn("Force-speed curve of Example", (self.path / "a.html").read_text())

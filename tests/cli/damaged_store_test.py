@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A damaged store, gone on with: either a message and exit 2, or what the undamaged one tells, byte for byte. SIXSTEP_DAMAGED says how
-many copies, SIXSTEP_SEED which."""
+"""Resumes a damaged store. The result is either a message and exit code 2, or the same bytes as from the undamaged
+store. SIXSTEP_DAMAGED is the number of damaged copies, SIXSTEP_SEED the seed."""
 import contextlib
 import os
 import random
@@ -69,7 +69,8 @@ class DamagedStore(ProgramTest):
         self.assertGreater(refused, COPIES // 5, f"seed {SEED}")
 
     def run_either(self):
-        """Goes on with it: what it says with exit 2, or nothing where its output is that of the undamaged store."""
+        """Resumes the store. Returns the message of exit code 2, or None if the output is equal to the output of the
+        undamaged store."""
         try:
             self.assertEqual(self.resumed(code=1), self.whole)
         except AssertionError:
@@ -104,7 +105,7 @@ class DamagedStore(ProgramTest):
         self.assertIn("was written by an older sixstep without checksums", self.refused())
 
     def test_a_row_of_another_store_is_no_row(self):
-        """The same plan of another scenario has the same columns."""
+        """The same plan with another scenario has the same columns. A row copied from that store is refused."""
         (self.path / "b.toml").write_text((self.path / "a.toml").read_text().replace("relative = 0.2", "relative = 0.1"))
         self.run_program("run", "b.toml", "--runs", "5", "--store", "b.sqlite", "--quiet", code=None)
         (self.path / "s.sqlite").write_bytes(self.good)
@@ -116,7 +117,7 @@ class DamagedStore(ProgramTest):
         self.assertIn("run 3 differs from the written one", self.refused())
 
     def test_the_checksum_has_a_second_implementation(self):
-        """In cells.py: it gives every row the one that it has."""
+        """The second implementation is in cells.py. It computes the stored checksum of every row."""
         (self.path / "s.sqlite").write_bytes(self.good)
         before = cells.of_store(self.path / "s.sqlite", "run")
         cells.sealed(self.path / "s.sqlite", "UPDATE run SET f0 = f0")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep design --scenario: what a design keeps of its board's scenario, what it loses, and that it says so."""
+"""sixstep design --scenario: the settings of the board's scenario that a design keeps, the settings that it loses,
+and the messages about both."""
 import json
 import pathlib
 import re
@@ -22,7 +23,7 @@ reference = {value = 100}
 """
 
     def designed_for(self, text, *options, code=0):
-        """The design's text and the scenario that it wrote for a board's."""
+        """The text of the design for a board, and the scenario that the design wrote."""
         (self.path / "board.toml").write_text(text)
         told = self.run_program("design", "--scenario", "board.toml", "--quick", "--toml", "d.toml", "--force", *options, code=code).stdout
         return told, tomllib.loads((self.path / "d.toml").read_text())
@@ -46,7 +47,7 @@ over_speed_rad_s = 300
         self.assertEqual(written["protection"]["over_current_A"], 4)
         self.assertNotIn("not_usable", written)
         self.assertNotIn("the usual value of small bridges", (self.path / "d.toml").read_text())
-        # With a limit above the trip level, text and file name the same omission.
+        # If the current limit is above the trip level, the text and the file name the same omitted parts.
         told, written = self.designed_for(board.replace("limit_A = 3", "limit_A = 8"), code=1)
         self.assertIn("NOT USABLE: of the board's scenario are left out: ", told)
         self.assertIn("control.drive and [protection]", written["not_usable"])
@@ -80,7 +81,8 @@ over_speed_rad_s = OVER
 """
 
     def test_what_the_boards_drive_changes_is_told_as_the_file_runs(self):
-        """The product drive measures its offsets first, so that a step of the current settles later."""
+        """The product drive first measures the offsets of its current sensors. Thus the current settles later after a
+        step."""
         told, _ = self.designed_for(self.HELD.replace("MODE", "current").replace("LIMITS", "").replace("OVER", "300").replace("value = 100", "value = 2"))
         line = re.search(r"the designed file keeps control.drive and \[protection\] of the board's scenario, so that its run shows (.*)", told).group(1)
         run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
@@ -92,7 +94,8 @@ over_speed_rad_s = OVER
             self.assertAlmostEqual(value, ran[name], delta=0.005 * abs(ran[name]), msg=name)
 
     def test_the_test_asks_for_what_the_board_allows(self):
-        """Nominal are 2.33 A. A test beyond its own board's limits called it NOT USABLE, and its file lost all protection."""
+        """The nominal current is 2.33 A. Once the design's test asked for more than the board allows: the design was
+        called NOT USABLE, and its file lost all protection."""
         for mode, limits, over, most in (("current", "current_A = 1.5", 300, 1.5), ("current", "torque_Nm = 0.045", 300, 0.045 / 0.0335),
                                          ("speed", "current_A = 1.5", 300, None), ("speed", "torque_Nm = 0.06", 300, None),
                                          ("speed", "speed_rad_s = 120", 300, 120), ("speed", "", 130, 130)):
@@ -130,7 +133,7 @@ speed = {settle_s = 0.1, damping = 0.9}
         self.assertIn("correct the wiring (sensors.hall_lines, bridge.phases)", told)
 
     def test_a_limit_of_the_current_bounds_what_is_warned_of(self):
-        """3 A of the 5.83 A at full torque: 1.29 times the nominal current."""
+        """The limit is 3 A. This is 1.29 times the nominal current, and less than the 5.83 A at full torque."""
         told, _ = self.designed_for(self.BOARD + """
 [control]
 mode = "speed"
@@ -160,7 +163,7 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         scenarios = SOURCE / "data" / "scenarios"
         self.run_program("design", "--scenario", str(scenarios / "firmware" / "cortex-m.toml"), "--mode", "speed", "--quick", "--quiet", "--toml", "kept.toml")
         board, kept = (tomllib.loads(path.read_text()) for path in (scenarios / "firmware" / "cortex-m.toml", self.path / "kept.toml"))
-        for key in ("off_at_s", "voltage_samples"):  # off_at_s belongs to the board's own test; voltage_samples has its default value
+        for key in ("off_at_s", "voltage_samples"):  # off_at_s belongs to the board's own test, and voltage_samples has its default value
             board["protection"].pop(key, None)
         self.assertEqual(kept["protection"], board["protection"])
         self.assertEqual(kept["control"]["drive"], "product")
@@ -171,7 +174,8 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         self.run_program("export", "header", "lost.toml", "--arithmetic", "float", "--out", "lost.hpp", code=2)
 
     def test_what_the_designs_own_test_replaces_is_told_by_design_and_header(self):
-        """The header's bound of the setpoint is the file's largest reference, and its run judged none of the board's requirements."""
+        """In the designed file, the test of the design replaces the board's reference and requirements. The header's
+        limit of the setpoint is the largest reference of the designed file."""
         name = str(SOURCE / "data" / "scenarios" / "firmware" / "cortex-m.toml")
         board = tomllib.loads(pathlib.Path(name).read_text())
         told = self.run_program("design", "--scenario", name, "--quick", "--toml", "d.toml").stdout

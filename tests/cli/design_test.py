@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep design: text, files, refusals."""
+"""sixstep design: its text, its files, and the input that it refuses."""
 import json
 import re
 import signal
@@ -13,11 +13,12 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest
 
 def mat_variables(data):
-    """A MAT file of level 5, uncompressed, read by its specification alone: {name: rows of numbers, or text}."""
+    """Reads an uncompressed MAT file of level 5, written only from the specification. Returns {name: rows of numbers,
+    or text}."""
     def elements(at, end):
         while at < end:
             kind, size = struct.unpack_from("<II", data, at)
-            if kind >> 16:  # small element: size and data in eight bytes
+            if kind >> 16:  # a small element has its size and its data in the same eight bytes
                 yield kind & 0xffff, data[at + 4:at + 4 + (kind >> 16)], at
                 at += 8
             else:
@@ -40,7 +41,8 @@ def mat_variables(data):
 
 class Design(ProgramTest):
     def test_an_interval_rises_and_an_expected_rounding_is_nothing(self):
-        """Of a slow speed loop the linear gain is the smaller one: each number keeps its own words."""
+        """The lower end of the interval is printed first. For a slow speed loop the gain of the linear loop is the
+        lower end. Each number has its own explanation."""
         for settle in ((), ("--settle", "0.15", "--rotor", "ideal"), ("--settle", "0.3")):
             told = self.run_program("design", "maxon-251601", "--mode", "position", "--quick", *settle, code=None).stdout
             found = re.search(r"found by (\d+) simulation(s?); the search began between (\S+) \((.*?)\) and (\S+) \((.*?)\)", told)
@@ -59,7 +61,8 @@ class Design(ProgramTest):
         self.assertRegex(told, r"step: settling to 2 % +900 us +[\d.]+ ms\n")
 
     def test_a_warnings_period_is_the_longest_that_removes_it(self):
-        """Ripple and phase margin have bounds of their own: at a cure its warning is gone, at a period 5 % longer it is there."""
+        """The ripple and the phase margin have different limits of the period. At the period that a warning names,
+        the warning disappears. At a period 5 % longer the warning is printed."""
         def cures(period_s):
             told = self.run_program("design", "maxon-251601", "--quick", "--chopping", "complementary", "--period", f"{period_s!r}").stdout
             found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) this warning does not appear)?", told) for word in ("has a phase margin", "PWM ripple")}
@@ -79,7 +82,8 @@ class Design(ProgramTest):
             self.assertEqual(said, source)
 
     def test_a_ripple_is_judged_over_an_electrical_turn(self):
-        """At 2 rad/s and eight pole pairs a sector lasts 65 ms: what is printed is what a longer run shows."""
+        """At 2 rad/s and with eight pole pairs a sector lasts 65 ms. The printed ripple is equal to the ripple of a
+        longer run."""
         told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--lowest-speed", "2", "--rotor", "encoder",
                                 "--toml", "q.toml", code=None).stdout
         printed = float(re.search(r"speed ripple +\S+ rad/s +(\S+) rad/s", told).group(1))
@@ -96,7 +100,8 @@ class Design(ProgramTest):
         self.assertNotIn("out of tolerance", told)
 
     def test_a_sample_in_the_middle_makes_the_loop_half_a_period_later(self):
-        """30 us of delay cost 360 f 30 us of phase at the crossover f; half of it is what the middle costs beside the start."""
+        """A delay of 30 us reduces the phase at the crossover frequency f by 360 f 30 us. A sample in the middle of
+        the period, in place of its start, has half of this effect."""
         margins = {}
         for way in ("phases", "dc-link"):
             told = self.run_program("design", "maxon-251601", "--quick", "--currents", way).stdout
@@ -110,7 +115,8 @@ class Design(ProgramTest):
             self.assertAlmostEqual(margins[sooner] - margins[later], half, delta=0.3)
 
     def test_a_new_current_scenario_foretells_its_own_run(self):
-        """Its samples lie in the middle and its answers a period later: 1.5 periods, which the expected overshoot counts."""
+        """The scenario samples in the middle of a period, and the command acts one period later: 1.5 periods. The
+        expected overshoot includes this delay."""
         for motor in ("maxon-251601", "dji-2212-920kv"):
             self.run_program("new", f"{motor}-held", "--mode", "current", "--motor", motor)
             rows = self.run_program("run", f"{motor}-held.toml").stdout
@@ -120,7 +126,8 @@ class Design(ProgramTest):
             self.assertLessEqual(abs(float(settling.group(1)) - float(settling.group(2))), 30.1, motor)
 
     def test_a_mean_above_the_samples_is_bounded_by_the_ripple_at_its_duty(self):
-        """R = 0.4 ohm, L = 0.65 mH of a phase: at 1 A of 24 V the duty d is 2 R/U, and the ripple U d (1 - d) T/(2 L)."""
+        """A phase has R = 0.4 ohm and L = 0.65 mH. At 1 A and U = 24 V the duty d is 2 R I/U, and the ripple is U d
+        (1 - d) T/(2 L), with the period T."""
         told = self.run_program("new", "held", "--mode", "current", "--motor", "anaheim-bly172s").stdout
         self.assertIn("note: The current is sampled at the start of each period", told)
         text = (self.path / "held.toml").read_text()
@@ -161,7 +168,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["loop"], loop["name"])
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
-            # The design's test uses a board's dead time, as usual gate drivers need it.
+            # The board has no dead time. The design's test uses a value that is usual for gate drivers.
             self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: simulated with the usual value of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
@@ -237,7 +244,8 @@ class Design(ProgramTest):
         self.assertEqual(told, "--load-mass = 1 applies to linear motors only, and this motor is rotary; write --load-inertia\n")
 
     def test_an_option_that_enters_nothing_is_refused_by_name(self):
-        """Each option of the help, in each kind of design: it changes the numbers, or is refused by its name."""
+        """For each option of the help and each kind of design: the option either changes the numbers, or is refused
+        with its name."""
         values = {"--settle": "2e-3", "--damping": "0.8", "--current-settle": "2e-3", "--method": "cancellation", "--bandwidth": "500", "--period": "25e-6",
                   "--voltage": "20", "--torque-limit": "0.3", "--force-limit": "3", "--rotor": "encoder", "--edges": "3", "--capture": "2e6", "--lowest-speed": "55", "--currents": "dc-link",
                   "--load-inertia": "1e-6", "--load-mass": "0.1", "--delay": "0", "--chopping": "complementary", "--step": "1.5", "--mode": "speed", "--angle": "10",
@@ -276,10 +284,10 @@ class Design(ProgramTest):
         self.assertEqual(self.names(), ["d.html"])
 
     def test_an_interrupted_design_leaves_nothing_behind(self):
-        # A very slow loop: a minute of the drive is simulated for each motor.
+        # A very slow loop: the design simulates a minute for each motor.
         design = subprocess.Popen([PROGRAM, "design", "maxon-251601", "--mode", "speed", "--settle", "5", "--toml", "d.toml"],
                                   cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while not self.names():  # the outputs are open: the run has begun
+        while not self.names():  # as soon as the outputs are open, the run has begun
             time.sleep(0.01)
         time.sleep(0.3)
         design.send_signal(signal.SIGINT)

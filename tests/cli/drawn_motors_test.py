@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Motors that nobody chose, of the kinds that are built: sixstep new writes a scenario that runs and passes, in every mode and soon,
-and design calls its drive usable, or advises what makes it so. SIXSTEP_DRAWN_MOTORS: how many; SIXSTEP_SEED: which."""
+"""Random motors of the kinds that exist. The scenario that sixstep new writes runs quickly and passes, in every mode.
+The design calls its drive usable, or gives an advice that makes it usable. SIXSTEP_DRAWN_MOTORS is the number of
+motors, SIXSTEP_SEED the seed."""
 import json
 import math
 import os
@@ -14,11 +15,11 @@ from program import ProgramTest, some
 
 MODES = ("speed", "current", "position", "duty")
 COUNT, SEED = int(os.environ.get("SIXSTEP_DRAWN_MOTORS", "4")), int(os.environ.get("SIXSTEP_SEED", "1"))
-QUICK = 4  # number of drawn motors in the usual tests, one per mode; with more, each also gets a design
-LONGEST_S = 20.0  # of CPU time on all cores, without optimisation: the fault that this detects took minutes
+QUICK = 4  # number of random motors in the usual tests, one per mode; with more motors each also gets a design
+LONGEST_S = 20.0  # limit of the CPU time on all cores, without optimisation; the error that this detects took minutes
 
-# Ranges of sheets: pole pairs, bus in V, no-load speed in rad/s, L/R in s, mechanical time constant R J/K_t^2 in s, stall current
-# in A, nominal current as a part of it.
+# For each kind, the ranges of pole pairs, bus in V, no-load speed in rad/s, L/R in s, mechanical time constant R J/K_t^2 in s,
+# stall current in A, and the ratio of nominal and stall current.
 KINDS = {
     "slotless":   ((1, 2), (12, 48), (700, 6000), (5e-5, 2.5e-4), (2e-3, 1.5e-2), (5, 100), (0.04, 0.15)),
     "flat":       ((4, 12), (12, 48), (250, 1000), (2e-4, 1e-3), (5e-3, 5e-2), (5, 60), (0.05, 0.2)),
@@ -58,7 +59,8 @@ def computing_s():
     return used.ru_utime + used.ru_stime
 
 
-# Motors that once gave no scenario, or one after minutes: small time constants, one pole pair, a slow wheel, a drone's reactance.
+# Motors for which `sixstep new` once wrote no scenario, or needed minutes: small time constants, one pole pair, a slow wheel, a
+# drone's reactance.
 FOUND = {
     "small": """pole_pairs = 2
 back_emf = "sine"
@@ -132,7 +134,8 @@ class MotorTest(ProgramTest):
         self.assertRegex(self.run_program("design", f"{motor}.toml", "--mode", mode, *words).stdout, "^(good|usable)")
 
     def chokes_help(self, motor, mode, choke_mH):
-        """Two of them lie in series with the winding: with both the ripple is no reason any more."""
+        """A choke in each of two driven phases is in series with the winding. With these chokes the ripple is not a
+        reason for the verdict."""
         sheet = (self.path / f"{motor}.toml").read_text()
         changed = re.sub(r"(inductance_mH = { value = )(\S+?),", lambda found: f"{found[1]}{float(found[2]) + 2 * choke_mH:.6g},", sheet)
         self.assertNotEqual(changed, sheet)
@@ -165,7 +168,8 @@ class FoundMotors(MotorTest):
         self.assertRegex((self.path / "a.toml").read_text(), r'(?m)^rotor = "encoder"')
 
     def test_samples_that_stand_beside_the_mean_are_told(self):
-        """30 us at 24 V over 224 uH: 1 A in samples, and half of the ripple U T (1 - d) d/L more in the mean."""
+        """With a period T = 30 us, U = 24 V and L = 224 uH, the samples show 1 A. The mean current is larger by half
+        of the ripple U T (1 - d) d/L, with the duty d."""
         self.run_any("design", "small.toml", "--quiet", "--toml", "x.toml")
         told = self.run_program("run", "x.toml").stdout
         ripple = 24 * 30e-6 / 224e-6 * (1.6 / 24) * (1 - 1.6 / 24)
@@ -193,7 +197,8 @@ class DrawnMotors(MotorTest):
                 print(f"{n + 1} motors", flush=True)
 
     def judge(self, name, mode, designs):
-        """A failure is told at once, too: a thousand motors take hours, and who stops them keeps what was found."""
+        """A failure is also printed at once. A thousand motors take hours, and a user who stops the test keeps the
+        failures that were found."""
         try:
             self.new_runs(name, mode)
             if designs and mode != "duty":

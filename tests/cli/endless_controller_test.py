@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A controller of one's own that never returns: it is reported after 2 s, and the program ends after 10 s."""
+"""A user's controller that never returns is reported after 2 s. The program ends after 10 s."""
 import os
 import subprocess
 import time

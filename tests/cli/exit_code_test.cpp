@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No accepted scenario can cause a fault: bridge commands never name a leg twice, and probes never fail. This
-// test therefore calls the function that computes the exit code of a fault.
+// No accepted scenario can cause a fault of this kind: bridge commands never name a leg twice, and probes
+// never fail. This test therefore calls the function that computes the exit code of a fault.
 #include "faces/cli/exit_code.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep export: a gate in front of the chip. What its run does not hold, or did not measure, is not exported."""
+"""sixstep export: a drive is exported only if its run has passed and has measured all that is necessary."""
 import pathlib
 import re
 import subprocess
@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 DESPITE = ["--despite", "the tests look at its text"]
-BOARD = "current-square-board"  # may be exported: it has converters, and the answer has a period of delay
+BOARD = "current-square-board"  # this scenario may be exported: it has converters, and the command is delayed by a period
 
 
 class Export(ProgramTest):
@@ -96,7 +96,7 @@ class Gate(ProgramTest):
         return str(SOURCE / f"data/scenarios/{name}.toml")
 
     def refused(self, code, name, *words):
-        """The lines told, none of which may come with a header."""
+        """The messages of an export that is refused. No header may be written."""
         result = self.run_program("export", "header", self.scenario(name), *words, "--out", "d.hpp", code=code)
         self.assertEqual((result.stdout, self.names()), ("", []))
         *lines, last = result.stderr.splitlines()
@@ -117,7 +117,8 @@ class Gate(ProgramTest):
         self.assertEqual(text, again, "no date")
 
     def test_a_header_tells_what_its_run_showed_and_nobody_asked(self):
-        """Slower than 9.2 L/R the placed loop's proportional gain is negative: 2 x 4.6/T_reg is below R/L."""
+        """If the settling time T_reg is longer than 9.2 L/R, the proportional gain of the placed loop is negative: 2
+        x 4.6/T_reg is smaller than R/L."""
         slow = self.run_program("export", "header", self.scenario(BOARD), "--set", "control.current={settle_s=0.02}", *DESPITE).stdout
         plain = self.run_program("export", "header", self.scenario(BOARD)).stdout
         self.assertIn("gain on the error is negative", slow)
@@ -148,7 +149,8 @@ class Gate(ProgramTest):
                          ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
 
     def test_the_cures_of_an_encoders_position_lead_to_a_header(self):
-        """All that is told at once, and the design that it names: no second refusal comes behind the first."""
+        """All reasons are printed together, with the command of the design. After these changes the export is not
+        refused again."""
         encoder = SOURCE / "data/scenarios/gallery/encoder.toml"
         said = self.run_program("export", "header", str(encoder), "--out", "d.hpp", code=2).stderr
         self.assertIn('sensors.rotor = "encoder" is not supported by the header\'s drive, which reads Hall probes; set rotor = "hall", '

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A library that is preloaded before the program: it makes the N-th call of a kind fail, once or from then on.
+/* A library that is preloaded before the program. It makes the N-th call of a kind fail, once or from this call on.
  *
  *   SIXSTEP_FAULT="pwrite 5 28"        the fifth pwrite fails with errno 28
  *   SIXSTEP_FAULT="malloc 300 12 on"   the 300th and every later malloc fails with errno 12
@@ -79,6 +79,6 @@ ssize_t write(int d, const void* b, size_t n) {
   return real(d, b, d > 2 && n > 1 && fails("short") ? n / 2 : n);
 }
 
-/* __libc_malloc instead of dlsym, because dlsym itself allocates memory. */
+/* Calls __libc_malloc, because dlsym itself allocates memory. */
 extern void* __libc_malloc(size_t);
 void* malloc(size_t n) { return fails("malloc") ? NULL : __libc_malloc(n); }

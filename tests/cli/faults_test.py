@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every call by which a file is written fails once, or from some time on (fault_shim.c): either all is as it is without the fault, or
-the exit code is 2 and standard error says why; nothing half written stands under a whole name, and nothing hidden is left.
+"""Every call that writes a file fails once, or fails from a certain time on (fault_shim.c). Either the files are as
+without the fault, or the exit code is 2 and standard error states the reason. No incomplete file has its final name,
+and no hidden file remains.
 
-All of them: SIXSTEP_FAULTS=all (ctest --preset long); else so many, drawn by a seed that is printed and SIXSTEP_SEED repeats."""
+With SIXSTEP_FAULTS=all every case is tested (ctest --preset long). SIXSTEP_FAULTS may also be a number of random
+cases. The seed is printed, and SIXSTEP_SEED repeats it."""
 import os
 import pathlib
 import random
@@ -31,10 +33,12 @@ EIO, ENOMEM, EACCES, ENOSPC = 5, 12, 13, 28
 KINDS = (("write", EIO), ("write", ENOSPC), ("short", 0), ("pwrite", EIO), ("fsync", EIO), ("rename", EACCES), ("truncate", ENOSPC), ("reserve", ENOSPC),
          ("read", EIO), ("pread", EIO), ("close", EIO), ("malloc", ENOMEM))
 CALLS = (1, 2, 3, 5, 8, 13, 21, 34, 55)
-# The N-th allocation varies with a path's length, so some numbers are close together where a plan's scenarios are read.
+# The number of allocations depends on the length of a path. The numbers are close together in the part that reads the scenarios
+# of a plan.
 ALLOCATIONS = (1, 200, 1000, 3000, 6000, *range(8500, 9500, 37), 20000, 50000, 100000)
 FAULTS = [(work, kind, reason, at, often) for work in WORK for kind, reason in KINDS for at in (ALLOCATIONS if kind == "malloc" else CALLS)
-          for often in ("", "on") if not (often and (kind == "short" or (kind == "malloc" and at == 1)))]  # without any memory no message is possible
+          # With no memory at all the program cannot print a message.
+          for often in ("", "on") if not (often and (kind == "short" or (kind == "malloc" and at == 1)))]
 
 
 def rows(path):
@@ -61,7 +65,7 @@ class Faults(ProgramTest):
             self.assertNotIn("internal error", told)
             self.assertRegex(told, r"\w+ \w+", "it says why")
         for name, text in self.whole().items():
-            if name == "o.xml" and code == 2:  # o.xml describes the run and says that it was stopped
+            if name == "o.xml" and code == 2:  # o.xml describes the run, and states that the run was stopped
                 self.assertTrue(text == files[name] or b"<error" in text, text)
                 continue
             self.assertTrue(text == files[name], f"{name} stands whole, and differs")

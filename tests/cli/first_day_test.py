@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A first day: a data sheet becomes gains, a scenario, a verdict and a header that compiles, with Hall probes all the way
-and without a limit cycle: what is called usable holds, and what does not hold is called so."""
+"""The first day of a user: from a data sheet to gains, a scenario, a verdict and a header that compiles. The drive
+has Hall probes, and must have no limit cycle. A drive that is called usable passes, and a drive that fails is not
+called usable."""
 import json
 import re
 import subprocess
@@ -31,7 +32,7 @@ class FirstDay(ProgramTest):
         self.run_program("motor", "check", "mine.toml")
 
     def swing(self, *settings):
-        """Peak to peak of the speed at the end of the scenario's run, and whether its requirements hold."""
+        """The peak-to-peak value of the speed at the end of the scenario's run, and whether the run passes."""
         ran = json.loads(self.run_any("run", "drive.toml", "--json", "-", *settings).stdout)
         swings = [r["measured"] for r in ran["require"] if r["figure"] == "swing of the speed at the end"]
         self.assertEqual(len(swings), 1)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Files of other drive programs: parameters become a motor file, and logs of a field-oriented run lie on it."""
+"""Files of other drive programs: their parameters become a motor file, and their logs agree with a field-oriented
+run."""
 import csv
 import math
 import re
@@ -97,7 +98,8 @@ class LogsOfAFieldOrientedRun(ProgramTest):
             self.assertEqual(int(m[2]), len(self.rows), made.stdout)
 
     def test_currents_of_the_axes_are_amplitudes(self):
-        """3/2 p psi i_q is the torque only if i_q is the amplitude of a phase current, as VESC, ODrive, moteus and SimpleFOC have it."""
+        """The torque is 3/2 p psi i_q only if i_q is the amplitude of a phase current. VESC, ODrive, moteus and
+        SimpleFOC use this definition. Here p is the number of pole pairs and psi the flux linkage."""
         late = self.rows[len(self.rows) // 2:]
         i_q, torque = (sum(r[name] for r in late) / len(late) for name in ("i_q_A", "torque_Nm"))
         self.assertAlmostEqual(torque / (1.5 * PAIRS * PSI * i_q), 1.0, delta=0.02)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The list of names that act where they are not escaped, as tests/support/hostile_names.hpp reads it: bytes."""
+"""The hostile names in tests/support/hostile_names.hpp, as bytes. Without escaping, such a name acts as a command or
+as markup."""
 import re
 
 from program import SOURCE
@@ -11,7 +12,8 @@ FILES = [name for name in TEXTS if b"/" not in name]
 
 
 def is_visible(name):
-    """Of a name's bytes: text without controls, line ends, reordering and what has no width."""
+    """Whether the bytes of a name are text without control characters, line ends, reordering marks and characters of
+    no width."""
     try:
         return not re.search("[\x00-\x1f\x7f-\x9f\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff]", name.decode())
     except UnicodeDecodeError:

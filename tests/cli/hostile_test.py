@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Hostile titles, labels, keys and file names through every verb and every file: nothing acts, every link leads there."""
+"""Hostile titles, labels, keys and file names in every verb and every file. No name acts as a command or as markup,
+and every link leads to its file."""
 import html.parser
 import json
 import os
@@ -17,7 +18,7 @@ from program import BRISK, PROGRAM, SHORT, SOURCE, ProgramTest, hall_log
 if os.path.isdir("/dev/shm"):  # a file system in memory, because the test writes hundreds of files, each synchronised to its disk
     tempfile.tempdir = "/dev/shm"
 UTF8 = [text.decode() for text in TEXTS if text == text.decode(errors="ignore").encode()]
-quoted = lambda text: json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")  # a string of TOML
+quoted = lambda text: json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")  # a TOML string
 REQUIRE = '[[require]]\nmetric = "final"\nsignal = "current"\nlabel = {}\nmax = {}\n'
 
 
@@ -43,12 +44,12 @@ class Hostile(ProgramTest):
         return result
 
     def check_shown(self, shown):
-        """Lines of visible text."""
+        """Checks that every line is visible text."""
         for line in shown.split(b"\n"):
             self.assertTrue(is_visible(line), line)
 
     def scenario(self, texts, name="a.toml"):
-        """With the texts wherever a scenario takes one."""
+        """Writes a scenario that has the given texts in every place where a scenario accepts a text."""
         title, *labels = [quoted(text) for text in texts]
         rows = "".join(REQUIRE.format(label, limit) for label in labels for limit in (1000, -1))
         compare = f'[[compare]]\nmetric = "final"\nsignal = "current"\nvalue = 1\nlabel = {title}\nsource = {labels[0]}\n'
@@ -182,7 +183,7 @@ class Hostile(ProgramTest):
         lines = comments.splitlines()
         self.assertGreater(len(lines), 5 * len(UTF8))
         self.assertEqual([line for line in lines if not line.startswith(b"//")], [])
-        # Each comment ends with its line: the line after it is code.
+        # Every comment must end with its line. The line after it must be code.
         result = subprocess.run(["g++", "-std=c++20", "-trigraphs", "-Wall", "-Wextra", "-Werror", "-x", "c++", "-E", "-"],
                                 input=b"".join(line + b"\nx\n" for line in lines), capture_output=True, timeout=60)
         self.assertEqual((result.returncode, result.stderr), (0, b""))

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Ctrl-C and SIGTERM end every verb, whatever it is at, and what was finished by then is told as unfinished.
+"""Ctrl-C and SIGTERM end every verb at any time. The message names the files with the finished part, and no file is
+called complete.
 
-Each verb is given work for far longer than the test, and is stopped at random instants; the seed is printed, and
-SIXSTEP_SEED repeats it. `-v` shows how long each took to end."""
+The work of each verb lasts much longer than the test, and the signal comes at a random instant. The seed is printed,
+and SIXSTEP_SEED repeats it. `-v` prints the time until the verb ends."""
 import contextlib
 import itertools
 import math
@@ -24,7 +25,7 @@ R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
 PLAN = str(SOURCE / "data/plans/best-pwm.toml")
 SERIES = str(SOURCE / "data/scenarios/current-square-series.toml")
 LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
-# The program needs a fifth of a second on an idle machine; other tests in parallel make that longer.
+# On an idle machine the program needs 0.2 s. With other tests in parallel it needs longer.
 BOUND_S = 5.0
 ROUNDS = len(some(range(4), 2))
 TOLD = {signal.SIGINT: 130, signal.SIGTERM: 143}
@@ -56,7 +57,7 @@ max = 3
 
 
 class Ends(Started):
-    """words, what is told of them on either stream, and what stays behind"""
+    """For each verb: its arguments, the expected messages on both streams, and the files that remain."""
 
     def setUp(self):
         super().setUp()
@@ -70,7 +71,7 @@ class Ends(Started):
         super().tearDown()
 
     def stopped(self, *words, after=(0.02, 0.8), sent=None):
-        """Exit code's standing, and everything that was said."""
+        """Stops a verb by a signal. Returns whether the program handled the signal, and all its messages."""
         sent = sent or self.random.choice(list(TOLD))
         wait = self.random.uniform(*after)
         with self.started(*words) as program:
@@ -83,7 +84,7 @@ class Ends(Started):
             except subprocess.TimeoutExpired:
                 self.fail(f"{words} goes on after {sent.name} at {wait:.3f} s, seed {SEED}")
             self.slowest = max(self.slowest, time.monotonic() - begin)
-        # The signal itself ends the program before the handler is installed, or where no output needs closing.
+        # The signal itself ends the program if the handler is not installed yet, or if no output must be closed.
         self.assertIn(program.returncode, (TOLD[sent], -sent), (words, wait, SEED, out + told))
         return program.returncode > 0, out + told
 
@@ -104,7 +105,7 @@ class Ends(Started):
                 self.assertRegex(said, BEGUN_OR_NOT, SEED)
 
     def test_run_while_it_starts(self):
-        """The signal may come when it is listened to and nothing runs yet."""
+        """The signal may arrive after the program has installed its handler and before a run begins."""
         for _ in range(20):
             heard, said = self.stopped("run", "long.toml", after=(0.0, 0.08))
             self.assertRegex(said, BEGUN_OR_NOT if heard else "^$", SEED)
@@ -136,7 +137,7 @@ class Ends(Started):
             return read.execute("SELECT COUNT(*) FROM run").fetchone()[0]
 
     def test_a_plan_names_what_it_leaves_and_how_to_go_on(self):
-        """Its files under partial names, and the runs of its store: with --resume no run is made a second time."""
+        """The message names the partial files and the number of runs in the store. With --resume no run is repeated."""
         files = ["--csv", "o.csv", "--json", "o.json", "--junit", "o.xml"]
         for store, quiet in itertools.product((False, True), (False, True)):
             words = ["run", SERIES, "--runs", "1000000", *files, *(["--store", "o.sqlite"] if store else []), *(["--quiet"] if quiet else [])]
@@ -184,7 +185,7 @@ class Ends(Started):
                                      told="curve maxon-251601: interrupted; nothing was written", after=(0.05, latest), rounds=2)
 
     def test_a_single_point_of_a_curve(self):
-        """Chopping far faster than the rotor: one point of this curve takes minutes."""
+        """The chopping is much faster than the rotor. One point of this curve takes minutes."""
         self.nothing_is_left("curve", "maxon-251601", "--duty", "0.5", "--points", "2", "--pwm-period", "1e-9",
                              told="curve maxon-251601: interrupted; nothing was written", after=(0.1, 0.8))
 
@@ -194,13 +195,13 @@ class Ends(Started):
         self.assertGreater(heard, 0)
 
     def test_a_commissioning(self):
-        """A wheel's hub takes nine seconds of the motor's time."""
+        """Commissioning the motor of a wheel hub takes nine seconds of simulated time."""
         heard = self.nothing_is_left("motor", "commission", "hoverboard-hub", "--voltage", "36", "--html", "c.html", "--write", "c.toml", after=(0.05, 0.5), rounds=2,
                                      told="motor commission hoverboard-hub: interrupted; nothing was written")
         self.assertGreater(heard, 0)
 
     def test_an_identification(self):
-        """Twenty thousand edges with voltages beside them: ten seconds of work."""
+        """A log of twenty thousand edges with voltages takes ten seconds to identify."""
         lines = hall_log(turns=3400, rows=30).splitlines()
         wave = [f",{math.cos(math.radians(12 * n - 30)):.3f},{math.cos(math.radians(12 * n - 150)):.3f}" for n in range(30)]
         (self.path / "log.csv").write_text(lines[0] + ",u_ab,u_bc\n" + "".join(line + wave[n % 30] + "\n" for n, line in enumerate(lines[1:])))
@@ -218,7 +219,7 @@ class Ends(Started):
         self.assertGreater(heard, 0)
 
     def test_verbs_that_only_print(self):
-        """They are over in no time, and leave nothing to put in order: the signal ends them, or comes too late."""
+        """These verbs end at once and write no files. The signal ends the verb, or arrives after its end."""
         for words in ("new --full", "new fresh", "motor list", "motor show maxon-251601", "motor check maxon-251601", "motor new",
                       "schema", "man", "help"):
             for sent in TOLD:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Libraries that are loaded when a command asks for them: a missing one is named with its package, and other commands do not need it."""
+"""Some libraries are loaded only when a command needs them. A missing library is named together with its package, and
+the other commands run without it."""
 import os
 import pathlib
 import subprocess
@@ -11,7 +12,7 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest
 
 class LoadedLibraries(ProgramTest):
     def without(self, library, *words):
-        """Runs the program where another library stands under this one's name."""
+        """Runs the program with another library in place of the named library."""
         zlib = next(pathlib.Path("/usr/lib").rglob("libz.so.1"))
         (self.path / "lib").mkdir(exist_ok=True)
         (self.path / "lib" / library).symlink_to(zlib)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep man: well-formed roff that says what the program declares, no more and no less."""
+"""sixstep man: well-formed roff with exactly the verbs and options that the program declares."""
 import os
 import re
 import shutil
@@ -17,7 +17,7 @@ class Manual(ProgramTest):
         self.plain = re.sub(r"\\f[BIR]", "", self.page).replace("\\-", "-")
 
     def verbs(self, *path):
-        """Every command line that --help leads to."""
+        """Every command line to which --help leads."""
         told = self.run_program(*path, "--help").stdout
         inner = re.findall(r"(?m)^  (\w+) ", told.partition("Subcommands:")[2])
         if not inner:
@@ -54,7 +54,8 @@ class Manual(ProgramTest):
         self.assertIn("first.html", self.names())
 
     def test_the_page_of_the_command_line(self):
-        """Every line of docs/reference/command-line.md does what it says, in a home of its own."""
+        """Every line of docs/reference/command-line.md has the stated effect. The commands run with a home folder of
+        their own."""
         text = (SOURCE / "docs/reference/command-line.md").read_text(encoding="utf-8")
         script = "set -eu\n" + "".join(re.findall(r"(?ms)^```sh\n(.*?)^```$", text))
         # Other tests check compare's output; this one checks only that compare accepts these two lines.

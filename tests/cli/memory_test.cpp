@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's peak memory does not grow with simulated time if rows are written to a file.
+// If rows are written to a file, the program's peak memory does not increase with the simulated time.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,7 +33,7 @@ long peak_of_KiB(std::vector<std::string> words) {
   return usage.ru_maxrss;
 }
 
-/// Peak memory of R3 (soft chopping) with a row per PWM period.
+/// Peak memory of a run of R3 (soft chopping) with one row per PWM period.
 long peak_KiB(const std::string& duration_s, std::vector<std::string> more) {
   std::vector<std::string> words = {SIXSTEP_PROGRAM,
                                     "run",
@@ -55,9 +55,9 @@ class Memory : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// The growth of peak memory, in KiB, from one to ten times the run's duration. Mapped pages of the
-  /// program's files are included, and the kernel maps a varying number of them. A growth with time appears
-  /// in each of three tries.
+  /// The growth of peak memory, in KiB, if the run is ten times as long. The value includes mapped pages of
+  /// the program's files, and the kernel maps a varying number of them. A real growth appears in each of
+  /// three tries, so the least of three is used.
   long growth_KiB(const std::vector<std::string>& more) {
     long least = growth_in_one_try_KiB(more);
     for (int n = 1; n < 3 && least > bound_KiB; ++n) least = std::min(least, growth_in_one_try_KiB(more));
@@ -65,13 +65,13 @@ class Memory : public ::testing::Test {
   }
 
  private:
-  // The writer buffers 64 KiB of text; the rest of the bound is for steps of the allocator. In memory,
-  // 120'000 rows of seven columns would need 6.5 MiB more, and all columns of each event far more.
+  // The writer buffers 64 KiB of text. The rest of the bound allows for the granularity of the allocator. In
+  // memory, 120'000 rows of seven columns would need 6.5 MiB more, and all columns of each event far more.
   long growth_in_one_try_KiB(const std::vector<std::string>& more) {
     const long once = peak_KiB("0.4", more), tenfold = peak_KiB("4", more);
     std::printf("peak %ld KiB for 0.4 s, %ld KiB for 4 s\n", once, tenfold);
-    // After fork, a child starts with its parent's pages, as a trivial program shows. The program's own
-    // memory must be larger.
+    // After fork, a child starts with the pages of its parent, as a trivial program shows. The program's own
+    // memory must be larger than these pages.
     EXPECT_GT(once, peak_of_KiB({"/bin/true"}));
     return tenfold - once;
   }
@@ -105,8 +105,8 @@ TEST_F(Memory, DoesNotGrowWhileLogicSignalsStreamToAFile) {
   EXPECT_GT(std::filesystem::file_size(file("a.vcd")), 3u * 1024u * bound_KiB);
 }
 
-// A report keeps its events, 59 MB per simulated second. The measurement includes the events, up to their
-// bound.
+// A report stores its events, 59 MB per simulated second, up to a limit. The measured memory includes the
+// stored events.
 TEST_F(Memory, OfAReportHasABound) {
   const std::string report = file("report.html");
   const long some = peak_KiB("0.4", {"--html", report}), most = peak_KiB("20", {"--html", report});

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep motor, and the road of somebody with a printed sheet."""
+"""sixstep motor, and the steps of a user who has a printed data sheet."""
 import json
 import pathlib
 import re

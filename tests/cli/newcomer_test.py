@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep new, and the road of somebody who has only its file and the messages."""
+"""sixstep new, and the steps of a user who has only the file and the messages."""
 import json
 import re
 import subprocess
@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 MODES = ("speed", "current", "position", "duty")
-# The motors are of several trades: a flat motor, a drone, two servos of which one runs at 200 V.
+# Motors of several kinds: a flat motor, a drone's motor, and two servo motors, one of them for 200 V.
 MOTORS = ("maxon-251601", "dji-2212-920kv", "teknic-m2310p", "baldor-bsm90n-175")
 
 
@@ -18,7 +18,7 @@ class Starter(ProgramTest):
         return json.loads(self.run_program("run", file, "--json", "-", *words).stdout)["digest"]
 
     def test_it_passes_as_it_is_in_every_mode_with_motors_of_every_trade(self):
-        # Each motor in one mode and each mode once come first, then the other pairs.
+        # First come pairs in which each motor and each mode occurs once, then the other pairs.
         pairs = [(motor, MODES[(n + shift) % len(MODES)]) for shift in range(len(MODES)) for n, motor in enumerate(MOTORS)]
         for motor, mode in some(pairs, len(MOTORS)):
             with self.subTest(f"{motor} {mode}"):
@@ -67,7 +67,8 @@ class Starter(ProgramTest):
         self.assertEqual(text.replace("FILE.toml", "mine.toml"), (self.path / "mine.toml").read_text())
 
     def test_what_stands_behind_a_hash_holds_without_it(self):
-        """Each line that shows a default may be opened: the trajectory keeps its bits."""
+        """Each commented-out line shows a default. Without the comment sign the run has the same trajectory, to the
+        last bit."""
         for mode in MODES:
             text = self.run_program("new", "--full", "--mode", mode).stdout
             (self.path / "a.toml").write_text(text)
@@ -107,7 +108,8 @@ class Starter(ProgramTest):
             self.assertLessEqual(max(map(len, lines)), 110)
 
     def test_a_torque_limit_that_no_sheet_prints_says_where_it_comes_from(self):
-        """A quarter of what the bus drives through the held winding, where no nominal current is printed; beside one that is, nothing."""
+        """If no nominal current is printed, the limit is a quarter of the current that the bus drives through the
+        held winding. The text says so. If a nominal current is printed, the text does not mention its source."""
         told = self.run_program("new", "a", "--motor", "qs138-70h", "--voltage", "36").stdout
         amperes = float(re.search(r"a quarter of the stall current, (\S+) A", told)[1])
         checked = self.run_program("motor", "check", "qs138-70h").stdout
@@ -135,12 +137,12 @@ class Starter(ProgramTest):
         self.run_program("run", "--quiet", "a.toml")
 
 
-# The values that the newcomer wants in any case: all other knowledge comes from the messages.
+# The values that a new user must know. Everything else is in the messages.
 WANTED = {"duration_s": "0.21", "motor": '"maxon-251601"', "metric": '"mean"', "shape": "steps"}
 
 
 class Follower:
-    """Does what a message says and nothing else: finds the place, reads the cure, edits the file."""
+    """Follows a message literally: it searches the place, reads the cure, and edits the file."""
 
     def __init__(self, test):
         self.test = test
@@ -160,7 +162,7 @@ class Follower:
         self.test.fail(f"no edit follows from: {message}")
 
     def edits(self):
-        """From the most to the least particular."""
+        """The patterns of the cures, from the most special to the most general."""
         yield r"^did you mean \"?([\w.-]+)\"?\?$", self.replace_word
         yield r"^write (\w+) and give the value in that unit: 1 \S+ = (\S+) ", self.rename_and_scale
         yield r"^write (\w+) and give the value in that unit$", self.replace_word
@@ -207,7 +209,8 @@ class Follower:
         self.lines[self.row] = self.lines[self.row].replace(value[0], f"= {float(value[1]) * float(factor)!r}", 1)
 
     def insert_wanted(self, key):
-        # The message about a missing key gives the line where its table begins; the file itself begins at its first line.
+        # The message about a missing key names the line where the key's table begins. For a key without a table this is the first
+        # line of the file.
         self.lines.insert(self.row + self.lines[self.row].startswith("["), f"{key} = {WANTED[key]}")
 
     def set_key(self, path, value):
@@ -223,11 +226,11 @@ class Follower:
         self.replace_word(word)
 
     def mind_the_sign(self):
-        """Where only the meaning is told, the limit is that a size has no sign."""
+        """The message states only the meaning of the key. The limit is that a size has no sign."""
         self.replace_word(self.word().lstrip("-"))
 
 
-# (the mistake, the starter's mode, the text that the newcomer replaces, his text)
+# (the mistake, the mode of the first scenario, the text that the user replaces, the new text)
 MISTAKES = [
     ("a typo in a key", "speed", r"^settle_s\b", "setle_s"),
     ("a typo in a table", "speed", r"^\[reference\]", "[refrence]"),
@@ -258,7 +261,7 @@ MISTAKES = [
 
 
 class Newcomer(ProgramTest):
-    written = {}  # by mode: what sixstep new writes
+    written = {}  # {mode: the scenario that sixstep new writes}
 
     def start(self, mode):
         if mode not in self.written:
@@ -273,7 +276,7 @@ class Newcomer(ProgramTest):
         (self.path / file).write_text(changed)
 
     def go_on(self, most=2):
-        """Runs and follows what is told, at most so often; then the scenario passes."""
+        """Runs the scenario and follows the messages, at most `most` times. Then the scenario must pass."""
         for _ in range(most):
             result = self.run_program("run", "first.toml", code=2)
             told = result.stderr.splitlines()

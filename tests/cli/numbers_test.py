@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers that no bench has, in every option that takes one: refused in words, at once, and nothing is written."""
+"""Absurd numbers in every option that expects a number. The option is refused with a message, at once, and no file is
+written."""
 import json
 import unittest
 
@@ -33,7 +34,7 @@ class Numbers(ProgramTest):
         for option in ["--voltage", "--duty", "--pwm-period", "--on-resistance", "--diode-drop", "--ambient"]:
             for number in HOSTILE:
                 if (option, number) == ("--ambient", "5e-324"):
-                    continue  # rounds to 0 degC, which is allowed
+                    continue  # this value is rounded to 0 degC, which is allowed
                 self.assertTrue(self.refused("curve", "maxon-251601", option, number, "--csv", "a.csv").startswith(option + " = "))
         for points in ["2147483647", "200001", "-1", "99999999999999999999"]:
             self.assertIn("points", self.refused("curve", "maxon-251601", "--points", points))

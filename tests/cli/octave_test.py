@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A run's CSV, MAT 5 and MAT 7.3 as Octave reads them, and the class of faces/octave/. Octave is 117 packages: `tools/install.sh long` brings it, and
-`ctest --preset long` asks it."""
+"""Octave reads the CSV, MAT 5 and MAT 7.3 files of a run, and uses the class of faces/octave/. Octave needs 117
+packages: `tools/install.sh long` installs it, and only `ctest --preset long` runs this test."""
 import json
 import shutil
 import subprocess
@@ -18,7 +18,7 @@ class Octave(ProgramTest):
         self.assertTrue(shutil.which("octave-cli"), "Octave is not installed: tools/install.sh long")
 
     def told(self, script, program=PROGRAM):
-        """What a script prints in a folder with an apostrophe and a space in its name."""
+        """The output of a script that runs in a folder with an apostrophe and a space in its name."""
         here = self.path / "a user's folder"
         here.mkdir(exist_ok=True)
         done = subprocess.run(["octave-cli", "--norc", "--eval", f"addpath('{SOURCE}/faces/octave'); sixstep.program('{program}');\n{script}"], cwd=here,
@@ -64,7 +64,7 @@ class Octave(ProgramTest):
         self.assertEqual(lines, [told["digest"], told["verdict"]])
 
     def test_a_plot_draws_each_signal_over_the_time(self):
-        """Functions of this folder stand in for those that need a screen."""
+        """Functions in this folder replace the functions of Octave that need a screen."""
         here = self.path / "a user's folder"
         here.mkdir()
         for name, arguments, text in (("subplot", "varargin", "printf('at %d %d %d\\n', varargin{:})"), ("plot", "x, y", "printf('%d %d %.2f\\n', numel(x), numel(y), x(end))"),

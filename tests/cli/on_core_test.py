@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep run --on: what it refuses, with a way out. Runs on cores: ./test --target (tests/target/loop.py, avr.py)."""
+"""sixstep run --on: the input that it refuses, with a cure in each message. `./test --target` runs drives on cores
+(tests/target/loop.py, avr.py)."""
 import os
 import pathlib
 import subprocess

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What is there already: files of others stay unless --force is given, and are asked for before the work begins."""
+"""Existing files: a file that the program did not write is replaced only with --force. The program checks this before
+the work begins."""
 import os
 import signal
 import stat
@@ -11,7 +12,8 @@ from program import BRISK, SHORT, SOURCE, WIRING, Started, hall_log
 
 LETTER = "Dear reader,\nthis is nobody's trace.\n"
 EMF = f"motor emf {SOURCE}/data/recordings/bly172s-emf.csv --pole-pairs 4"
-# The outputs of each verb; {} is the file. slow.toml runs for minutes, so that the time shows that the refusal comes before the run.
+# The outputs of each verb; {} is the name of the file. slow.toml runs for minutes. Thus the time shows whether the refusal comes
+# before the run.
 OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --mat {}", "run --mat73": "run slow.toml --mat73 {}",
            "run --vcd": "run slow.toml --vcd {}", "run --json": "run slow.toml --json {}", "run --html": "run slow.toml --html {}",
            "run --html of two": "run slow.toml slow.toml --html {}",
@@ -55,7 +57,7 @@ class Overwriting(Started):
             with self.subTest(what):
                 self.run_program(*words, "--force")
                 self.assertNotIn(LETTER.encode(), (self.path / name).read_bytes())
-                self.run_program(*words)  # files written by sixstep contain that mark
+                self.run_program(*words)  # sixstep recognises its own files, so it replaces them
             (self.path / name).unlink()
 
     def test_a_scenario_of_a_design_that_was_gone_on_with_stays(self):

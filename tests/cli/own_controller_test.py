@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A controller of one's own that ends, crashes, overwrites, rounds otherwise or does not come back: it is told by name and place, and
-nothing of what the program writes is wrong (tests/files/controllers/misbehaving/)."""
+"""A user's controller that ends the program, crashes, overwrites memory, changes the rounding mode or does not
+return. The message names the controller and the place, and no file of the program is wrong
+(tests/files/controllers/misbehaving/)."""
 import json
 import os
 import pathlib
@@ -36,7 +37,7 @@ WHO = rf"^{re.escape(str(CONTROLLER))}: the controller "
 ENDS = "; the program ends here, and unfinished results are lost\n$"
 AT_20 = r" in step 20, at t = 0\.000570 s"
 
-# The message about each way to end the program, and the places where it may occur.
+# The message for each way to end the program, and the steps in which it may occur.
 WAYS = {"exit": r"ended the program by exit\(\)", "quick_exit": r"ended the program by exit\(\)", "_exit": r"ended the program by _exit\(\)",
         "_Exit": r"ended the program by _exit\(\)", "abort": r"ended itself by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
         "divide": r"crashed \(SIGFPE: .*\)", "illegal": r"crashed \(SIG(ILL|TRAP).*\)", "recursion": r"crashed \(SIG(SEGV|BUS): .*\)",
@@ -50,7 +51,8 @@ class OwnController(Started):
         (self.path / "a.toml").write_text(SCENARIO.format(duration=0.01))
 
     def behaving(self, deed, *words, by=1, at=20):
-        """Exit code, standard output, standard error; what an earlier one has left is gone."""
+        """Deletes the files of the last run, and runs the controller with the given error. Returns exit code,
+        standard output and standard error."""
         for name in set(self.names()) - {"a.toml", "s.sqlite", "s.sqlite.stopped"}:
             (self.path / name).unlink()
         made = subprocess.run([PROGRAM, *(words or ("run", "a.toml", "--csv", "o.csv", "--json", "o.json"))], cwd=self.path, capture_output=True, text=True, timeout=60,
@@ -69,7 +71,8 @@ class OwnController(Started):
             self.nothing_is_left()
 
     def test_no_header_of_another_drive_is_written_for_it(self):
-        """A header configures the library's drives: one under the figures of this run would flash another controller."""
+        """A header configures the library's drives. A header with the figures of this run would flash another
+        controller."""
         for words in ((), ("--despite", "a trial")):
             made = subprocess.run([PROGRAM, "export", "header", "a.toml", *words, "--out", "d.hpp"], cwd=self.path, capture_output=True, text=True, check=False)
             self.assertEqual(made.returncode, 2, made.stderr)
@@ -105,7 +108,8 @@ class OwnController(Started):
             self.nothing_is_left()
 
     def test_how_it_rounds_stays_its_own(self):
-        """The same bits as of one that leaves the processor as it is, in this run and in every later one."""
+        """The bits are the same as with a controller that does not change the processor's state, in this run and in
+        every later run."""
         digest = lambda: json.loads((self.path / "o.json").read_text())["digest"]
         self.assertEqual(self.behaving("well")[0], 0)
         well, rows = digest(), (self.path / "o.csv").read_text()
@@ -138,7 +142,7 @@ class OwnController(Started):
         self.nothing_is_left()
 
     def test_a_plan_goes_on_without_the_run_that_ended_it(self):
-        """Of four runs the third has twenty steps and no other has: the period decides."""
+        """The controller fails in step 20. Of the four runs only the third has twenty steps, because of its period."""
         (self.path / "a.toml").write_text(SCENARIO.format(duration=0.0006))
         plan = ["run", "a.toml", "--vary", "pwm.period_s=100us,60us,30us,50us", "--store", "s.sqlite", "--jobs", "1"]
         code, _, told = self.behaving("step-abort", *plan)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep run with many runs: what varies, what is stored, and that a kill takes nothing that was finished."""
+"""sixstep run with many runs: the varied keys, the stored values, and that a kill destroys no finished run."""
 import base64
 import contextlib
 import csv
@@ -40,7 +40,7 @@ points = 3
 
 class Plan(ProgramTest):
     def held(self, more=""):
-        """Thirty time constants of a held rotor: the current is U/R."""
+        """A scenario with a held rotor that lasts thirty time constants. The final current is U/R."""
         (self.path / "a.toml").write_text(SHORT.format(limit=20).replace("1e-4", "20e-3") + more)
         return "a.toml"
 
@@ -85,7 +85,8 @@ class Plan(ProgramTest):
         self.assertIn("numbers 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
 
     def test_a_run_of_a_plan_has_the_remarks_of_the_run_alone(self):
-        """Neither the table nor a resumed store loses one; a remark with other numbers in other runs is one line, which says whose they are."""
+        """The table and a resumed store have all remarks of the single runs. If a remark has different numbers in
+        several runs, it is one line, which names the runs."""
         (self.path / "b.toml").write_text(SHORT.format(limit=1e3).replace("1e-4", "2e-3").replace("locked = true", "dynamometer_times_s = [0]\ndynamometer_rad_s = [2000]"))
         vary = ["run", "b.toml", "--vary", "pwm.period_s=5us,20us,40us", "--set", "heat.step_s=1"]
         alone = [json.loads(self.run_program(*vary, "--only", str(n), "--json", "-", code=None).stdout)["remarks"] for n in range(3)]
@@ -108,7 +109,8 @@ class Plan(ProgramTest):
         self.assertEqual(json.loads((self.path / "s.json").read_text())["remarks"], [])
 
     def test_a_controller_is_designed_for_each_value_or_stays_as_it_was(self):
-        """What strays meets the gains of the value as written: bit for bit the run that is given them."""
+        """By default the controller is designed for each varied value. For a key with a tolerance the gains stay as
+        for the written value: the run has the same bits as a run with these gains."""
         (self.path / "b.toml").write_text('motor = "maxon-251601"\nduration_s = 4e-3\n[control]\nmode = "current"\n'
                                           "[control.current]\nsettle_s = 1e-3\ndamping = 0.9\n[reference]\nvalue = 5\n[load]\nlocked = true\n")
         (self.path / "g.toml").write_text((self.path / "b.toml").read_text().replace("settle_s = 1e-3\ndamping = 0.9\n", ""))
@@ -152,7 +154,8 @@ class Plan(ProgramTest):
                       self.run_program("run", file, "--runs", "9", "--store", "s.sqlite", "--resume", code=2).stderr)
 
     def test_kills_take_nothing_that_was_finished(self):
-        """Killed at random instants and gone on with, the table is bit for bit that of one sitting."""
+        """The program is killed at random instants and resumed. The table has the same bits as the table without an
+        interruption."""
         seed = random.randrange(2**32)
         draw = random.Random(seed)
         file = self.held(SPREAD)
@@ -164,7 +167,7 @@ class Plan(ProgramTest):
                 time.sleep(draw.uniform(0.01, 0.15))
                 program.send_signal(signal.SIGKILL)
             if program.returncode != -signal.SIGKILL:
-                (self.path / "s.sqlite").unlink()  # the plan was finished: restart
+                (self.path / "s.sqlite").unlink()  # the plan was complete, so start again
                 before = 0
                 continue
             kills += 1
@@ -172,7 +175,7 @@ class Plan(ProgramTest):
                 continue
             try:
                 now = len(self.rows("s.sqlite", "run"))
-            except sqlite3.OperationalError as missing:  # killed before the tables existed
+            except sqlite3.OperationalError as missing:  # the program was killed before it created the tables
                 self.assertIn("no such table", str(missing))
                 now = 0
             self.assertGreaterEqual(now, before, f"seed {seed}")
@@ -183,7 +186,8 @@ class Plan(ProgramTest):
         self.assertEqual(len(whole), 4001)
 
     def test_several_processes_need_a_build_with_mpi(self):
-        """Else each would make all the runs; one of them says so. A plan on one rank, and other verbs on any, are as ever."""
+        """Without MPI each process would make all the runs. One process prints this message. A plan on one rank, and
+        other verbs on any number of ranks, run as usual."""
         file = self.held()
         for names in ("OMPI_COMM_WORLD_SIZE OMPI_COMM_WORLD_RANK", "PMI_SIZE PMI_RANK", "SLURM_STEP_NUM_TASKS PMIX_RANK"):
             size, rank = names.split()
@@ -198,7 +202,8 @@ class Plan(ProgramTest):
                 self.run_program("run", file, code=1)
 
     def test_indices_say_which_key_a_figure_hangs_on(self):
-        """I = U/R: of ln I the parts are those of ln U and ln R; over small ranges I is nearly linear in both."""
+        """I = U/R. The variance of ln I is the sum of the variances of ln U and ln R. Over small ranges I is nearly
+        linear in both keys, so the indices are equal to these parts."""
         file = self.held()
         words = ["run", file, "--vary", "supply.voltage_V=23:25", "--vary", "motor_override.resistance_ohm=1.02:1.04", "--vary",
                  "load.torque_Nm=0:0.1", "--sampling", "saltelli", "--points", "200", "--set", "require=[]", "--set",
@@ -255,7 +260,8 @@ class Plan(ProgramTest):
         self.assertGreater(max(r) - min(r), 0.1)
 
     def test_the_best_point_is_the_laws_and_its_limit_is_named(self):
-        """The least current U/R of at least 10 A is 10 A; goes on from a store; what it writes runs to the same figure."""
+        """The smallest current U/R that is at least 10 A is 10 A. The search can be resumed from a store, and the
+        scenario that it writes has the same figure."""
         (self.path / "a.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "20e-3").replace("max = 1000", "min = 10"))
         (self.path / "p.toml").write_text('scenario = "a.toml"\nminimise = "current"\nevaluations = 80\n'
                                           '[[vary]]\nkey = "supply.voltage_V"\nfrom = 6\nto = 24\n'
@@ -284,7 +290,8 @@ class Plan(ProgramTest):
             self.assertIn(why, self.run_program("design", "--optimise", "q.toml", code=2).stderr)
 
     def test_verdicts_for_build_servers(self):
-        """JUnit's own numbers: a case per requirement and one for running at all, as plain runs and as plans have them."""
+        """The counts of JUnit: one case per requirement, and one case for the run itself. Runs and plans have the
+        same form."""
         held = self.held()
         missed = self.write("b & <c>.toml", 1)
         (self.path / "p.toml").write_text(PLAN)
@@ -302,7 +309,7 @@ class Plan(ProgramTest):
         bad = xml.etree.ElementTree.parse(self.path / "bad.xml").getroot()
         self.assertEqual(bad.get("errors"), "1")
         self.assertIn("1 could not run, first run 1", bad[0][0][0].get("message"))
-        self.run_program("run", held, "--junit", "runs.xml", code=1)  # overwrites sixstep's own file
+        self.run_program("run", held, "--junit", "runs.xml", code=1)  # replaces a file that sixstep has written
         (self.path / "other.xml").write_text("<?xml version='1.0'?><mine/>")
         self.run_program("run", held, "--junit", "other.xml", code=2)
 
@@ -335,7 +342,7 @@ class Plan(ProgramTest):
         self.assertIn("could not run", result.stdout)
 
     def page(self, name):
-        """A page, and the data that it draws from."""
+        """The text of a page, and the data of its plots."""
         text = (self.path / name).read_text()
         data = json.loads(text.split('id="data">', 1)[1].split("</script>", 1)[0])
         return text, data["plans"]
@@ -346,8 +353,8 @@ class Plan(ProgramTest):
         self.assertIn("from_s = 1.1 is not before the end of the run (duration_s = 0.02)", told)
 
     def test_crossed_wires_in_a_speed_loop(self):
-        """Backward holds each speed with the other sign, late one speed whatever is asked; early trips, and says which figures are
-        measured after that."""
+        """With the wiring "backward" each speed has the other sign. With "late" the speed is the same for every
+        setpoint. With "early" the drive trips, and the output names the figures that are measured after the trip."""
         file = str(SOURCE / "data/scenarios/firmware/cortex-m.toml")
         sinks = ["--set", "supply.sinks=true"]  # backward braking would raise the bus until its monitor trips
         wires = ["--set", "bridge.phases=bac", "--vary", "sensors.hall_lines=213,321,132", *sinks]
@@ -416,7 +423,8 @@ class Plan(ProgramTest):
         self.assertNotIn("p.sqlite", self.names("other"))
 
     def test_two_plans_share_a_page(self):
-        """What the page has of each is what a page of its own has, but for the command that repeats a run."""
+        """For each plan, the page has the same content as a page with this plan alone. Only the command that repeats
+        a run differs."""
         self.held()
         (self.path / "b.toml").write_text((self.path / "a.toml").read_text().replace("maxon-251601", "teknic-m2310p"))
         vary = ["--vary", "supply.voltage_V=12,24"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the program prints, and who takes it: pipes, full devices, readers that have gone, streams that are closed."""
+"""The output of the program with several receivers: pipes, full devices, readers that have ended, and closed streams."""
 import json
 import os
 import re
@@ -46,7 +46,7 @@ class Pipes(Started):
 
 
 class Unheard(ProgramTest):
-    """Standard output that cannot take what a verb prints: each tells, whichever it is."""
+    """Standard output is not writable. Every verb reports this."""
     VERBS = ["--version", "--help", "run --help", "help", "help pwm", "help pwm.period_s", "man", "schema", "schema motor",
              "completion bash", "completion zsh", "completion fish", "__complete run --", "new", "new --full", "motor list",
              "motor list --json", "motor show maxon-251601", "motor check maxon-251601", "motor new",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program in a folder of its own, for the tests of its verbs: each is called as TEST.py PROGRAM SOURCE."""
+"""Runs the program in a temporary folder, for the tests of its verbs. Each test is called as TEST.py PROGRAM SOURCE."""
 import contextlib
 import os
 import pathlib
@@ -13,7 +13,7 @@ import unittest
 
 PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
 
-# The rotor is held at full voltage; only the limit decides whether the requirement holds.
+# The rotor is held at full voltage. Thus only the limit decides whether the requirement is met.
 SHORT = """
 motor = "maxon-251601"
 duration_s = 1e-4
@@ -32,16 +32,17 @@ max = {limit}
 
 
 BRISK = re.sub("(?m)^inertia.*$", "inertia_gcm2 = 0.3", (SOURCE / "data/motors/maxon-251601.toml").read_text())
-WIRING = "motor wiring brisk.toml --current 15"  # a fifth of the usual computation, for tests of printed text
+WIRING = "motor wiring brisk.toml --current 15"  # this needs a fifth of the usual time; it is for tests of printed text
 
 
 def some(cases, count):
-    """The first of many cases that are alike, and all of them with SIXSTEP_ALL_CASES (ctest --preset long): the likeliest stand first."""
+    """The first `count` of many similar cases, or all of them with SIXSTEP_ALL_CASES (ctest --preset long). The most
+    important cases are first."""
     return list(cases) if os.environ.get("SIXSTEP_ALL_CASES") else list(cases)[:count]
 
 
 def hall_log(turns, rows=60):
-    """A log of Hall lines that turn steadily: so many rows in each electrical turn."""
+    """A log of Hall lines at constant speed, with `rows` rows in each electrical turn."""
     codes = ["1,0,0", "1,1,0", "0,1,0", "0,1,1", "0,0,1", "1,0,1"]  # docs/reference/notation.md, forward
     return "time [s],hall1,hall2,hall3\n" + "".join(f"{1e-3 * n:.7g},{codes[6 * n // rows % 6]}\n" for n in range(turns * rows))
 
@@ -56,12 +57,12 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *words, code=0):
         result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300)
-        # None accepts both: all requirements hold, or one does not.
+        # None: both exit codes are accepted, 0 (all requirements met) and 1 (a requirement missed).
         self.assertIn(result.returncode, (0, 1) if code is None else (code,), result.stderr + result.stdout)
         return result
 
     def run_any(self, *words):
-        """Whatever it exits with."""
+        """Runs the program and accepts any exit code."""
         return subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300, check=False)
 
     def write(self, name, limit):
@@ -73,7 +74,7 @@ class ProgramTest(unittest.TestCase):
 
 
 class Started(ProgramTest):
-    """A program that works while the test does."""
+    """Starts a program that runs in parallel to the test."""
 
     @contextlib.contextmanager
     def started(self, *words, **how):

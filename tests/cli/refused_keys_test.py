@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A refusal names the key that is the cause, and what no drive has is refused; what takes long or fills a disk is said before."""
+"""A message names the key that is the cause. Keys that no drive has are refused. If a run takes long or fills the
+disk, a message says so before the run."""
 import itertools
 import unittest
 
@@ -50,14 +51,14 @@ class RefusedKeys(Started):
                 self.assertIn(f"bridge.{key} = 1e6 must lie in 0 to {most};", told)
 
     def test_a_part_of_the_switching_loss_is_refused(self):
-        """Without one of its values the loss would be too small: the missing one is named."""
+        """If one of the values were missing, the loss would be too small. The message names the missing value."""
         gate = {"gate_current_A": 0.5, "gate_source_charge_C": 6e-9, "gate_drain_charge_C": 10e-9}
         energy = {"turn_on_J": 3e-6, "turn_off_J": 2e-6, "energies_at_V": 24, "energies_at_A": 5}
         for whole in (gate, energy):
             for count in range(1, len(whole) + 1):
                 for keys in itertools.combinations(whole, count):
                     if count == 1 and keys[0].startswith("energies_at"):
-                        continue  # no loss at all, and a remark says so
+                        continue  # this drive has no switching loss, and a remark says so
                     sets = [word for key in keys for word in ("--set", f"bridge.{key}={whole[key]}")]
                     ran = self.run_program("run", "a.toml", *sets, code=0 if count == len(whole) else 2)
                     missing = [key for key in whole if key not in keys]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The file of an exported session, run by the program, has the digest of the session."""
+"""The program runs the file of an exported session. The digest is equal to the digest of the session."""
 import json
 import pathlib
 import re

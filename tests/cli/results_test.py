@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a run writes, read back by those whom it is written for: numpy, scipy, h5py, a reader of value change
-dumps, and a validator of JSON Schema; Octave in octave_test.py."""
+"""The files of a run, read by the programs of their users: numpy, scipy, h5py, a reader of value change dumps, and a
+validator of JSON Schema. octave_test.py does the same with Octave."""
 import collections
 import json
 import pathlib
@@ -25,12 +25,12 @@ def scenario(name):
 
 
 def read_csv(path):
-    """As docs/reference/results.md says: three lines of comment, the names, the numbers."""
+    """Reads a CSV file as docs/reference/results.md describes it: three lines of comment, the names, the numbers."""
     return numpy.genfromtxt(path, delimiter=",", names=True, skip_header=3)
 
 
 class Dump:
-    """A value change dump: for each signal its (ps, value) in order; value is an int, or None for x."""
+    """A value change dump. Each signal has its (ps, value) pairs in order. A value is an int, or None for x."""
 
     def __init__(self, path):
         self.changes, self.kinds, self.end = collections.defaultdict(list), {}, 0
@@ -63,7 +63,7 @@ class Dump:
         return numpy.array([ps for ps, _ in self.changes[name]])
 
     def at(self, name, ps):
-        """The values in force at rising instants."""
+        """The values of a signal at the given instants, which must rise."""
         values = numpy.array([-1 if v is None else v for _, v in self.changes[name]])
         return values[numpy.searchsorted(self.times(name), ps, side="right") - 1]
 
@@ -93,7 +93,7 @@ class Tables(ProgramTest):
         self.assertEqual(five["units"]["speed_rad_s"], "rad/s")
         self.assertEqual(five["units"]["hall"], "1")
         self.assertEqual(five["meanings"]["i_a_A"], "current of phase a; phase, into the motor")
-        self.assertEqual(five["sixstep"]["title"], "Müller \ufffd")  # the meaning of sizes beyond U+FFFF is uncertain
+        self.assertEqual(five["sixstep"]["title"], "Müller \ufffd")  # MAT 5 does not define the sizes of characters beyond U+FFFF
         self.assertEqual(five["sixstep"]["digest"], s["digest"])
         self.assertIn("--mat a.mat", five["sixstep"]["command"])
         self.assertEqual(self.names(), ["a.csv", "a.mat", "h.mat", "s.json"])
@@ -132,7 +132,8 @@ class Tables(ProgramTest):
             self.run_program(*words[1:], "/dev/null")
             piped = subprocess.run(f"{shlex.join([*words, '/dev/stdout'])} | cat", shell=True, cwd=self.path, capture_output=True, check=True).stdout
             self.run_program(*words[1:], "a.out", "--force")
-            told = lambda data: data[4096:] if option == "--csv" else data[-4096:]  # the command comes before that part
+            # The command is in the first part of a CSV file, or before the last part of a MAT file.
+            told = lambda data: data[4096:] if option == "--csv" else data[-4096:]
             self.assertEqual(told(piped), told((self.path / "a.out").read_bytes()))
             if option == "--mat73":
                 (self.path / "piped.h5").write_bytes(piped)
@@ -170,14 +171,15 @@ class Waveforms(ProgramTest):
         self.assertEqual(len(dump.times("board.hall.sector")) - 1, s["events"]["sector edges"])
         armed = [v for _, v in dump.changes["board.comparators.comparator_1"] if v is not None]
         self.assertEqual(sum(a != b for a, b in zip(armed, armed[1:])), s["events"]["comparator switches"])
-        self.assertEqual(dump.changes["board.comparators.comparator_2"], [(0, None)])  # nothing compares the sink leg
+        self.assertEqual(dump.changes["board.comparators.comparator_2"], [(0, None)])  # no comparator is connected to the sink leg
         self.assertTrue(all(dump.changes[f"board.faults.{n}"] == [(0, 0)] for n in ("shoot_through", "over_current")))
 
     def test_gates_hall_lines_and_sector_are_those_of_the_recorded_events(self):
         dump, _ = self.dumped("reference/R3", "--csv", "a.csv", "--set", "record.events=true", "--set",
                               'record.columns=["gate_T1","gate_T2","gate_T3","gate_T4","gate_T5","gate_T6","hall","sector"]')
         rows = read_csv(self.path / "a.csv")
-        # The signals are constant between two rows; where rows are 2 ps apart, a time in seconds still separates before and after.
+        # The signals are constant between two rows. Only rows that are more than 2 ps apart are used, because a time in seconds
+        # is rounded.
         long = numpy.nonzero(numpy.diff(rows["t_s"]) > 2 / PS)[0] + 1
         middle = (rows["t_s"][long - 1] + rows["t_s"][long]) / 2 * PS
         for name in ("T1", "T2", "T3", "T4", "T5", "T6"):
@@ -205,7 +207,7 @@ class Waveforms(ProgramTest):
 
 
 class Page(ProgramTest):
-    """What docs/reference/results.md says is what happens."""
+    """The statements of docs/reference/results.md are true."""
     PAGE = (SOURCE / "docs/reference/results.md").read_text()
 
     def test_its_lines_of_python_read_the_files(self):

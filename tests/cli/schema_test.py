@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep schema: what editors check with it is what the program takes and refuses, as far as one value goes."""
+"""sixstep schema: an editor with this schema accepts and refuses the same values as the program, for each key alone."""
 import json
 import os
 import sys
@@ -9,7 +9,7 @@ import unittest
 
 try:
     import jsonschema
-except ImportError:  # Debian's package belongs to Debian's interpreter, which need not be the first on the path
+except ImportError:  # Debian's package is installed for Debian's Python, which may not be the first Python on the path
     if sys.executable == "/usr/bin/python3":
         raise
     os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
@@ -117,7 +117,7 @@ class Schema(ProgramTest):
         self.assertEqual(in_schema - told - self.spellings(), set())
 
     def spellings(self):
-        """Other keys for one value: help names them with the first."""
+        """Keys that set the same value as another key. The help of that key names them."""
         found = set()
         for line in self.run_program("help", "motor_override").stdout.splitlines():
             if line.startswith("  motor_override."):

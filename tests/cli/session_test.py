@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program while it works: interrupted, on a full disk, on a terminal, watching its files."""
+"""The program during its work: an interruption, a full disk, a terminal, and changes of its input files."""
 import fcntl
 import json
 import os
@@ -25,7 +25,8 @@ LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
 
 class Session(Started):
     def check_index(self, folder, *unfinished):
-        """That of a `quick` that was finished and passed, and of others that were not."""
+        """Checks the index of a folder in which `quick` was finished and passed. The experiments in `unfinished` were
+        not finished."""
         page = (self.path / folder / "index.partial.html").read_text()
         self.assertIn(f"1 of {1 + len(unfinished)} experiments are finished, 1 of these pass", page)
         self.assertIn('<p class="word">INCOMPLETE</p>', page)
@@ -69,7 +70,7 @@ class Interruption(Session):
         self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
 
     def test_a_second_ctrl_c_ends_at_once(self):
-        # A full standard output blocks the program at its last message, so that it cannot react to the first signal.
+        # A full standard output blocks the program at its last message. Thus it cannot react to the first signal.
         ours, full = os.pipe()
         os.write(full, bytes(fcntl.fcntl(full, fcntl.F_SETPIPE_SZ, 4096)))
         with self.started("run", self.write("a.toml", 1000), "--csv", "a.csv", stdout=full) as program:
@@ -83,7 +84,8 @@ class Interruption(Session):
         os.close(ours), os.close(full)
 
     def test_ctrl_c_ends_the_waiting_for_the_other_end_of_a_pipe(self):
-        """A scenario that nobody writes, an output that nobody opens, one that nobody takes: each swallowed it."""
+        """The program waits for the other end of a pipe: for a scenario, for a reader of its output, or for space in
+        the pipe. Once it ignored Ctrl-C in each of these cases."""
         os.mkfifo(self.path / "pipe")
         self.write("a.toml", 1000)
         reader = None
@@ -101,7 +103,8 @@ class Interruption(Session):
         self.assertEqual(self.names(), ["a.toml", "pipe"])
 
     def test_a_scenario_through_a_pipe_is_read_once(self):
-        """The report, which shows its text, waited for somebody to write it again."""
+        """The report contains the text of the scenario. Once the program waited until the text was written into the
+        pipe a second time."""
         os.mkfifo(self.path / "pipe")
         text = SHORT.format(limit=1000)
         with self.started("run", "pipe", "--html", "a.html") as program:
@@ -133,7 +136,7 @@ class Interruption(Session):
 
 class FullDisk(Session):
     def test_a_file_that_can_grow_no_more_leaves_its_whole_rows(self):
-        """A limit on a file's size stands for a full disk: the same call fails at the same place."""
+        """A limit on the file size replaces a full disk: the same call fails at the same place."""
         limit = 1_000_000
         words = ["run", R3, "--quiet", "--set", "duration_s=10", "--set", "record.grid_s=1e-5"]
         for option, name in list(ALL.items())[:4]:
@@ -176,7 +179,7 @@ class Terminal(Session):
             return b""
 
     def screen(self, *words, columns=100, seconds=20, until="left", **environment):
-        """What a terminal gets to see, with Ctrl-C once `until` is there or the time is over."""
+        """The output on a terminal. Ctrl-C is sent as soon as `until` is printed, or after `seconds`."""
         ours, theirs = pty.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 25, columns, 0, 0))
         seen = b""
@@ -249,7 +252,7 @@ class Watching(Session):
             scenario.write_text("motor = ")  # a typing error
             self.wait_until(lambda: pauses() == 3)
             self.assertIn("a.toml:1:", said().split("-- runs")[2])
-            (self.path / "new").write_text(text.format(limit=1000))  # the way in which vim and many others save
+            (self.path / "new").write_text(text.format(limit=1000))  # vim and many other editors save in this way
             os.replace(self.path / "new", scenario)
             self.wait_until(lambda: pauses() == 4)
             (self.path / "own.toml").write_text(shipped + "\n# changed\n")  # the motor's file counts too

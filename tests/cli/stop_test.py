@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A signal in the first moments of any verb: whoever was told to end never says that all went well, unless all is finished and in place.
+"""A signal in the first moments of any verb. The verb reports success only if all files are complete and have their
+final names.
 
-SIXSTEP_SIGNALS says how many there are (ctest --preset long: 500); the seed is printed, and SIXSTEP_SEED repeats it."""
+SIXSTEP_SIGNALS is the number of signals (ctest --preset long: 500). The seed is printed, and SIXSTEP_SEED repeats it."""
 import os
 import random
 import resource
@@ -85,7 +86,7 @@ class Stopped(Started):
                     self.assertLess(sum(line.startswith(("ended by", "interrupted by")) for line in told.splitlines()), 2)
 
     def test_a_plan_that_never_began_says_so(self):
-        """From the first moment in which it listens on: before that the signal itself ends it."""
+        """The message is printed as soon as the handler is installed. Before that the signal itself ends the program."""
         heard = 0
         for n in range(200):
             self.fresh()
@@ -99,11 +100,12 @@ class Stopped(Started):
                 return
         self.fail("the signal never came while it prepared")
 
-    # A square wave of 10 ms over 1e4 s has two million sections: the preparation lasts seconds, during which nothing is finished.
+    # A square wave with a period of 10 ms over 1e4 s has two million sections. The preparation lasts seconds, and nothing is
+    # finished in this time.
     LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3", "--set", "reference.period_s=100"]
 
     def test_a_terminal_that_goes_leaves_what_is_finished(self):
-        """It tells so twice: the kernel, and the shell."""
+        """The program receives the signal of a closed terminal twice: from the kernel and from the shell."""
         self.fresh()
         with self.started("run", ONE, "--csv", "o.csv", "--mat73", "o.mat", *self.LONG) as program:
             self.wait_until(lambda: len(self.names()) >= 3)
@@ -133,7 +135,7 @@ class Stopped(Started):
         self.assertEqual(self.names(), ["log.csv", "o.partial.csv"], told)
 
     def test_twice_ends_at_once_and_leaves_nothing_hidden(self):
-        """A pipe that takes nothing holds the program up where it prints."""
+        """A full pipe stops the program while it prints."""
         self.fresh()
         ours, full = os.pipe()
         os.set_blocking(full, False)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""No key is given in vain without a word: whatever number or switch of the schema changes nothing in a run is named by its remark, or is
-refused."""
+"""Every key has an effect or a message. A number or switch of the schema that changes nothing in a run is named in a
+remark, or is refused."""
 import json
 import subprocess
 import unittest
@@ -101,7 +101,7 @@ class UnusedKeys(Started):
 
     @staticmethod
     def another(entry):
-        """A value within the range that is not the usual one; None where it is not a number and no switch."""
+        """A value within the range that differs from the default. None if the key is neither a number nor a switch."""
         usual = entry.get("default")
         entry = next((e for e in (entry, *entry.get("oneOf", []), *entry.get("anyOf", [])) if e.get("type") in ("number", "integer", "boolean")), entry)
         kind = entry.get("type")
@@ -117,7 +117,7 @@ class UnusedKeys(Started):
         return repr(least if most is None else most)
 
     def outcome(self, *sets):
-        """All that came out but the remarks; None where it is refused."""
+        """The result of a run without its remarks, and the remarks. The result is None if the run is refused."""
         words = [word for text in sets for word in ("--set", text)]
         ran = subprocess.run([PROGRAM, "run", "base.toml", "--json", "-", "--quiet", *words], cwd=self.path, capture_output=True, text=True, check=False)
         if ran.returncode == 2:
@@ -133,7 +133,7 @@ class UnusedKeys(Started):
                 self.assertEqual(self.silent(), set(elsewhere))
 
     def silent(self):
-        """The keys that neither act nor are named."""
+        """The keys that have no effect and are not named in a remark."""
         plain, _ = self.outcome()
         seen, silent = 0, set()
         for key, entry in self.keys():
@@ -141,7 +141,7 @@ class UnusedKeys(Started):
             if value is None:
                 continue
             result, told = self.outcome(f"{key}={value}")
-            key = key.removesuffix(".value")  # a quantity is named as a whole
+            key = key.removesuffix(".value")  # a quantity is named without its member `value`
             seen += 1
             if result is None:
                 self.assertTrue(any(part in told for part in key.split(".")), f"{key}: {told}")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep motor wiring: all 36 ways to plug in a motor, its files, and what it says of what it cannot do.
+"""sixstep motor wiring: all 36 ways to connect a motor, its files, and its messages about unsupported motors.
 
-With --every-motor, of all motors that come with the program: ctest --preset long."""
+With --every-motor it tests all motors of the library (ctest --preset long)."""
 import json
 import sys
 import unittest
@@ -18,7 +18,7 @@ TURN = {word: n for n, word in enumerate(ORDERS)}
 
 
 def table(text, number):
-    """The rows of six that begin with an order of phases, of the first or second such table."""
+    """The six rows of the first or second table whose rows begin with an order of the phases."""
     rows = [line.split("  ") for line in text.splitlines() if line[2:5] in ORDERS]
     return {row[1]: [cell.strip() for cell in row[2:] if cell.strip()] for row in rows[6 * number:6 * number + 6]}
 
@@ -35,8 +35,8 @@ class Wiring(Started):
                 phases, probes = TURN[w["phases"]], DIGITS.index(w["hall_lines"])
                 does = w["measured"]["does"]
                 self.assertEqual(does, w["theory"]["does"])
-                # The motor hums where the order of either the phases or the probes is reversed, but not of both. Otherwise the difference
-                # of their two shifts decides.
+                # If the order of either the phases or the probes is reversed, but not of both, the motor hums. Otherwise the
+                # difference of their two shifts decides.
                 self.assertEqual(does == "hums", (phases < 3) != (probes < 3))
                 if phases < 3 and probes < 3:
                     self.assertEqual(does, ["forward", "backward_early", "backward_late"][(phases - probes) % 3])
@@ -80,12 +80,12 @@ class Wiring(Started):
         words = [*WIRING.split(), "--svg", "w.svg", "--html", "w.html", "--toml", "w.toml", "--quiet"]
         self.assertEqual(self.run_program(*words).stdout, "")
         first = [(self.path / name).read_bytes() for name in ("w.svg", "w.html")]
-        self.run_program(*words)  # our own are replaced
+        self.run_program(*words)  # the program replaces the files that it wrote before
         self.assertEqual(first, [(self.path / name).read_bytes() for name in ("w.svg", "w.html")])
         picture = xml.etree.ElementTree.fromstring(first[0])
         self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
         self.assertEqual(sum(title.text.startswith("phases ") for title in picture.iter("{http://www.w3.org/2000/svg}title")), 36)
-        # The scenario equals the bench: with crossed wires it has the table's behaviour.
+        # The scenario describes the bench: with crossed wires the motor behaves as the table says.
         crossed = ["--set", 'bridge.phases="bac"', "--set", 'sensors.hall_lines="132"']
         for extra, sign in (([], 1), (crossed, -1)):
             told = json.loads(self.run_program("run", "w.toml", *extra, "--json", "-", "--quiet").stdout)

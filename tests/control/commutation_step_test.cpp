@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The duty that keeps the staying phase's current constant is compared with the equations of the star: every
-// sector, both directions, either switch chopped.
+// At a commutation, one phase stays. The duty that keeps its current constant is compared with the equations
+// of the star, for every sector, both directions, and either chopped switch.
 #include "sixstep/control/commutation_step.hpp"
 
 #include <gtest/gtest.h>
@@ -16,9 +16,9 @@ using namespace sixstep::control;
 
 constexpr double E = 2.0, R = 0.3, U = 24.0;
 
-/// The mean L di/dt of the staying phase over a period: v_k - v_n - e_k - R i_k, where the star point v_n is
-/// the mean of v - e. The leaving phase's diode connects its terminal to the rail of its current's direction,
-/// except during the overlap.
+/// The mean of L di/dt of the staying phase over a period: v_k - v_n - e_k - R i_k (leg voltage v, back-EMF
+/// e, phase k). The voltage v_n of the star point is the mean of v - e. The leaving phase's diode connects
+/// its terminal to the rail in the direction of its current, except during the overlap.
 double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double overlap, double E_V,
              double I) {
   const Leg leaving = free_leg(pair);
@@ -28,7 +28,8 @@ double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double 
   v[at(pair.sink)] = chopped == ChoppedSwitch::lower ? (1 - duty) * U : 0.0;
   e[at(pair.source)] = E_V;
   e[at(pair.sink)] = -E_V;
-  // If the source stays, the sink leaves: its current flows out of the motor into the upper diode.
+  // If the source stays, the sink leaves. The current of the sink flows out of the motor into the upper
+  // diode.
   const bool was_sink = staying == pair.source;
   v[at(leaving)] =
       was_sink ? (1 + overlap) * U : overlap * U;  // its lower or upper switch is connected to the opposite
@@ -79,8 +80,8 @@ TYPED_TEST(CommutationStepOf, HoldsTheStayingPhase) {
   EXPECT_EQ(overlapping, 6 * 2 * 2 * 2);  // the two larger currents at the highest speed
 }
 
-/// The step lasts while the leaving current decreases by T (2 E + 3 R I/2)/L per period. It ends when less
-/// than half of this decrease remains, because the next answer would act too late.
+/// In each period, the leaving current decreases by T (2 E + 3 R I/2)/L (period T, back-EMF E, current I).
+/// The step ends when less than half of this decrease remains, because the next command would act too late.
 TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   using S = TypeParam;
   const CommutationStepConfig<S> config{Gain<S>(0.5), Gain<S>(0.25),
@@ -109,14 +110,14 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   watch_leaving(config, state, with(0.05, 0.0, -0.05), 2, false);
   enter_sector(config, state, 3);
   EXPECT_FALSE(state.hands_over);
-  // The overlap cancels a part of the bus voltage. The rest reduces the leaving current: 0.4 - 0.325 = 0.075
-  // V gives 0.01875 A.
+  // The overlap cancels a part of the bus voltage. The remaining voltage reduces the leaving current: 0.4 -
+  // 0.325 = 0.075 V gives 0.01875 A.
   CommutationStepConfig<S> overlaps = config;
   overlaps.overlap_bus_V = S(0.4);
   watch_leaving(overlaps, state, with(0.0, 0.5, -0.5), 2, false);
   EXPECT_NEAR(static_cast<double>(state.least_A), 0.01875, 8 * digit<S>());
-  // The flank of the back-EMF begins a quarter of its length after the edge, and a tick covers an eighth of
-  // it: the voltage is 4 E - 2 E f.
+  // The flank of the back-EMF begins a quarter of its length after the edge. A tick covers an eighth f of the
+  // flank, so the voltage is 4 E - 2 E f.
   CommutationStepConfig<S> flanked = config;
   flanked.flanks_per_rad_s = Gain<S>(0.3125);
   flanked.ahead_per_rad_s = Gain<S>(0.3125);
@@ -132,7 +133,7 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
 }
 
 /// The drive's Hall interrupt sets the duty of the step at once. Ticks keep this duty while the current
-/// leaves, and the PI pauses. Then the PI continues from its last output.
+/// leaves, and the PI pauses. After the step, the PI continues from its last output.
 TEST(CommutationStep, TheLoopRestsMeanwhile) {
   DriveConfig<double> config{};
   config.mode = Mode::current;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A product's additions within the loops, and the speed loop that sets the duty (thesis 6.2.2).
+// Tests a product's additions within the loops, and the speed loop that sets the duty (thesis 6.2.2).
 #include "sixstep/control/drive_extras.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TYPED_TEST(Extras, TheWindowLimitsTheReferenceAndTheSpeedPi) {
   }
 }
 
-/// Above the speed limit all gates are off. Afterwards the loop continues from its last output.
+/// Above the speed limit, all gates are off. Below it, the loop continues from its last output.
 TYPED_TEST(Extras, AtALimitTheLoopWaitsWithTheBridgeOff) {
   using S = TypeParam;
   Bench<S> b(Mode::current), free(Mode::current);
@@ -114,7 +114,7 @@ TYPED_TEST(Extras, BackEmfAndMeasuredBusEnterTheDuty) {
   Bench<S> b(Mode::current);
   b.config.extras.feed_forward.K_t_V_s = Gain<S>(0.5);
   b.measured.speed_rad_s = S(0.75);
-  // The voltage u = 0.125 + 0.375 is divided by the nominal bus voltage 0.75, then by the measured bus
+  // The voltage u = 0.125 + 0.375 is divided first by the nominal bus voltage 0.75, then by the measured bus
   // voltage.
   EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5 / 0.75, 3 * digit<S>());
   b.config.extras.bus.lowest_bus_V = S(0.5);
@@ -159,8 +159,8 @@ TYPED_TEST(Extras, SmoothChoppingFollowsTheCurrentNotTheConfig) {
   EXPECT_EQ(b.tick(-0.5).chopping, Chopping::soft);
 }
 
-/// The lean drive with arbitrary bits in a fixed-point measurement: duties stay within 0..1, without overflow
-/// (the sanitizers report overflow).
+/// The lean drive receives arbitrary bits in a fixed-point measurement. The duties stay within 0 to 1, and no
+/// operation overflows (the sanitizers report overflows).
 TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
   using S = TypeParam;
   constexpr int seed = 1307;
@@ -202,7 +202,7 @@ TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
   }
 }
 
-/// The bench's gains in positional form: K = 1, K_i = 1/4.
+/// The bench's gains in positional form: proportional gain K = 1, integral gain K_i = 1/4.
 template <class S>
 Bench<S> positional(double K_b) {
   Bench<S> b(Mode::speed);

@@ -201,7 +201,7 @@ TEST(Drive, FloatFollowsDouble) {
     d.measured.speed_rad_s = w;
     const float a = f.tick(r).duty;
     const double b = d.tick(r).duty;
-    // The terms are up to 24 V. Each sample rounds a few times, and the integral accumulates the errors.
+    // The terms are up to 24 V. Each sample rounds a few times, and the integral sums the errors.
     EXPECT_NEAR(a, b, (n + 1) * 8 * 0x1p-23) << n;
   }
 }

@@ -13,7 +13,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::control;
 __extension__ typedef __int128 I128;  // g++ and clang have it on every host
 
-/// n/d rounded to the nearest whole number, ties away from zero: the definition in exact arithmetic.
+/// n/d rounded to the nearest whole number; ties are rounded away from zero. This definition uses exact
+/// arithmetic.
 I128 rounded(I128 n, I128 d) {
   const bool negative = (n < 0) != (d < 0);
   const I128 a = n < 0 ? -n : n, b = d < 0 ? -d : d;
@@ -65,7 +66,7 @@ using Formats = ::testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Q14, Fixed<s
                                  Fixed<std::int32_t, 27>>;
 TYPED_TEST_SUITE(FixedFormats, Formats);
 
-/// Half of the draws are numbers at or near the limits of the range, where fixed point may fail.
+/// Random numbers. Half of them are at or near the limits of the range, where fixed point may fail.
 template <class Storage>
 Storage drawn(std::mt19937_64& random) {
   constexpr Storage corners[] = {0,
@@ -123,14 +124,14 @@ TYPED_TEST(FixedFormats, GainsAboveAndBelowOneRoundOnce) {
   for (int n = 0; n < 20000; ++n) {
     const double wanted = (n % 2 ? 1 : -1) * std::exp2(exponent(random));
     const Gain<F> gain(wanted);
-    // The mantissa is at least 2^(bits-2), so its error is at most half a digit.
+    // The mantissa is at least 2^(bits-2), so half a digit is its largest error.
     EXPECT_LE(std::fabs(static_cast<double>(gain) - wanted),
               std::fabs(wanted) * std::ldexp(1.0, 1 - detail::Widths<Storage>::bits));
     const F x = F::from_raw(drawn<Storage>(random)), y = F::from_raw(drawn<Storage>(random));
     const I128 m = gain.mantissa, scale = I128{1} << gain.right;
     ASSERT_EQ(ScalarTraits<F>::product(x, gain).raw, fitted<F>(rounded(x.raw * m, scale)));
-    // The accumulator's result: a difference of signals with 2^guard finer digits, saturated at the
-    // accumulator's limits.
+    // The result of the accumulator: a difference of signals with digits that are finer by 2^guard. It
+    // saturates at the accumulator's limits.
     using Raw = typename Accumulator<F>::Raw;
     const I128 fine = rounded((I128{x.raw} - y.raw) * m << Accumulator<F>::guard_bits, scale);
     const I128 high = detail::greatest<Raw>, low = detail::least<Raw>;
@@ -169,7 +170,7 @@ TYPED_TEST(FixedFormats, TimesBecomeRatesAndFractions) {
   EXPECT_EQ(T::counts(3, Gain<F>(5.0)).raw, 15) << "a count and a gain to raw digits";
 }
 
-/// The result is the nearest digit for any counts: in whole numbers, (part 2^n + whole/2)/whole.
+/// For any counts, the result is the nearest digit. In whole numbers, this is (part 2^n + whole/2)/whole.
 TYPED_TEST(FixedFormats, AFractionIsTheNearestDigit) {
   using F = TypeParam;
   std::mt19937_64 random{48};

@@ -19,8 +19,8 @@ using namespace sixstep::control;
 static_assert(std::is_trivially_copyable_v<HallState> && std::is_trivially_copyable_v<HallSpeedState> &&
               std::is_trivially_copyable_v<HallPositionState>);
 
-/// Three probes by their definition: each probe is high over half a turn, and the next probe lags by `apart`
-/// sectors.
+/// Codes of three probes by their definition. Each probe is high over half a turn, and the next probe lags by
+/// `apart` sectors.
 std::uint8_t pins(int sector, int apart) {
   const auto high = [&](int lag) { return (sector - lag + 18 + 1) % 6 < 3; };  // H1 over sectors 5, 0, 1
   return static_cast<std::uint8_t>(high(0) << 2 | high(apart) << 1 | int{high(2 * apart)});
@@ -83,8 +83,8 @@ TEST(Hall, GlitchesShorterThanTheFilterDoNotCount) {
   EXPECT_EQ(hall_step(config, state, pins(1, 2)).moved, 0) << "counted once";
 }
 
-/// A line breaks within a sector of a steadily turning rotor, read 20 times per sector. The impossible code
-/// occurs within a turn, and the decoder names the line.
+/// A line breaks within a sector of a steadily turning rotor, which is read 20 times per sector. The
+/// impossible code occurs within a turn, and the decoder names the broken line.
 TEST(Hall, ABrokenLineIsNamed) {
   int named = 0, untold = 0;
   for (const int apart : {2, 1})
@@ -107,7 +107,7 @@ TEST(Hall, ABrokenLineIsNamed) {
               hall_speed_edge(times, now, fault.moved);
             }
             ASSERT_NE(fault.fault, HallFault::none);
-            // A break at another line's edge may appear as a jump, for which no line is named.
+            // A break at the edge of another line may appear as a jump. The decoder names no line for a jump.
             if (breaks_at % 20 == 0 && fault.fault == HallFault::jump) continue;
             ASSERT_EQ(fault.fault, HallFault::impossible_code);
             ++(fault.line == 0 ? untold : named);
@@ -115,13 +115,15 @@ TEST(Hall, ABrokenLineIsNamed) {
                 << apart << ' ' << direction << ' ' << line << ' ' << level << ' ' << breaks_at;
           }
   // A false edge between 3/4 and 8/9 of a sector is as early as an edge of a rotor whose speed changes by a
-  // quarter, so no line is named. The next sectors also differ: one in six breaks causes an early false edge.
+  // quarter, so the decoder names no line. The next sectors also differ, so they do not help. One in six
+  // breaks causes an early false edge.
   std::printf("named %d, not told %d\n", named, untold);
   EXPECT_LE(untold, named / 30);
 }
 
-/// A rotor with constant acceleration `a` sectors/s^2 from the speed `w` sectors/s, which reverses at
-/// standstill. It is read 1000 times per second. A line breaks at `at_s`. Returns the named line, or 0.
+/// A rotor with the initial speed `w`, in sectors/s, has the constant acceleration `a`, in sectors/s^2. A
+/// decelerating rotor reverses at standstill. The rotor is read 1000 times per second, and a line breaks at
+/// `at_s`. Returns the named line, or 0.
 std::uint8_t named(double w, double a, double at_s, int line, int level) {
   HallState state;
   HallSpeedState times;
@@ -139,8 +141,8 @@ std::uint8_t named(double w, double a, double at_s, int line, int level) {
   return 0;
 }
 
-/// If the rotor slows down, reverses or starts, times cannot distinguish the lines. The decoder then names no
-/// line, and never a wrong line.
+/// If the rotor slows down, reverses or starts, the times of edges do not determine the broken line. The
+/// decoder then names no line; it never names a wrong line.
 TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
   int right = 0, wrong = 0, untold = 0;
   for (const double w : {0.0, 3.0, 8.0, 15.0, 30.0})
@@ -159,7 +161,7 @@ TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
 TEST(Hall, FromRestNoEdgeComesSoonerThanARotorBringsIt) {
   HallSpeedState times;
   std::uint32_t now = 0;
-  // At a constant torque, the intervals of the edges are sqrt(n + 1) - sqrt(n).
+  // At a constant torque, the intervals between edges are proportional to sqrt(n + 1) - sqrt(n).
   for (const std::uint32_t after : {1000u, 414u, 318u, 268u, 236u, 213u, 196u}) {
     EXPECT_NE(sector_time(times, 1, now + after), SectorTime::soon) << after;
     hall_speed_edge(times, now += after, 1);
@@ -173,8 +175,8 @@ template <class Scalar>
 class HallMotion : public ::testing::Test {};
 TYPED_TEST_SUITE(HallMotion, Scalars);
 
-/// The rotor has eight pole pairs, the timer 1 MHz. Speeds are in units of 1000 rad/s, so that every scalar
-/// can represent them.
+/// The rotor has eight pole pairs, and the timer runs at 1 MHz. Speeds are in units of 1000 rad/s, so that
+/// every scalar can represent them.
 constexpr double sector_rad_s_ticks = 3.14159265358979323846 / 3 / 8 * 1e6 / 1000;
 
 template <class Scalar>
@@ -196,7 +198,7 @@ TYPED_TEST(HallMotion, SteadySpeedIsOneOverTheSectorTimeThroughTheWrap) {
         for (int n = 0; n < 20; ++n) {
           hall_speed_edge(state, now += ticks, direction);
           const double w = static_cast<double>(hall_speed(config, state, now + ticks / 3));
-          // The error is one rounding of the ratio and one of the quotient.
+          // The error is one rounding of the ratio and one rounding of the quotient.
           EXPECT_NEAR(w, direction * sector_rad_s_ticks / ticks,
                       1.5 * digit<S>() * std::fmax(1, std::fabs(w)));
         }
@@ -272,8 +274,8 @@ TYPED_TEST(HallMotion, PositionRunsOnThroughSectorsAndBackToWhereItWas) {
     const S fraction = sector_fraction(config, speed, now + since);
     return static_cast<double>(hall_position(position, count, speed.direction, fraction)) / sector;
   };
-  // A 16-bit gain has a relative error of 2^-15, here over 30 sectors. The rounding of sum and fraction adds
-  // to it.
+  // A 16-bit gain has a relative error of 2^-15, which acts over 30 sectors in this test. The roundings of
+  // sum and fraction are added.
   const double near = 3 * digit<S>() / sector + 30 * digit<S>();
   EXPECT_NEAR(at(0), 0.5, near) << "nothing known: the middle of the sector";
   for (int n = 1; n <= 30; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The jerk-limited profile: the limits at every tick, the end point and the duration.
+// The jerk-limited profile is tested for its limits at every tick, its end point and its duration.
 #include "sixstep/control/jerk_profile.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ static_assert(sizeof(JerkProfileState<float>) <= 384, "what a drive without a pr
 
 constexpr double degrees = 180 / pi;
 
-/// Resolution of S relative to 1.
+/// Resolution of the scalar S relative to 1.
 template <class S>
 constexpr double ulp = static_cast<double>(std::numeric_limits<S>::epsilon());
 
@@ -47,7 +47,7 @@ struct Mover {
   double rises_s() const { return config.cells * stride_s(); }
   double jerk() const { return limits.acceleration_rad_s2 / rises_s(); }
   double count_deg() const { return static_cast<double>(config.deg_per_part) * config.cells; }
-  /// Number of ticks until it rests at the target.
+  /// Number of ticks until the profile rests at the target.
   int land(double target, int most = 4000000) {
     int n = 0;
     while (n < most && !rests(target)) {
@@ -58,7 +58,7 @@ struct Mover {
   }
 };
 
-/// Largest fractions of the limits that a tick uses.
+/// Largest fractions of the limits that any tick uses.
 template <class S>
 struct Shares {
   double speed = 0.0, acceleration = 0.0, jerk = 0.0, travel = 0.0, farthest = 0.0;
@@ -68,7 +68,7 @@ struct Shares {
     const JerkProfileLimits& l = m.limits;
     const double way = std::fabs(d(now.position_deg) - d(before.position_deg));
     farthest = std::fmax(farthest, std::fabs(d(m.state.target_deg)));
-    // A new target is between two counts, and a position has the resolution of its digits.
+    // A new target is between two counts, and a position has the resolution of the scalar.
     const double half = m.count_deg() / 2 + 2 * ulp<S> * (std::fabs(d(now.position_deg)) + 2 * farthest);
     speed = std::fmax(speed, std::fabs(d(now.speed_rad_s)) / l.speed_rad_s);
     acceleration = std::fmax(acceleration, std::fabs(d(now.acceleration_rad_s2)) / l.acceleration_rad_s2);
@@ -84,7 +84,7 @@ class JerkProfile : public ::testing::Test {};
 using Floating = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(JerkProfile, Floating);
 
-/// The tolerance is 4 ulp for the products involved.
+/// The tolerance is 4 units in the last place (ulp), for the products in the calculation.
 template <class S>
 constexpr double exact = 1 + 4 * ulp<S>;
 
@@ -107,8 +107,8 @@ TYPED_TEST(JerkProfile, ALongMoveTakesTheClosedForm) {
   }
 }
 
-/// The fastest move that reaches the acceleration limit but not the speed limit takes a/j + sqrt((a/j)^2 + 4
-/// d/a).
+/// The fastest move over d that reaches the acceleration limit a but not the speed limit takes a/j +
+/// sqrt((a/j)^2 + 4 d/a), with the jerk limit j.
 TYPED_TEST(JerkProfile, AShortMoveIsTheFastestOfItsJerk) {
   for (const double d_rad : {0.3, 0.8, 1.5}) {
     Mover<TypeParam> m({100.0, 5000.0, 3.2e-3}, 50e-6);
@@ -118,7 +118,7 @@ TYPED_TEST(JerkProfile, AShortMoveIsTheFastestOfItsJerk) {
   }
 }
 
-/// The limits are whole counts: the speed over time is symmetric.
+/// If the limits are whole counts, the speed over time is symmetric.
 TYPED_TEST(JerkProfile, AMoveIsSymmetric) {
   const double T = 1.0 / 4096, stride_deg = 64.0 * T * degrees;  // full speed 64 rad/s
   for (const int strides : {40, 200, 1000}) {
@@ -132,8 +132,8 @@ TYPED_TEST(JerkProfile, AMoveIsSymmetric) {
       speed.push_back(static_cast<double>(m.step(target).speed_rad_s));
     while (!speed.empty() && speed.back() == 0) speed.pop_back();
     const double one_count = 64.0 / jerk_profile_speed;
-    // If the speed is no multiple of the acceleration, the remainder is lost in the first step of braking
-    // instead of the last.
+    // If the speed is no multiple of the acceleration, the remainder is subtracted in the first step of
+    // braking instead of the last step.
     const double near = strides >= 200 ? 64 * one_count : 1.01 * 64.0 / 64;
     for (std::size_t n = 0; n < speed.size(); ++n)
       ASSERT_NEAR(speed[n], speed[speed.size() - 1 - n], near) << strides << " strides, tick " << n;
@@ -171,7 +171,7 @@ TYPED_TEST(JerkProfile, KeepsItsLimitsWhateverIsAskedAndLandsExactly) {
   }
 }
 
-/// After a new target in each of a million ticks, no sum has a remainder.
+/// A million ticks set a new target each. Afterwards, no sum has a remainder.
 TYPED_TEST(JerkProfile, NothingDrifts) {
   Mover<TypeParam> m({200.0, 4000.0, 4e-3}, 50e-6);
   for (int n = 0; n < 1000000; ++n) m.step(300 * std::sin(n * 1e-3) + 1e-3 * n);
@@ -185,8 +185,8 @@ TYPED_TEST(JerkProfile, ATargetSetTooNearIsPassedAndReturnedTo) {
   for (int n = 0; n < 2000; ++n) m.step(10000.0);
   ASSERT_NEAR(static_cast<double>(m.state.now.speed_rad_s), 100.0, 1e-4);
   const double here = static_cast<double>(m.state.now.position_deg), target = here + 10.0;
-  // The braking distance is v^2/2a + v/2 a/j, minus the part already in progress, which is at most three
-  // steps.
+  // The braking distance is v^2/2a + v/2 a/j (speed v, acceleration a, jerk j). The part already in progress
+  // is at most three steps and is subtracted.
   const double stops = (100.0 * 100.0 / 10000.0 + 50.0 * m.rises_s()) * degrees;
   double farthest = here;
   Shares<TypeParam> shares{.farthest = 10000.0};

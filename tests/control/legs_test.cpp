@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three legs at once (model.md 11): leg commands, frames, modulation.
+// Tests three legs together (model.md 11): leg commands, frames, modulation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,8 +41,8 @@ TEST(Legs, EachStateAndKindOfPwmHasItsGates) {
   }
 }
 
-/// The choppings of model.md 3 for either switch: the command as a pair and the command as three legs have
-/// the same gates.
+/// The kinds of chopping of model.md 3, for either switch. A command as a pair and the same command as three
+/// legs must have the same gates.
 TEST(Legs, SixStepAsLegsHasItsGates) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const ChoppedSwitch chopped : {ChoppedSwitch::upper, ChoppedSwitch::lower})
@@ -152,8 +152,8 @@ TYPED_TEST(Modulation, BothReachTheVoltagesBetweenTheTerminalsWithinTheirRange) 
 
 TYPED_TEST(Modulation, ClampsBeyondItsRangeAndNotBefore) {
   using S = TypeParam;
-  // A vector along phase a points to a corner of the hexagon and leaves the hexagon last. A vector 30 degrees
-  // further leaves the hexagon at U_s/sqrt 3.
+  // A vector along phase a points to a corner of the hexagon, so it may be the longest. A vector 30 degrees
+  // away from phase a reaches the hexagon at U_s/sqrt 3 (bus voltage U_s).
   const double reach = bus / std::numbers::sqrt3, thirty = std::numbers::pi / 6;
   const auto within = [](const LegCommands<S>& legs) {
     bool free = true;

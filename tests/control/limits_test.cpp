@@ -42,7 +42,8 @@ TYPED_TEST(Limits, SpeedFoldsTheDrivingSideBackAndLeavesBraking) {
     const CurrentWindow<S> window = current_window(config, S(w), S{});
     const double high = std::fmin(0.75, std::fmax(0.0, 4 * (0.5 - w)));
     const double low = -std::fmin(0.75, std::fmax(0.0, 4 * (0.5 + w)));
-    // The error is the error of the rounded speed times the gain, and the rounding of the product.
+    // The error has two parts: the error of the rounded speed times the gain, and the rounding of the
+    // product.
     EXPECT_NEAR(static_cast<double>(window.high), high, 3 * digit<S>()) << w;
     EXPECT_NEAR(static_cast<double>(window.low), low, 3 * digit<S>()) << w;
   }
@@ -63,7 +64,8 @@ TYPED_TEST(Limits, RegenerationTakesBrakingAwayAsTheBusRises) {
   EXPECT_TRUE(at(0.0, 1.5).low == S(-0.75)) << "at rest nothing comes back";
 }
 
-/// The whole braking current charges a capacitor, C dU/dt = i. The bus voltage must stay below its limit.
+/// The whole braking current i charges the bus capacitor C: C dU/dt = i. The bus voltage U must stay below
+/// its limit.
 TYPED_TEST(Limits, ABusThatCannotSinkStaysBelowItsLimit) {
   using S = TypeParam;
   LimitsConfig<S> config;
@@ -145,8 +147,8 @@ TYPED_TEST(Limits, ChoppingIsComplementaryWhereverTheCurrentMayReverse) {
   EXPECT_EQ(at(true, -0.5), Chopping::soft) << "the same current driven by a negative one";
 }
 
-/// At d -> 0+ and d -> 0- only the off-time's gates act. Complementary chopping has the same gates at both;
-/// the other kinds of chopping do not.
+/// If the duty d approaches 0 from either side, only the gates of the off-time act. With complementary
+/// chopping, both sides have the same gates; with the other kinds of chopping, they do not.
 TEST(Chopping, OnlyComplementaryIsContinuousThroughZero) {
   const auto off_time = [](bool reversed, Chopping chopping) {
     const Pair p{Leg::a, Leg::b};
@@ -159,7 +161,7 @@ TEST(Chopping, OnlyComplementaryIsContinuousThroughZero) {
 }
 
 TEST(Gates, DrivenPairAsTheModelsTableSays) {
-  // The bits 0, 2, 4 are T1 T3 T5, the bits 1, 3, 5 are T2 T4 T6; sector 1 drives T1 T6.
+  // Bits 0, 2, 4 are the switches T1, T3, T5. Bits 1, 3, 5 are T2, T4, T6. Sector 1 drives T1 and T6.
   BridgeCommand<float> c{.enabled = true, .pair = {Leg::a, Leg::c}};
   EXPECT_EQ(gates(c, true), 0b100001);
   EXPECT_EQ(gates(c, false), 0b100000);

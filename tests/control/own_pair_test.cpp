@@ -10,7 +10,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 
 /// Torque per ampere of a pair: the difference of the back-EMF shapes of its two phases in the middle of a
-/// sector. The source of the positive pair is at +1, its sink at -1 (docs/reference/model.md 3).
+/// sector. The shape of the positive pair's source is +1, the shape of its sink is -1
+/// (docs/reference/model.md 3).
 double torque_per_ampere(std::uint8_t sector, const sixstep_answer& a) {
   const control::Pair positive = control::positive_pair(sector);
   const auto shape = [&](int leg) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PI blocks in every scalar are compared with the double version, within the resolution of the formats.
+// The PI blocks in every scalar type are compared with the double version, within the resolution of each
+// type.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ template <class Scalar>
 class PiScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(PiScalars, Scalars);
 
-/// The gain as the format stores it, as a double for the comparison.
+/// The gain with the rounding of the format, as a double for the comparison.
 template <class S>
 double held(double gain) {
   return static_cast<double>(static_cast<Gain<S>>(gain));
@@ -37,23 +38,23 @@ TYPED_TEST(PiScalars, FollowsExactArithmeticOnTheSameGains) {
   double u = 0, before = 0;
   double worst = 0;
   for (int n = 0; n < 2000; ++n) {
-    // The random error avoids the limits: if only one of the two calculations were clamped, they would differ
-    // permanently.
+    // The random error keeps the output away from its limits. If only one of the two calculations were
+    // clamped, the results would differ permanently.
     const auto e = static_cast<S>(any(random) - 0.05 * static_cast<double>(u));
     u = u + d1 * (static_cast<double>(e) - before) + K_i * before;
     before = static_cast<double>(e);
     ASSERT_LT(std::fabs(static_cast<double>(u)), 0.9) << "seed " << seed;
     worst = std::fmax(worst, std::fabs(static_cast<double>(pi_step(config, state, e)) - u));
   }
-  // Rounding per sample: half a digit of the sum for two increments in fixed point; half an epsilon for three
-  // numbers below 1 in floating point. The output is rounded once.
+  // Rounding per sample. In fixed point, two increments are each rounded by half a digit of the sum. In
+  // floating point, three numbers below 1 are each rounded by half an epsilon. The output is rounded once.
   const double rounding = is_fixed<S> ? digit<S>() * std::ldexp(1.0, 4 - 8 * int{sizeof(S)}) : 2 * digit<S>();
   EXPECT_LE(worst, 2000 * rounding + 2 * digit<S>()) << "seed " << seed;
 }
 
 TYPED_TEST(PiScalars, ASmallIntegralGainDoesNotVanish) {
   using S = TypeParam;
-  // With an error of 40 digits, the increment is 1.3e-4 of it per sample, 2^-8 of a digit. It must
+  // The error e is 40 digits. The increment per sample is 1.3e-4 e, which is 2^-8 of a digit. It must
   // accumulate.
   const double e = 40 * std::ldexp(1.0, -14), K_i = held<S>(1.3378e-4);
   const PiConfig<S> config = pi<S>(held<S>(0.0158299), K_i, 0.9);
@@ -61,15 +62,18 @@ TYPED_TEST(PiScalars, ASmallIntegralGainDoesNotVanish) {
   double u = 0;
   for (int n = 0; n < 10000; ++n) u = static_cast<double>(pi_step(config, state, static_cast<S>(e)));
   const double exact = held<S>(0.0158299) * e + 9999 * K_i * e;
-  // The rounding of each increment: a digit of the sum (16 bits: 2^-12 of 2^-14), or eps of u in float.
+  // The rounding of each increment: in fixed point, a digit of the sum (with 16 bits, 2^-12 of 2^-14); in
+  // float, an epsilon of u.
   const double rounding =
       is_fixed<S> ? digit<S>() * std::ldexp(1.0, 4 - 8 * int{sizeof(S)}) : digit<S>() * exact;
-  // In float, the difference d0 = K_i - d1 has an error of an epsilon of d1, which is an error of K_i.
+  // In float, the difference d0 = K_i - d1 has an error of an epsilon of d1. This error acts like an error of
+  // K_i.
   const double cancelled = is_fixed<S> ? 0 : 10000 * e * 0.0158299 * digit<S>();
   EXPECT_NEAR(u, exact, 10000 * rounding + digit<S>() + cancelled);
 }
 
-/// While the integral pauses, u changes by d1 times the change of the error. Then u continues from its value.
+/// While the integral pauses, u changes by d1 times the change of the error. Afterwards, u continues from the
+/// value reached.
 TYPED_TEST(PiScalars, WaitsAndGoesOnFromThere) {
   using S = TypeParam;
   const double d1 = held<S>(0.75), K_i = held<S>(0.125);
@@ -95,7 +99,8 @@ TYPED_TEST(PiScalars, LeavesTheLimitWithTheFirstSampleOfTheOtherSign) {
 
 TYPED_TEST(PiScalars, LargeJumpsAreNotCutBeforeTheLimit) {
   using S = TypeParam;
-  // A change 0.8 -> -0.8 at a gain of 4.5 is -7.2: the output goes from +0.9 directly to -0.9, although signals end at 2.
+  // A change of the error from 0.8 to -0.8 at a gain of 4.5 changes the sum by -7.2. The output changes
+  // directly from +0.9 to -0.9, although signals are limited to 2.
   const PiConfig<S> config = pi<S>(4.5, 0.0, 0.9);
   PiState<S> state;
   EXPECT_EQ(pi_step(config, state, S(0.8)), S(0.9));
@@ -119,8 +124,8 @@ TYPED_TEST(PiScalars, PositionalIsTheVelocityFormAwayFromTheLimit) {
   }
 }
 
-/// The integral at the limit settles at the value where K_i e = K_b (v - u_limit), v = I + K e: v - limit =
-/// K_i e/K_b.
+/// At the limit, the integral I settles at the value for which K_i e = K_b (v - limit), with the sum v = I +
+/// K e and the error e. The excess v - limit is therefore K_i e/K_b.
 TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
   using S = TypeParam;
   const double e = 0.25, K = 1.5, K_i = 0.125;
@@ -140,8 +145,8 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
       << "without it the integral winds up";
 }
 
-/// The product K e far exceeds 16 times a signal's range, the limit of every fixed-point sum. The integral
-/// stays at the limit, and the first small error leaves the limit.
+/// The product K e exceeds 16 times a signal's range, which is the limit of every fixed-point sum. The
+/// integral stays at the limit, and the output leaves the limit at the first small error.
 TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
   using S = TypeParam;
   const double K = 200, K_i = 20, K_b = K_i / K;
@@ -149,7 +154,7 @@ TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
                                      static_cast<Gain<S>>(gain_beyond_limit(K, K_i, K_b))};
   PiPositionalState<S> state;
   for (int n = 0; n < 5000; ++n) EXPECT_EQ(pi_positional_step(config, state, S(0.75)), S(0.5));
-  // An excess below half a digit/K_b rounds to zero.
+  // An excess below half a digit/K_b is rounded to zero.
   EXPECT_NEAR(static_cast<double>(ScalarTraits<S>::signal(state.integral)), 0.5, digit<S>() / (2 * K_b));
   EXPECT_LT(static_cast<double>(pi_positional_step(config, state, S(-0.0015))), 0.25);
 }

@@ -22,7 +22,7 @@ TEST(Pi, VelocityFormByHand) {
 }
 
 TEST(Pi, GainAndIntegralAreThoseOfTheThesis) {
-  // A constant error gives K e first, then d1 + d0 = K_i per sample.
+  // With a constant error, the first output is K e. Each further sample adds d1 + d0 = K_i.
   constexpr PiConfig<double> c{.d1 = 0.5, .d0 = -0.375, .limit = 100.0};
   PiState<double> s;
   for (int n = 0; n < 50; ++n) EXPECT_EQ(pi_step(c, s, 1.0), 0.5 + 0.125 * n);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive for the tests: per-unit gains of the reference motor, and a simple motor model that
-// supplies the registers.
+// The product's drive for the tests: per-unit gains of the reference motor, and a simple motor model whose
+// values fill the registers.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace sixstep::control {
 
-// Bases: the physical values of 1.0. The range of signals is 2, so differences of full-scale signals still
-// fit.
+// Bases: the physical values of 1.0. The range of signals is 2, so the difference of two full-scale signals
+// is still within the range.
 inline constexpr double base_A = 20, base_V = 25, base_rad_s = 500, base_deg = 2000;
-// maxon 251601 (model.md 6) at the terminals; the thesis's period; a timer of 1 MHz.
+// The motor is maxon 251601 at its terminals (model.md 6). The period is the thesis's period. The timer runs
+// at 1 MHz.
 inline constexpr double R = 1.03, L = 0.572e-3, K_t = 33.5e-3, J = 135e-7, T = 30e-6, U = 24;
 inline constexpr int pole_pairs = 8;
 
-/// Gains of the thesis's chapter 6 (model.md 13), per unit.
+/// Gains of the thesis's chapter 6 (model.md 13), relative to the bases.
 template <class S>
 ProtectedConfig<S> product() {
   const auto s = [](double x) { return static_cast<S>(x); };
@@ -43,8 +44,8 @@ ProtectedConfig<S> product() {
   return c;
 }
 
-/// A simple motor: an R-L circuit between the driven terminals with a constant back-EMF, sufficient to close
-/// the loops.
+/// A simple motor that is sufficient to close the loops: an R-L circuit between the driven terminals, with a
+/// constant back-EMF.
 struct Motor {
   double i = 0, w = 0, theta_e = 0.3, t = 0;  // theta_e in sectors
   int sector() const { return static_cast<int>(std::floor(theta_e)); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop with a profile: its feed-forward, its start, and the effect of another configuration.
+// Tests the position loop with a profile: its feed-forward, its start, and the effect of another
+// configuration.
 #include "sixstep/control/profiled_position.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ TEST(ProfiledPosition, SpeedIsAddedToWhatThePositionLoopAsksFor) {
   EXPECT_EQ(with.now().speed_rad_s, 0.0);
 }
 
-/// A shaft that follows exactly needs no correction: the reference is only the feed-forward torque.
+/// A shaft that follows exactly needs no correction, so the reference is only the feed-forward torque.
 TEST(ProfiledPosition, TorqueIsAskedForBeforeAnErrorIsSeen) {
   Bench b{positioning()};
   double most = 0.0;
@@ -130,7 +131,7 @@ TEST(ProfiledPosition, OtherLimitsInFlightMakeNoJump) {
   const double way = before.speed_rad_s * T * 180 / 3.14159265358979;
   EXPECT_NEAR(b.now().position_deg, before.position_deg + way, 1e-4);
   EXPECT_NEAR(b.now().speed_rad_s, before.speed_rad_s, 1e-3);
-  // If only a gain changes, the profile is unchanged.
+  // If the new configuration differs only in a gain, the profile is unchanged.
   const JerkProfileState<double> kept = b.state.extras.position.profile;
   next.position_gain = 0.7;
   retune(b.config, b.state, next);

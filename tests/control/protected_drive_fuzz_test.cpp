@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of the product's drive for any register values.
+// The product's drive obeys its bounds for any register values.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -16,7 +16,7 @@ bool is_number(S x) {
   return x == x && static_cast<double>(x) - static_cast<double>(x) == 0;
 }
 
-/// Laws of every command, for any register values.
+/// Laws that every command obeys, for any register values.
 template <class S>
 ::testing::AssertionResult lawful(const ProtectedConfig<S>& config, const ProtectedState<S>& state,
                                   const ProtectedTelemetry<S>& t, const BridgeCommand<S>& c) {
@@ -129,7 +129,7 @@ TYPED_TEST(ProductFuzz, RandomRegistersNeverLeadToAnUnlawfulCommand) {
       faulty += telemetry.faults != 0;
     }
   }
-  // The test is useful only if both kinds of ticks occur.
+  // This test proves something only if both kinds of ticks occur.
   EXPECT_GT(enabled, 10000) << "seed " << seed;
   EXPECT_GT(faulty, 10000) << "seed " << seed;
   std::printf("seed %llu: %ld ticks with the bridge on, %ld with a fault\n",

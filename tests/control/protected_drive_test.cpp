@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive with register inputs. A simple motor model lets it pass through all its activities.
+// The product's drive with register inputs. With a simple motor model, the drive passes through all its
+// activities.
 #include "sixstep/control/protected_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -46,10 +47,10 @@ TYPED_TEST(Product, CalibratesRunsBrakesAndLetsGo) {
   p.ticks(18);
   EXPECT_EQ(p.telemetry.activity, Activity::run);
   EXPECT_EQ(p.state.current_adc[1].offset_eighths, 8 * 2055);
-  // The integral makes the mean of the estimate equal to the setpoint. The estimate resolves a sector's time
-  // of 654 us to 1 us, that is 0.31 rad/s of 200 rad/s. It is updated once per sector, so the speed varies by
-  // some rad/s (dw). The mean of 1/time differs from the mean of the speed by dw^2/w: 0.1 rad/s for dw = 4
-  // rad/s.
+  // The integral makes the mean of the estimated speed equal to the setpoint. The estimate resolves a
+  // sector's time of 654 us to 1 us, which is 0.31 rad/s of 200 rad/s. The estimate is updated once per
+  // sector, so the speed varies by dw, some rad/s. The mean of 1/time differs from the mean of the speed by
+  // dw^2/w: 0.1 rad/s for dw = 4 rad/s.
   const auto mean_speed = [&p] {
     p.ticks(8000);
     double sum = 0;
@@ -67,7 +68,8 @@ TYPED_TEST(Product, CalibratesRunsBrakesAndLetsGo) {
   for (int n = 0; n < 20000 && p.telemetry.activity == Activity::brake; ++n) p.tick();
   EXPECT_EQ(p.telemetry.activity, Activity::off);
   EXPECT_FALSE(p.command.enabled);
-  // The brake ends when the estimate is 5 rad/s. Between edges, the estimate is only an upper bound.
+  // The brake ends when the estimated speed is 5 rad/s. Between edges, the estimate is only an upper bound of
+  // the speed.
   EXPECT_LE(std::fabs(p.motor.w), 5.0);
 }
 
@@ -95,7 +97,8 @@ TYPED_TEST(Product, AHallFaultStopsTheBridgeWithinATickAndNamesTheLine) {
       EXPECT_EQ(p.telemetry.activity, Activity::fault);
       EXPECT_TRUE(p.telemetry.hall_line == line || p.telemetry.hall_line == 0);
       named += p.telemetry.hall_line == line;
-      // The recovery: the line is repaired, the fault is cleared, and run is released and requested again.
+      // Recovery: the line is repaired and the fault is cleared. The request to run is withdrawn and set
+      // again.
       p.stuck_low = p.stuck_high = 0;
       p.ticks(3);
       p.request = {.run = true, .clear = true};
@@ -175,7 +178,7 @@ TYPED_TEST(Product, AdvanceCommutatesBeforeTheEdge) {
     p.tick();
     if (!p.command.enabled || p.motor.sector() != s) continue;
     const Pair pair = p.state.drive.reversed ? swapped(p.command.pair) : p.command.pair;
-    // A tick is 5 % of a sector, and this motor model rounds an edge's time to the tick's end.
+    // A tick is 5 % of a sector, and this motor model rounds the time of an edge to the end of the tick.
     if (way > 0.8 && way < 0.95) {
       EXPECT_EQ(pair, positive_pair(static_cast<std::uint8_t>((s + 1) % 6)));
       ++early;

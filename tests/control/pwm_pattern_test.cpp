@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chopped switch of the pair is compared with the definition of the patterns, by the 120 degrees in which
-// each switch carries current.
+// The chopped switch of the pair is compared with the definition of the patterns. The definition uses the 120
+// degrees in which each switch carries current.
 #include "sixstep/control/pwm_pattern.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using namespace sixstep::control;
 constexpr PwmPattern all[] = {PwmPattern::upper, PwmPattern::lower, PwmPattern::pwm_on, PwmPattern::on_pwm,
                               PwmPattern::pwm_on_pwm};
 
-/// A rotor that turns in one direction and is driven in the same direction.
+/// A rotor that turns in one direction. The drive's torque has the same direction.
 struct Turning {
   bool backward = false;
   std::uint8_t sector(int n) const { return static_cast<std::uint8_t>(backward ? 5 - n % 6 : n % 6); }
@@ -25,7 +25,8 @@ struct Turning {
   }
 };
 
-/// The definition: a switch carries current in the sectors n and n + 1. `begun` is true in sector n + 1.
+/// The definition: a switch carries current in the sectors n and n + 1. The argument `begun` is true in
+/// sector n + 1.
 bool chops(PwmPattern pattern, bool upper, bool begun, bool second_half) {
   switch (pattern) {
     case PwmPattern::upper:
@@ -69,8 +70,8 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
     }
 }
 
-/// A braked motor is driven against its rotation: the pair's source and sink swap, and the staying leg
-/// remains the same.
+/// A braked motor is driven against its rotation. The source and the sink of the pair are swapped, and the
+/// staying leg remains the same.
 TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   const PwmPatternConfig<double> config{PwmPattern::on_pwm, 0.0};
   PwmPatternState<double> state;
@@ -83,8 +84,8 @@ TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   }
 }
 
-/// With these patterns, every switch is chopped for the same time over a turn. Only the patterns `upper` and
-/// `lower` heat some switches more.
+/// With these patterns, every switch is chopped for the same time over a turn. With the patterns `upper` and
+/// `lower`, three switches are chopped more than the others.
 TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
     const Turning rotor;
@@ -102,7 +103,8 @@ TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   }
 }
 
-/// The Hall interrupt starts the first half of the sector. A fixed pattern leaves the command unchanged.
+/// The Hall interrupt starts the first half of the sector. A pattern that always chops the same switch leaves
+/// the command unchanged.
 TEST(PwmPattern, TheDriveHasItAtTicksAndInTheInterrupt) {
   DriveConfig<double> config{.mode = Mode::duty};
   config.extras.on = true;

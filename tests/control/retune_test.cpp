@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A new configuration between two ticks: some states continue, others start at rest.
+// The configuration changes between two ticks. Some states continue, other states start at rest.
 #include "sixstep/control/retune.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ DriveConfig<double> cascade() {
 }
 
 Measurement<double> turning(double speed, double current) {
-  // The code of sector 0 determines the driven pair, whose current the test sets.
+  // The test sets the current of the driven pair. The Hall code of sector 0 determines this pair.
   const std::uint8_t code = hall_of_sector(0);
   Measurement<double> m{.speed_rad_s = speed, .bus_V = 24.0, .hall = code};
   set_phase_currents(m, positive_pair(0), current);
@@ -29,8 +29,8 @@ Measurement<double> turning(double speed, double current) {
 
 double duty_of(const DriveState<double>& s) { return s.reversed ? -s.command.duty : s.command.duty; }
 
-/// u[n] - u[n-1] = d1 (e[n] - e[n-1]) + K_i e[n-1] with the new gains: without an error, the output is
-/// constant.
+/// The output u follows u[n] - u[n-1] = d1 (e[n] - e[n-1]) + K_i e[n-1] with the new gains and the error e.
+/// Without an error, the output is constant.
 TEST(Retune, AVelocityPiGoesOnFromItsLastOutput) {
   DriveConfig<double> config = cascade();
   config.mode = Mode::current;
@@ -45,7 +45,7 @@ TEST(Retune, AVelocityPiGoesOnFromItsLastOutput) {
   EXPECT_EQ(state.current.u, before);
   step(config, state, turning(0.0, 1.75), {2.0}, telemetry);
   EXPECT_NEAR(state.current.u, before + 5.0 * (0.25 - 0.5) + 0.2 * 0.5, 4 * 0x1p-52 * 24.0);
-  // With the current at its reference for two ticks, the output does not change, for any gains.
+  // The current is at its reference for two ticks. Then the output does not change, for any gains.
   step(config, state, turning(0.0, 2.0), {2.0}, telemetry);
   step(config, state, turning(0.0, 2.0), {2.0}, telemetry);
   const double settled = duty_of(state);
@@ -67,7 +67,7 @@ TEST(Retune, ALoopThatBothModesRunKeepsItsState) {
   EXPECT_EQ(state.current.u, current.u);
   EXPECT_EQ(state.current.e, current.e);
   EXPECT_EQ(config.mode, Mode::current);
-  // The change back to position mode: the speed loop was inactive in between and starts at rest.
+  // The mode changes back to position. The speed loop was inactive in between, so it starts at rest.
   next.mode = Mode::position;
   retune(config, state, next);
   EXPECT_EQ(state.speed.u, 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current PI with back-EMF feed-forward at its largest output. |d| = 1 has no off-time (model.md 3); a
-// duty that is one digit smaller has an off-time.
+// The current PI with back-EMF feed-forward at its largest output. A duty of magnitude 1 has no off-time
+// (model.md 3), but a duty that is one digit smaller has an off-time.
 #include <gtest/gtest.h>
 
 #include "sixstep/control/drive.hpp"

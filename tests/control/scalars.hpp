@@ -12,7 +12,8 @@ namespace sixstep::control {
 
 using Scalars = testing::Types<double, float, Q14, Q30>;
 
-/// The scalars, including those whose largest number is below 1. A decoder's result may be 1: at half a turn, or at the sine's peak.
+/// The scalars, including the types whose largest number is below 1. A decoder's result may be 1: at half a
+/// turn, or at the peak of the sine.
 using SensingScalars = testing::Types<double, float, Q15, Q14, Q31, Q30>;
 
 template <class Scalar>
@@ -36,7 +37,7 @@ constexpr Gain<Scalar> per_count(double signal) {
     return static_cast<Gain<Scalar>>(signal);
 }
 
-/// A PI from d1 and K_i = d0 + d1 per sample: floating point stores d0, fixed point K_i (pi.hpp).
+/// A PI from d1 and K_i = d0 + d1 per sample. Floating point stores d0, fixed point stores K_i (pi.hpp).
 template <class Scalar>
 PiConfig<Scalar> pi(double d1, double K_i, double limit) {
   if constexpr (is_fixed<Scalar>)

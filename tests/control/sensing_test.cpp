@@ -19,7 +19,7 @@ template <class Scalar>
 class Sensing : public ::testing::Test {};
 TYPED_TEST_SUITE(Sensing, Scalars);
 
-/// A converter with 12 bits: 0.0005 per count around 2048.
+/// A 12-bit converter with 0.0005 per count around 2048.
 template <class S>
 AdcConfig<S> adc() {
   return {per_count<S>(0.0000625), 2048, 20, 4};
@@ -28,7 +28,7 @@ AdcConfig<S> adc() {
 TYPED_TEST(Sensing, CountsBecomeSignalsAroundTheMeasuredOffset) {
   using S = TypeParam;
   AdcState state;
-  // In 16-bit formats, the gain has a relative error of 2^-15, and the product an error of one digit.
+  // In 16-bit formats, the gain has a relative error of 2^-15, and the product has an error of one digit.
   const double near = digit<S>() + std::ldexp(1.0, -15) * (is_fixed<S> ? 1 : 0);
   EXPECT_NEAR(static_cast<double>(adc_value(adc<S>(), state, 2148)), 0.05, near) << "the circuit's offset";
   for (int n = 0; n < 15; ++n)
@@ -73,8 +73,8 @@ TYPED_TEST(Sensing, OneShuntShowsTheDrivenCurrentInTheOnTimeOnly) {
       << "the default sees nothing";
 }
 
-/// An exponential commutation: the current of the incoming phase rises to the constant current of the staying
-/// phase. i_m is the mean of the two currents.
+/// During the commutation, the current of the incoming phase rises exponentially to the constant current of
+/// the staying phase. The motor current i_m is the mean of these two currents.
 TYPED_TEST(Sensing, OneShuntCorrectsForTheIncomingPhase) {
   using S = TypeParam;
   OneShuntState<S> state;
@@ -104,7 +104,8 @@ TYPED_TEST(Sensing, PhaseCurrentsOfAPairGiveBackTheMotorCurrent) {
 
 TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant) {
   using S = TypeParam;
-  // The filter has b = T_s/(T_f + T_s) = 1/8. For a ramp of r per sample, the output settles at g r/b.
+  // The filter's factor is b = T_s/(T_f + T_s) = 1/8 (sample period T_s, filter time constant T_f). For a
+  // ramp of r per sample and the gain g, the output settles at g r/b.
   const DerivativeConfig<S> config{Gain<S>(4.0), Gain<S>(0.125)};
   DerivativeState<S> state;
   const double r = 1.0 / 128;
@@ -112,8 +113,8 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
   for (int n = 1; n <= 64; ++n) {
     const S seen = ScalarTraits<S>::signal(derivative_step(config, state, S(0.25 + r * n)));
     const double y = static_cast<double>(seen);
-    // The output is y[n] = g r (1 - (1-b)^n)/b. In fixed point, y is rounded and fed back through b: an error
-    // of b/2 digits per sample, which accumulates to half a digit.
+    // The exact output is y[n] = g r (1 - (1-b)^n)/b. In fixed point, y is rounded and fed back through b.
+    // The error of b/2 digits per sample accumulates to half a digit.
     EXPECT_NEAR(y, 32 * r * (1 - std::pow(0.875, n)), 2 * digit<S>()) << n;
   }
 }
@@ -121,8 +122,8 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
 TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
   using S = TypeParam;
   using T = ScalarTraits<S>;
-  // The input rises by 0.4 per sample for four samples, and g/b = 16: the output tends to 6.4, more than
-  // three times a signal's range.
+  // The input rises by 0.4 per sample for four samples, and g/b = 16 (gain g, filter factor b). The output
+  // approaches 6.4, which is more than three times a signal's range.
   const DerivativeConfig<S> config{Gain<S>(8.0), Gain<S>(0.5)};
   DerivativeState<S> state;
   double exact = 0;
@@ -130,8 +131,8 @@ TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
   for (int n = 1; n <= 4; ++n) {
     exact = exact / 2 + 8 * 0.4;
     const Accumulator<S> y = derivative_step(config, state, S(-0.8 + 0.4 * n));
-    // A quarter of the output is within the signal's range. Each x has an error of half a digit, which g
-    // multiplies to four digits.
+    // A quarter of the output is within the signal's range. Each input x has an error of half a digit, which
+    // the gain g increases to four digits.
     EXPECT_NEAR(4 * static_cast<double>(T::signal(T::share(y, Gain<S>(0.25)))), exact, 20 * digit<S>()) << n;
   }
   EXPECT_GT(exact, 5.9);

@@ -42,7 +42,8 @@ TYPED_TEST(SetpointShaping, SlewKeepsStepsBelowTheLastBit) {
   }
 }
 
-/// A profile in whole digits, computed by hand: acceleration a = 1, speed limit 3, distance 12.
+/// A profile in whole digits, computed by hand. The acceleration is a = 1, the speed limit 3, the distance
+/// 12.
 TYPED_TEST(SetpointShaping, ProfileIsTheFastestThatCanStop) {
   using S = TypeParam;
   const double unit = is_fixed<S> ? digit<S>() : 1.0;
@@ -69,11 +70,11 @@ TYPED_TEST(SetpointShaping, ProfileKeepsItsLimitsAndStandsOnTheTarget) {
     ProfileState<S> state;
     state.position = static_cast<S>(any(random));
     const double a = static_cast<double>(config.acceleration), w = static_cast<double>(config.speed);
-    // The error is a few roundings per tick of sums below 2.
+    // The error is a few roundings per tick of sums that are below 2.
     const double near = is_fixed<S> ? 0.0 : 8 * digit<S>();
     for (int leg = 0; leg < 3; ++leg) {
       const auto target = static_cast<S>(any(random));
-      // The second leg is interrupted: a new target arrives during the motion.
+      // In the second motion, a new target arrives before the end.
       const int ticks = leg == 1 ? 20 : 100000;
       const double start = static_cast<double>(state.position), v0 = static_cast<double>(state.velocity);
       int n = 0;
@@ -87,8 +88,8 @@ TYPED_TEST(SetpointShaping, ProfileKeepsItsLimitsAndStandsOnTheTarget) {
       }
       if (leg == 1) continue;
       ASSERT_EQ(state.position, target) << "seed " << seed << " run " << run;
-      // The time is at most that of the continuous profile, plus the reversal of v0 and a few ticks of
-      // rounding.
+      // The time is at most the time of the continuous profile, plus the time to reverse the initial speed v0
+      // and a few ticks of rounding.
       const double way = std::fabs(static_cast<double>(target) - start) + v0 * v0 / a;
       const double best = way > w * w / a ? way / w + w / a : 2 * std::sqrt(way / a);
       ASSERT_LE(n, best + 2 * std::fabs(v0) / a + 4) << "seed " << seed << " run " << run;

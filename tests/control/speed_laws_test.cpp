@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controllers other than the PI, on the sampled mechanical plant. Poles, reaching time, loads and
-// limits are compared with closed forms.
+// The speed controllers other than the PI control the sampled mechanical plant. Poles, reaching time, loads
+// and limits are compared with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace sixstep::control;
 template <class S>
 class SpeedLaws : public ::testing::Test {
  public:
-  /// The effect of `count` roundings of numbers up to `largest`.
+  /// The effect of `count` roundings of numbers whose magnitude is at most `largest`.
   static double roundings(double largest, int count) {
     return count * largest * static_cast<double>(std::numeric_limits<S>::epsilon());
   }
@@ -36,7 +36,7 @@ ObservedSpeedConfig<S> observed() {
           S((a - p) / B), S((1 - a) / b), S(g)};
 }
 
-/// The drive's shaft with a controller.
+/// The drive's shaft with a speed controller.
 template <class S>
 struct Bench {
   ObservedSpeedConfig<S> config = observed<S>();
@@ -65,8 +65,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedFollowsItsSetpointWithTheOnePoleOfTheRegulato
   EXPECT_NEAR(bench.w, 10 * (1 - std::pow(p, 200)), 0.2);
 }
 
-/// The speed's response to a load has the poles p, c and twice z_o, and decays to zero. The polynomial with
-/// these roots, applied to the response, gives 0.
+/// The response of the speed to a load has the poles p and c, and the pole z_o twice, and decays to zero. The
+/// polynomial with these roots, applied to the response, gives 0.
 TYPED_TEST(SpeedLaws, ObservedSpeedAnswersALoadWithThePolesThatWerePlaced) {
   using S = TypeParam;
   Bench<S> bench;
@@ -105,8 +105,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedHoldsItsSetpointWhateverTheModelLacks) {
   EXPECT_NEAR(bench.w, 20.0, this->roundings(20, 100));
 }
 
-/// At the limit, the observer uses the limited torque, so its estimate contains only the load. After leaving
-/// the limit, the drive behaves as if it had never reached the limit.
+/// At the limit, the observer uses the limited torque, so its load estimate contains only the load. After the
+/// limit, the drive behaves as if it had never reached the limit.
 TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   using S = TypeParam;
   Bench<S> bench;
@@ -130,8 +130,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   EXPECT_LT(over, this->roundings(63, 100)) << "and no further than asked for";
 }
 
-/// Reference: the extended state observer and controller in the form of Miklosovic, Radke and Gao, with
-/// separate b_0 and T.
+/// The reference is the extended state observer with its controller in the form of Miklosovic, Radke and Gao,
+/// with the parameters b_0 and T.
 TYPED_TEST(SpeedLaws, WithoutFrictionAndLagItIsLinearActiveDisturbanceRejection) {
   using S = TypeParam;
   const double T = 1.0 / 32768, b_0 = b / T, w_c = (1 - p) / T;
@@ -169,8 +169,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedBeginsWhereTheShaftIs) {
   EXPECT_NEAR(bench.u, 0.0, this->roundings(1, 20));
 }
 
-// The law has q = 1 - p: on the surface, the speed error has the pole p. Within the layer, the value of the
-// surface has the pole z_o.
+// The sliding law has q = 1 - p. On the surface, the speed error has the pole p. Within the layer, the value
+// of the surface has the pole z_o.
 template <class S>
 SlidingSpeedConfig<S> sliding(double reach) {
   return {S(1 - p), S((1 - p) / b), S(reach), S(reach * b / (1 - z_o))};
@@ -200,8 +200,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedFollowsItsSetpointOnTheSurface) {
   }
 }
 
-/// Outside the layer, the value of the surface falls from s_0 by b (R - l) per sample, with the reach R and
-/// the load l.
+/// Outside the layer, the value of the surface falls from s_0 by b (R - l) per sample (reach R, load l).
 TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
   using S = TypeParam;
   for (const double load : {0.0, 0.25, -0.25}) {
@@ -224,8 +223,8 @@ TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
   }
 }
 
-/// Within the layer, the value of the surface follows s[n+1] = z_o s[n] + b l. At rest, the switching part of
-/// the torque is equal to the load l.
+/// Within the layer, the value s of the surface follows s[n+1] = z_o s[n] + b l. At rest, the switching part
+/// of the torque is equal to the load l.
 TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   using S = TypeParam;
   SlidingBench<S> bench{sliding<S>(0.5)};
@@ -233,7 +232,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   for (int n = 0; n < 40; ++n) {
     const S s = bench.state.started ? bench.surface() : S(0), error = -bench.w;
     bench.tick(S(0));
-    // The output u also contains q e/b, which cancels in the surface.
+    // The output u also contains q e/b (speed error e), which cancels in the surface.
     ASSERT_NEAR(bench.surface(), z_o * static_cast<double>(s) + b * 0.4, this->roundings(4, 20))
         << n << " " << error;
   }
@@ -243,9 +242,9 @@ TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   EXPECT_NEAR(bench.surface(), 0.4 * b / (1 - z_o), this->roundings(4, 200));
 }
 
-/// The drive starts far from its setpoint at full torque, until the law needs less: the error e is to fall by
-/// q e per sample. The torque falls earlier, by up to q/(1 - z_o) of this error, because the surface is not
-/// left at once. Then the speed follows the surface.
+/// The drive starts far from its setpoint, at full torque. The law reduces the torque when the error e must
+/// fall by only q e per sample. The reduction begins earlier, by up to q/(1 - z_o) of this error, because the
+/// layer around the surface has a width. Then the speed follows the surface.
 TYPED_TEST(SpeedLaws, SlidingSpeedDoesNotWindUp) {
   using S = TypeParam;
   SlidingBench<S> bench{sliding<S>(1.0)};
@@ -262,7 +261,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedDoesNotWindUp) {
   }
   EXPECT_LT(most, 200 + b) << "no further than a sample";
   EXPECT_NEAR(bench.w, 200.0, this->roundings(200, 200));
-  // The load exceeds the reach of the law: the speed falls, and no integral accumulates.
+  // The load exceeds the reach of the law. The speed falls, and no integral accumulates.
   bench.config.reach = S(0.5);
   bench.config.layer = S(0.5 * b / (1 - z_o));
   bench.load = S(0.75);
@@ -297,7 +296,7 @@ DriveConfig<S> speed_drive(SpeedLaw law) {
   return d;
 }
 
-/// After a change between any two laws, the torque is unchanged at zero error.
+/// After a change from any law to any other law, the torque at zero error is unchanged.
 TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
   using S = TypeParam;
   const SpeedLaw all[] = {SpeedLaw::pi, SpeedLaw::positional, SpeedLaw::observed, SpeedLaw::sliding};
@@ -309,7 +308,7 @@ TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
       Measurement<S> m{};
       m.hall = 0b101;
       m.speed_rad_s = S(50);
-      // The shaft slows down until the law has reached the torque that balances the load of 0.5.
+      // The shaft slows down until the law's torque is equal to the load of 0.5.
       for (int n = 0; n < 40000; ++n) {
         step(config, state, m, {S(50)}, telemetry);
         const S t = telemetry.current_reference_A / S(10);
@@ -323,8 +322,8 @@ TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
     }
 }
 
-/// The output is K (b r - y) + I, with setpoint r, speed y and integral I. With b = 0, a step of the setpoint
-/// acts only through the integral, K_i (r - y) per sample.
+/// The output is K (b r - y) + I (gain K, setpoint weight b, setpoint r, speed y, integral I). With b = 0, a
+/// step of the setpoint acts only through the integral, which changes by K_i (r - y) per sample.
 TYPED_TEST(SpeedLaws, ASetpointWeightTakesTheKickOffASetpoint) {
   using S = TypeParam;
   for (const double weight : {0.0, 0.5, 1.0}) {
@@ -341,8 +340,9 @@ TYPED_TEST(SpeedLaws, ASetpointWeightTakesTheKickOffASetpoint) {
   }
 }
 
-/// With an I-P controller, an integrator as plant has a pole pair and no zero, T = b K_i/(z^2 - (2 - b K) z +
-/// 1 - b K + b K_i). With real poles it does not overshoot, while the PI with the same poles does.
+/// With an I-P controller, an integrator as plant has a pole pair and no zero: T = b K_i/(z^2 - (2 - b K) z +
+/// 1 - b K + b K_i). With real poles, the I-P controller does not overshoot, while the PI with the same poles
+/// does.
 TYPED_TEST(SpeedLaws, AnIPControllerDoesNotOvershootWhereThePiDoes) {
   using S = TypeParam;
   const double pole = 0.95, K = (2 - 2 * pole) / b, K_i = (1 - pole) * (1 - pole) / b;
@@ -359,7 +359,7 @@ TYPED_TEST(SpeedLaws, AnIPControllerDoesNotOvershootWhereThePiDoes) {
       step(config, state, m, {S(2)}, telemetry);
       m.speed_rad_s = m.speed_rad_s + S(b) * telemetry.current_reference_A / S(10);
       most = std::fmax(most, static_cast<double>(m.speed_rad_s));
-      // The step response of a double pole without a zero.
+      // The closed form is the step response of a double pole without a zero.
       if (weight == 0.0) {
         ASSERT_NEAR(m.speed_rad_s, 2 * (1 - (1 + n * (1 - pole)) * std::pow(pole, n)),
                     this->roundings(2, 2000))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadbeat current control on a winding with a held voltage. The current reaches its reference one period
-// after the answer takes effect. The error with a wrong model has a closed form.
+// Deadbeat current control of a winding whose voltage is constant over a period. The current reaches its
+// reference one period after the command takes effect. With a wrong model, the error has a closed form.
 #include "sixstep/design/loops/deadbeat.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ using namespace sixstep::control;
 constexpr double R = 1.03, L = 0.572e-3, T = 30e-6;
 constexpr design::DeadbeatSpec spec{.R_ohm = R, .L_H = L, .K_t_Nm_A = 0.0335, .period_s = T, .limit_V = 24.0};
 
-/// Current, A, after a constant voltage minus back-EMF has acted for `time_s` on a winding with the
-/// inductance L_H.
+/// Current, in A, after the time `time_s` in a winding with the inductance L_H. The argument u_minus_e is the
+/// constant voltage minus the back-EMF.
 double winding(double i, double u_minus_e, double time_s, double L_H = L) {
   const double a = std::exp(-R * time_s / L_H);
   return a * i + (1 - a) / R * u_minus_e;
@@ -31,7 +31,7 @@ DeadbeatConfig<double> config_of(double wait_periods, double correction = design
   return design::deadbeat(s)->config;
 }
 
-/// A drive with the deadbeat loop and the winding. The answer takes effect `wait` periods after the sample.
+/// The deadbeat loop with its winding. A command takes effect `wait` periods after the sample.
 struct Loop {
   DeadbeatConfig<double> config;
   double wait, L_H = L;
@@ -71,7 +71,7 @@ TEST(Deadbeat, ReachesItsReferenceOnePeriodAfterTheAnswerBegins) {
 TEST(Deadbeat, AnAnswerHalfAPeriodAfterItsSampleReachesItWhereThePeriodEnds) {
   Loop loop{config_of(0.5), 0.5};
   loop.tick(0.8, 0.0);
-  // The answer's voltage acts for another half period after the next sample.
+  // The commanded voltage acts for another half period after the next sample.
   EXPECT_NEAR(winding(loop.i, loop.in_effect, 0.5 * T), 0.8, 1e-12);
 }
 
@@ -83,7 +83,7 @@ TEST(Deadbeat, OfAVoltageThatTheModelLacksAPartIsLeftAtEachSample) {
 }
 
 TEST(Deadbeat, AnInductanceOffByMPutsThePoleAtOneMinusOneOverM) {
-  // The loop has no correction, and R is so small that the decay of the current is negligible.
+  // The loop has no correction. R is so small that the decay of the current is negligible.
   for (const double m : {0.55, 0.8, 1.25, 2.0}) {
     design::DeadbeatSpec s = spec;
     s.R_ohm = 1e-9;
@@ -111,8 +111,8 @@ TEST(Deadbeat, WhatTheLimitCutsOffIsForeseenAndNothingWindsUp) {
     before = loop.i;
     ++ticks;
   }
-  // The current at full voltage is i(t) = U/R (1 - exp(-R t/L)). The least time to 10 A, in periods, is
-  // rounded up; the waiting time of one period is added.
+  // The current at full voltage U is i(t) = U/R (1 - exp(-R t/L)). The least time to 10 A, in periods, is
+  // rounded up. The waiting time of one period is added.
   const double least = -L / R * std::log1p(-10.0 * R / 24.0) / T;
   EXPECT_EQ(ticks, static_cast<int>(std::ceil(least)) + 1);
 }
@@ -133,8 +133,8 @@ class DeadbeatScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(DeadbeatScalars, Scalars);
 
 /// The bases are 40 A, 60 V and 1500 rad/s. Each format agrees with double within its digits. The measured
-/// current comes from the winding, so errors do not accumulate: each tick has a new rounding error, times 1/b
-/// in volts.
+/// current is the current of the simulated winding, so errors do not accumulate. Each tick has a new rounding
+/// error, which the factor 1/b converts to volts.
 TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
   using S = TypeParam;
   constexpr double A = 40, V = 60, W = 1500;
@@ -158,8 +158,8 @@ TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
                               static_cast<S>(200.0 / W));
     i = winding(i, in_effect - e, T);
     in_effect = static_cast<double>(u) * V;
-    // Each tick leaves 3/4 of the 0.7 V that the model lacks. The current contains the effect of two ticks, b
-    // each. The remaining error is rounding, a few digits of a current per tick.
+    // The model lacks 0.7 V. Each tick reduces this difference to 3/4. The current contains the effect of two
+    // ticks, each with the factor b. The remaining error is the rounding of a current, a few digits per tick.
     const double unknown = 0.7 / d.V_per_A * (1 + 4.0 / 3) * std::pow(0.75, n - 1);
     if (n % 100 >= 60) {
       EXPECT_NEAR(i, reference, 8 * digit<S>() * A + unknown) << n;

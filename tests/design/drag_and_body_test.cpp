@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drag of the iron, separate from bearing friction, and the rotor's inertia computed from its dimensions.
+// Tests the drag of the iron, which is separate from bearing friction, and the rotor's inertia that is
+// computed from its dimensions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,7 +66,8 @@ TEST(RotorBody, MakesTheInertiaOfACylinderOrARing) {
   EXPECT_NE(told(s).find("needs rotor_inner_radius_mm"), std::string::npos) << told(s);
   s.rotor_inner_radius_mm = Quantity{18, "", ""};
   s.rotor_density_kg_m3 = Quantity{7500, "", ""};
-  // A ring is two cylinders: J = m (r^2 + r_i^2)/2.
+  // A ring is the difference of two cylinders: J = m (r^2 + r_i^2)/2 (mass m, outer radius r, inner radius
+  // r_i).
   const double ring = 7500 * base::pi * (0.02 * 0.02 - 0.018 * 0.018) * 0.015;
   EXPECT_NEAR(motor_model(s)->shaft.J_kg_m2, ring * (0.02 * 0.02 + 0.018 * 0.018) / 2, 1e-19);
   s.rotor_inner_radius_mm->value = 21;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Complete drives: each loop with its inner loops is compared with an explicit simulation; the placed poles
-// are checked, and warnings that must or must not be given.
+// Tests complete drives. Each loop with its inner loops is compared with an explicit simulation, and the
+// placed poles are checked. Each warning is tested with a design that must cause it and a design that must
+// not.
 #include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/base/angle.hpp"
 
@@ -43,7 +44,7 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
   EXPECT_NEAR(d.loop("speed").gains.d1, 0.0158299, 0.5e-7);
   for (const LoopDesign& loop : d.loops) {
     ASSERT_TRUE(loop.placed);
-    // The polynomial is (z - 1)(z + a0) + b0 (d1 z + d0) at the placed pole.
+    // At the placed pole, the polynomial (z - 1)(z + a0) + b0 (d1 z + d0) is zero.
     using C = std::complex<double>;
     const C z{loop.placed->z_re, loop.placed->z_im};
     const C value =
@@ -57,8 +58,8 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
   EXPECT_NEAR(den[0], (1 - p.z_re) * (1 - p.z_re) + p.z_im * p.z_im, 1e-12);
 }
 
-/// The cascade as a program, with 50 Runge-Kutta steps per period for the motor's current and speed. Its
-/// error is far below the tolerance.
+/// An explicit simulation of the cascade, with 50 Runge-Kutta steps per period for the motor's current and
+/// speed. The error of the steps is far below the tolerance.
 std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
   const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.spec.period_s;
   double i = 0, w = 0, theta = 0, e1 = 0, y = 0, e2 = 0;
@@ -78,7 +79,8 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
     constexpr int steps = 50;
     for (int n = 0; n < steps; ++n) {
       const double h = T / steps;
-      // A sample is in the middle of a period: until the period's end, the previous voltage acts.
+      // The sample is in the middle of a period. Until the end of the period, the previous voltage still
+      // acts.
       const bool before = d.spec.sampled_in_middle && n < steps / 2;
       const double u = asked[d.spec.delay_periods + (before ? 1 : 0)];
       const auto di = [&](double ii, double ww) { return (u - R * ii - K * ww) / L; };
@@ -105,8 +107,8 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
                                          300 * d.spec.period_s),
                        theta = step_response(closed(d.loop("position").loop), d.spec.period_s,
                                              300 * d.spec.period_s);
-    // The error of Runge-Kutta is (h R/L)^4, 1e-12 per period. It accumulates over 300 periods and in the sum
-    // of the angle.
+    // The relative error of Runge-Kutta is (h R/L)^4, 1e-12 per period (step h). It accumulates over 300
+    // periods and in the sum of the angle.
     for (std::size_t k = 0; k < 300; ++k) {
       ASSERT_NEAR(w.samples[k], speed[k], 1e-9) << k;
       ASSERT_NEAR(theta.samples[k], position[k], 1e-9) << k;
@@ -114,9 +116,10 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
   }
 }
 
-/// Overshoot, A, of a step of 2 A by the recurrence i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h
-/// over half a period. The rotor is locked; 1.03 ohm, 0.572 mH, 30 us. The voltage of a sample in the middle
-/// of a period acts in the second half of the interval to the next sample.
+/// Overshoot, in A, of a step of 2 A, from the recurrence i' = a_h (a_h i + b_h u_first) + b_h u_then. The
+/// factors a_h and b_h are for half a period. The rotor is locked, and the motor has 1.03 ohm and 0.572 mH;
+/// the period is 30 us. The sample is in the middle of a period, so its voltage acts only in the second half
+/// of the interval to the next sample.
 double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
   const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
   double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
@@ -149,8 +152,8 @@ TEST(DriveDesign, ASampleInTheMiddleMakesTheLoopHalfAPeriodLater) {
   }
 }
 
-/// At the crossover frequency w, a delay reduces the phase by w times the delay, and w hardly changes. Half a
-/// period therefore reduces it by half as much as a period.
+/// At the crossover frequency w, a delay reduces the phase by w times the delay, and w is nearly the same.
+/// Half a period of delay therefore costs half as much phase as a whole period.
 TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   const DriveDesign start = designed({.mode = Mode::current, .delay_periods = 1});
   const DriveDesign middle = designed({.mode = Mode::current, .delay_periods = 1, .sampled_in_middle = true});
@@ -160,8 +163,8 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
   EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
   EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
-  // The reported longest period leaves a phase margin of 45 degrees, both for samples in the middle of a
-  // period and for samples at its start.
+  // With the longest period that the design reports, the phase margin is 45 degrees. This holds for samples
+  // in the middle of a period and at its start.
   const DriveDesign longest = designed({.mode = Mode::current,
                                         .period_s = middle.longest_period_s,
                                         .delay_periods = 1,
@@ -170,8 +173,8 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_LT(middle.longest_period_s, start.longest_period_s);
 }
 
-/// With hard chopping, a change of the duty changes the voltage twice as much. Half the gains then give the
-/// same loops, for each rule.
+/// With hard chopping, a change of the duty has twice the effect on the voltage. Half the gains therefore
+/// give the same loops, for each rule.
 TEST(DriveDesign, HardChoppingTakesHalfTheGains) {
   for (const GainMethod method :
        {GainMethod::pole_placement, GainMethod::cancellation, GainMethod::symmetrical_optimum}) {
@@ -231,7 +234,7 @@ bool warns(const DriveDesign& d, const std::string& of) {
   return false;
 }
 
-/// A loop with a small phase margin is not usable. At the crossover, |1 + L| is 2 sin(phase/2): at 20
+/// A loop with a small phase margin is not usable. At the crossover, |1 + L| is 2 sin(phase margin/2). At 20
 /// degrees, the loop amplifies disturbances 2.9 times.
 TEST(DriveDesign, LittlePhaseIsGrave) {
   int usable = 0, unusable = 0;
@@ -264,8 +267,8 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "is designed to settle within"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
-  // A ripple above the nominal current causes a grave warning, and the proposed chokes reduce the ripple to a
-  // fifth, for any short L/R.
+  // A current ripple above the nominal current causes a grave warning. The proposed chokes reduce the ripple
+  // to a fifth, even with a very small L/R.
   for (const double period_s : {10e-6, 1e-3}) {
     MotorModel bare = thesis_motor();
     bare.machine.L_H /= 40;
@@ -292,8 +295,8 @@ TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 2.5 * 2.33);
-  // If the sheet has no nominal current, the design uses a tenth of the stall current, 24/1.03/10 A, and is
-  // marked accordingly.
+  // If the sheet states no nominal current, the design uses a tenth of the stall current, 24/1.03/10 A. The
+  // result says that this current is not from the sheet.
   const auto silent = design_drive(thesis_motor(), {.mode = Mode::speed});
   EXPECT_FALSE(silent->nominal_printed);
   EXPECT_DOUBLE_EQ(silent->current_at_full_torque_A, 2.5 * 24 / 1.03 / 10);
@@ -317,7 +320,7 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   open.rotor.edges = 1;
   const DriveDesign quick = designed(open);
   // At 100 rad/s, the delay is 3.5 sectors of 1.309 ms with six edges, and one sector with one edge. The
-  // settling times have the same ratio, apart from the effect of the current loop.
+  // ratio of the settling times is also 3.5, apart from the effect of the current loop.
   EXPECT_NEAR(slow.lag.delay_s(), 3.5 * base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(quick.lag.delay_s(), base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(*slow.spec.settle_s / *quick.spec.settle_s, 3.5, 0.35);
@@ -342,8 +345,9 @@ TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
 }
 
-/// At best, T_max changes the speed of J by half the lowest speed in J w_low/(2 T_max). The default settling
-/// time is 1.5 times this time. With a small inertia, it stays at the thesis's 10 ms.
+/// The largest torque T_max changes the speed of the inertia J by half the lowest speed w_low in the time J
+/// w_low/(2 T_max). The default settling time is 1.5 times this time. With a small inertia, it is the
+/// thesis's 10 ms.
 TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
   for (const double load_kg_m2 : {0.0, 1e-4, 1e-3, 1e-2}) {
     const DriveDesign d = designed({.mode = Mode::speed, .load_inertia_kg_m2 = load_kg_m2});
@@ -357,8 +361,9 @@ TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
       << "what somebody asks for stays";
 }
 
-/// 1.2 times the lowest speed must be below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi). I is half the current of
-/// the torque limit, or half the nominal current, plus the current of friction.
+/// 1.2 times the lowest speed must be below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi) (symbols of model.md). The
+/// current I is half the current at the torque limit or half the nominal current, plus the current of
+/// friction.
 TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;

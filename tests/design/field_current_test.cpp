@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current loops of the field-oriented drive are compared with the closed form for their plant.
+// The current loops of the field-oriented drive are compared with a closed form for the same plant.
 #include "sixstep/design/loops/field_current.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ using namespace sixstep::design;
 
 constexpr double R = 0.515, L_H = 0.286e-3, T = 50e-6;
 
-/// The errors of a step, with i[n+1] = -a0 i[n] + b0 v[n - delay] and the PI of the chip; e[0] = 1.
+/// The errors of a step with the plant i[n+1] = -a0 i[n] + b0 v[n - delay] and the PI of the chip. The first
+/// error is e[0] = 1.
 std::vector<double> errors_of_step(const FieldAxis& axis, int delay_periods, std::size_t samples) {
   const ZohPlant plant = current_plant(R, L_H, T);
   control::PiConfig<double> config{axis.gains.d1, axis.gains.d0, 1e9};
@@ -42,8 +43,8 @@ TEST(FieldAxis, WithoutDelayTheErrorFallsByThePoleClaimed) {
   }
 }
 
-/// The recurrence e[n+1] = e[n] - k e[n-1] has the roots z and 1 - z. The start values e = 1, 1 determine
-/// their weights.
+/// The recurrence e[n+1] = e[n] - k e[n-1] has the roots z and 1 - z. The start values e = 1, 1 determine the
+/// weights of the two roots.
 TEST(FieldAxis, WithADelayTheErrorIsThatOfBothPolesClaimed) {
   for (const double bandwidth : {500.0, 6283.0, 0.6 / T}) {
     const auto axis = field_axis(R, L_H, {bandwidth, T, 1});
@@ -88,7 +89,7 @@ TEST(FieldMachine, HasTheFundamentalOfItsBackEmfAndTheAxesOfItsSheet) {
   EXPECT_DOUBLE_EQ(salient.L_d_H, 0.24e-3);
   EXPECT_DOUBLE_EQ(salient.L_q_H, 0.34e-3);
   motor.machine.back_emf = plant::BackEmf::trapezoid;
-  // The fundamental of a trapezoid with 120 degrees flat is (4/pi) sin(30)/(30 degrees).
+  // The fundamental of a trapezoid with a flat top of 120 degrees is (4/pi) sin(30 degrees)/(pi/6).
   const double fundamental = 4 / std::numbers::pi * 0.5 / (std::numbers::pi / 6);
   EXPECT_NEAR(field_machine(motor, Sheet{}).magnet_V_s, 0.01675 * fundamental, 1e-15);
 }
@@ -99,8 +100,8 @@ TEST(FieldMachine, TorquePerAmpereIsTheOptimumOfItsTorque) {
   sheet.q_axis_inductance_mH = base::Quantity{0.34, "", ""};
   const FieldMachine m = field_machine(sine_motor(), sheet);
   const control::TorquePerAmpereConfig<double> config{torque_per_ampere_gain(m)};
-  // The flux linkage is psi = K_e/p. The torque's gradient along the circle is 0: psi i_d + (L_d - L_q)(i_d^2
-  // - i_q^2) = 0.
+  // With the flux linkage psi = K_e/p, the gradient of the torque along the circle of constant current is 0:
+  // psi i_d + (L_d - L_q)(i_d^2 - i_q^2) = 0.
   const double psi = 0.01675 / 8, i_q = 12.0, i_d = least_current_d(config, i_q);
   EXPECT_LT(i_d, -1.0);
   EXPECT_NEAR(psi * i_d - 0.1e-3 * (i_d * i_d - i_q * i_q), 0.0, 1e-15);

@@ -35,7 +35,7 @@ double number(const control::FixedGain<std::int32_t>& g) {
   return std::ldexp(static_cast<double>(g.mantissa), -g.right);
 }
 
-/// A loop of type 2 lags an acceleration a by a/K_a.
+/// A loop of type 2 lags behind an acceleration a by a/K_a (acceleration constant K_a).
 TEST(FieldEstimate, FullTorqueLeavesTheAngleFiveDegreesBehind) {
   for (const double I : {2.0, 4.0, 6.0}) {
     FieldEstimateSpec s = spec(true, false);
@@ -58,7 +58,7 @@ TEST(FieldEstimate, TheTrackingLoopStaysBetweenAHundredthAndATwentiethOfTheContr
 }
 
 /// The pulse uses at most a quarter of the voltage circle and a fifth of the current. The current of the
-/// polarity test does not change the sign of the saliency.
+/// polarity test is so small that saturation does not change the sign of the saliency.
 TEST(FieldEstimate, ThePulseIsNoLargerThanWhatIsThere) {
   for (const double I : {0.5, 4.0, 30.0})
     for (const bool along : {false, true}) {
@@ -89,15 +89,16 @@ TEST(FieldEstimate, TheFluxIsFollowedWhereTheBackEmfIsATenthOfTheCircle) {
   EXPECT_NEAR(c.low_rad_s, c.high_rad_s / 2, 1e-12);
   EXPECT_NEAR(c.flux.pull, 1 - std::exp(-4 * c.high_rad_s * T), 1e-12);
   EXPECT_NEAR(c.flux.magnet_Vs, 0.01675 / 8, 1e-15);
-  // The start accelerates with an eighth of the acceleration at full current, and ends at the upper speed.
+  // The start accelerates the field with an eighth of the acceleration at full current, and ends at the upper
+  // speed.
   const double unit = 8 * T / (2 * std::numbers::pi) * std::ldexp(1.0, 48);
   EXPECT_NEAR(static_cast<double>(c.start.step), 0.125 * 1.5 * 0.01675 * 4 / 135e-7 * T * unit, 1.0);
   EXPECT_NEAR(static_cast<double>(c.start.enough), c.high_rad_s * unit, 1.0);
 }
 
-/// A rotor that follows a field axis: a pendulum without damping. The axis accelerates by x of the largest
-/// torque, against a friction of y of the largest torque. Returns whether the rotor still follows after 20
-/// turns of the axis. Angles are in units of the pendulum's time.
+/// A rotor follows the rotating axis of a field like a pendulum without damping. The axis accelerates with
+/// the fraction x of the largest torque, against a friction of the fraction y. Returns whether the rotor
+/// still follows after 20 turns of the axis. Time is in units of the pendulum's time.
 bool is_taken_along(double x, double y, double before) {
   double behind = -before, axis = 0.0, rotor = 0.0;  // speeds
   constexpr double dt = 1e-3;
@@ -111,7 +112,8 @@ bool is_taken_along(double x, double y, double before) {
   return true;
 }
 
-/// The stated load is below the limit of the equal-area criterion, above which a rotor loses synchronism.
+/// The stated load is below the limit of the equal-area criterion. Above this limit, a rotor loses
+/// synchronism.
 TEST(FieldEstimate, TheGreatestLoadThatItStartsAgainstIsToldWithRoomToSpare) {
   const auto out = field_estimate(salient, 0, spec(false, true));
   ASSERT_TRUE(out);

@@ -14,7 +14,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::control;
 
-/// Sets each visited member to zero.
+/// Sets each visited member to 0.
 struct Clear {
   static constexpr bool when_run(bool) { return true; }
   static constexpr bool when_on(bool) { return true; }
@@ -42,7 +42,7 @@ void fill(Config& config) {
   std::memset(static_cast<void*>(&config), 0xff, sizeof config);
   __builtin_clear_padding(&config);
 }
-/// Fills each member separately: after an array of structs, GCC 12 clears a region of the array's length at a
+/// Fills each member separately. After an array of structs, GCC 12 clears a region of the array's length at a
 /// wrong address.
 template <class Scalar>
 void fill(FieldDriveConfig<Scalar>& config) {
@@ -92,7 +92,8 @@ TEST(Fields, AreEveryMemberOfAConfiguration) {
 
 #endif
 
-/// Values of loops that the mode does not use are unchanged. The flags of the extras have no effect.
+/// All members are converted, including the values of loops that the mode does not use, and of extras that
+/// are off.
 TEST(Fields, AsFloatTakesThemAll) {
   DriveConfig<double> d;
   d.mode = Mode::speed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The model for the selection of the legs' states is compared with closed forms.
+// The model that selects the states of the legs is compared with closed forms.
 #include "sixstep/design/loops/finite_set.hpp"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,8 @@ TEST(Cancellation, LeavesOnePoleWhereItIsWanted) {
     ASSERT_TRUE(rule);
     const auto [a0, b0] = current_plant(R, L_H, period_s);
     const auto [d1, d0] = rule->gains;
-    // The polynomial is (z - 1)(z + a0) + b0 (d1 z + d0) = (z + a0)(z - exp(-w T)).
+    // The closed loop's polynomial is (z - 1)(z + a0) + b0 (d1 z + d0) = (z + a0)(z - exp(-w T)), with the
+    // bandwidth w and the period T.
     const double pole = std::exp(-w * period_s);
     EXPECT_NEAR(b0 * d1 + a0 - 1.0, a0 - pole, 8 * eps);
     EXPECT_NEAR(b0 * d0 - a0, -a0 * pole, 8 * eps);
@@ -33,7 +34,7 @@ TEST(Cancellation, IsTheFirmwaresRuleForShortPeriods) {
     const auto rule = cancel_pole(R, L_H, w, T);
     ASSERT_TRUE(rule);
     const double K_i = rule->gains.d1 + rule->gains.d0;
-    // The next terms of the series are w T/2 and R T/(2 L), here at most 1e-3 and 9e-4.
+    // The next terms of the series are w T/2 and R T/(2 L). In this test, they are at most 1e-3 and 9e-4.
     EXPECT_NEAR(rule->gains.d1 / (L_H * w), 1.0, (w + R / L_H) * T);
     EXPECT_NEAR(K_i / (R * w * T), 1.0, (w + R / L_H) * T);
   }
@@ -42,7 +43,8 @@ TEST(Cancellation, IsTheFirmwaresRuleForShortPeriods) {
 TEST(SymmetricalOptimum, HasItsKnownPhaseMargin) {
   EXPECT_NEAR(symmetrical_optimum_phase_rad(2.0) * 180.0 / 3.14159265358979, 36.8698976458440, 1e-12);
   EXPECT_NEAR(symmetrical_optimum_phase_rad(1.0 + std::sqrt(2.0)), 3.14159265358979 / 4, 1e-14);
-  // The plant that the rule assumes: an integrator with one lag, sampled so fast that the hold is negligible.
+  // The plant that the rule assumes is an integrator with one lag. The sampling is so fast that the effect of
+  // the hold is negligible.
   const double J = 1.35e-5, T_max = 0.78, lag = 1e-4, T = lag / 1000;
   for (const double a : {1.5, 2.0, 2.8, 5.0}) {
     const auto rule = symmetrical_optimum(J, T_max, lag, a, T);
@@ -55,7 +57,8 @@ TEST(SymmetricalOptimum, HasItsKnownPhaseMargin) {
         series({{rule->gains.d1 + rule->gains.d0, rule->gains.d1}, {0.0, 1.0}}, sampled(plant, 1, T));
     const LoopFigures f = loop_figures(loop, T);
     ASSERT_TRUE(f.stable && f.phase_rad);
-    // Hold and Euler integration change the phase by at most w_c T/2 each: w_c T = 1e-3/a.
+    // The hold and the Euler integration each change the phase by at most w_c T/2. With the crossover w_c,
+    // w_c T is 1e-3/a.
     EXPECT_NEAR(*f.phase_rad, symmetrical_optimum_phase_rad(a), 1e-3 / a);
     EXPECT_NEAR(*f.crossover_rad_s * a * lag, 1.0, 1e-3);
   }
@@ -66,7 +69,7 @@ TEST(SymmetricalOptimum, TheLagOfALoopIsItsRampError) {
   const PiGains gains = place_poles(plant, 1e-3, 0.9, period_s)->gains;
   const Transfer whole =
       closed(series({{gains.d1 + gains.d0, gains.d1}, {0.0, 1.0}}, {{plant.b0}, {1.0 + plant.a0, 1.0}}));
-  // The sum of (1 - step response) is the delay for a ramp, in periods.
+  // The lag behind a ramp, in periods, is the sum of (1 - step response).
   const StepResponse r = step_response(whole, period_s, 0.02);
   double lag = 0.0;
   for (const double y : r.samples) lag += (1.0 - y) * period_s;

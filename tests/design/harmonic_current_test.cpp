@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive's shape vector is compared with closed forms for a trapezoid, harmonics, a table and a delta.
+// The drive's shape vector is compared with closed forms for a trapezoid, for harmonics, for a table and for
+// a delta connection.
 #include "sixstep/design/loops/harmonic_current.hpp"
 
 #include <gtest/gtest.h>
@@ -24,9 +25,9 @@ general::Machine machine_of(general::Shape shape, double K_e = 0.02) {
           .shape = std::move(shape)};
 }
 
-/// The trapezoid's shape vector moves along a hexagon. In the middle of a sector it is along q with the
-/// length of the inradius, 2/sqrt 3. At the sector's end it is at a corner, 4/3. At d rad from the middle, it
-/// has moved by 4/pi d along the side.
+/// The end of the trapezoid's shape vector moves along a hexagon. In the middle of a sector, the vector is
+/// along q, with the length of the inscribed circle's radius, 2/sqrt 3. At the end of the sector, it points
+/// to a corner, with the length 4/3. At d rad from the middle, its end has moved by 4/pi d along the side.
 TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   const double f1 = 4 / pi * 0.5 / (pi / 6);
   const auto c = harmonic_shape(machine_of({.flat_deg = 120}), 0.02 * f1);
@@ -35,7 +36,7 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   for (int n = 0; n < control::shape_points; ++n) {
     const double d = n <= 16 ? n * pi / 96 : (n - 32) * pi / 96;
     const double inradius = 2 / std::numbers::sqrt3, along = 4 / pi * d;
-    // The q axis has turned by d, so the part along the side is d behind it.
+    // The q axis has turned by d, so the part along the side points d behind the d axis.
     EXPECT_NEAR(c.shape[n].q * f1, inradius * std::cos(d) + along * std::sin(d), 1e-12) << n;
     EXPECT_NEAR(c.shape[n].d * f1, inradius * std::sin(d) - along * std::cos(d), 1e-12) << n;
   }
@@ -44,9 +45,9 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   EXPECT_NEAR(f.copper, f1 * f1 * std::numbers::sqrt3 * pi / 8, 2e-4);
 }
 
-/// The fundamental cos(theta - 60) gives the constant vector (0, 1). In the magnet's frame, a fifth harmonic
-/// of amplitude c rotates backwards, six times per turn, a seventh harmonic forwards, six times per turn. A
-/// third harmonic vanishes.
+/// The fundamental cos(theta - 60 degrees) gives the constant vector (0, 1). In the magnet's frame, a fifth
+/// harmonic of amplitude c rotates six times per turn, backwards. A seventh harmonic rotates six times per
+/// turn, forwards. A third harmonic has no effect.
 TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   const auto sine = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {3, 0.3}}}), 0.02);
   EXPECT_TRUE(is_sine(sine));
@@ -57,7 +58,7 @@ TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   const auto both = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {5, 0.1}, {7, 0.04}}}), 0.02);
   EXPECT_FALSE(is_sine(both));
   for (int n = 0; n < control::shape_points; ++n) {
-    // Phase a has the cosine of the angle a quarter turn before the magnet.
+    // The shape of phase a is a cosine of the angle, which is a quarter turn ahead of the magnet.
     const double x = n * pi / 96 + pi / 2, magnet = x - pi / 2;
     const double alpha = std::cos(x) + 0.1 * std::cos(5 * x) + 0.04 * std::cos(7 * x);
     const double beta = std::sin(x) - 0.1 * std::sin(5 * x) + 0.04 * std::sin(7 * x);
@@ -66,8 +67,8 @@ TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   }
 }
 
-/// A table with the corners of the trapezoid gives the trapezoid's vector. Phases that deviate from the
-/// trapezoid to both sides give the vector of their mean.
+/// A table with the corners of the trapezoid gives the trapezoid's vector. If two phases deviate from the
+/// trapezoid in opposite directions, the vector is the vector of their mean.
 TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   const auto trapezoid = harmonic_shape(machine_of({.flat_deg = 120}), 0.02);
   const auto table =
@@ -83,8 +84,8 @@ TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   }
 }
 
-/// Sine voltages in the three branches of a delta give the vector of the equivalent star, whose voltages are
-/// smaller by sqrt 3.
+/// Sine voltages in the three branches of a delta give the vector of the equivalent star. The voltages of the
+/// star are smaller by the factor sqrt 3.
 TEST(HarmonicShape, OfADeltaIsThatOfItsStar) {
   general::Machine m = machine_of({.harmonics = {{1, 1.0}}});
   m.winding = general::Winding::delta;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures found by a scan are compared with the closed form of margins.hpp, with numerical search by the
-// definitions, and with the meaning of a margin: when the margin is used up, the closed loop is at the
-// stability limit.
+// The figures are found by a scan. They are compared with the closed form of margins.hpp, with a numerical
+// search by the definitions, and with the meaning of a margin. When the margin is used up, the closed loop is
+// at the limit of stability.
 #include "sixstep/design/loops/loop_figures.hpp"
 
 #include <gtest/gtest.h>
@@ -46,8 +46,8 @@ TEST(LoopFigures, AreThoseOfTheClosedForm) {
       const auto exact = margins(plant, gains, period_s, periods == 1);
       const LoopFigures f = loop_figures(open_loop(plant, gains, periods), period_s);
       ASSERT_TRUE(exact && f.crossover_rad_s && f.phase_rad);
-      // If the loop is slow compared with the sampling, |L| is flat in w T. The tolerance is the rounding of
-      // |L|, divided by its slope.
+      // If the loop is slow compared with the sampling, |L| changes little with w T. The tolerance is the
+      // rounding of |L| divided by the slope of |L|.
       EXPECT_NEAR(*f.crossover_rad_s / exact->crossover_rad_s, 1.0, 1e-9);
       EXPECT_NEAR(*f.phase_rad, exact->phase_rad, 1e-9);
       EXPECT_NEAR(*f.delay_s, std::max(0.0, exact->delay_s), 1e-9 * std::fabs(exact->delay_s));
@@ -71,7 +71,8 @@ TEST(LoopFigures, BandwidthAndSensitivityByBruteForce) {
       peak = std::max(peak, std::abs(1.0 / (1.0 + L)));
       if (bandwidth == 0.0 && std::abs(L / (1.0 + L)) < std::numbers::sqrt2 / 2) bandwidth = turn / period_s;
     }
-    // A peak is flat: the square of an error of half a grid step, 0.15 % of its frequency, enters.
+    // Near its peak, the curve is flat. Half a grid step, 0.15 % of the peak's frequency, therefore causes
+    // only an error of second order.
     EXPECT_NEAR(f.sensitivity_peak / peak, 1.0, 1e-4);
     ASSERT_TRUE(f.bandwidth_rad_s);
     EXPECT_NEAR(*f.bandwidth_rad_s, bandwidth, std::numbers::pi / points / period_s);
@@ -112,7 +113,7 @@ TEST(StepResponses, AreTheControllersOwnRecursion) {
     ASSERT_NEAR(r.samples[k], i, 1e-12) << k;
     i = -current.a0 * i + current.b0 * sixstep::control::pi_step(pi, state, 1.0 - i);
   }
-  // According to model.md 13, the exact design settles in about 0.99 ms.
+  // According to model.md 13, the design by exact poles settles in about 0.99 ms.
   EXPECT_NEAR(r.settling_s, 0.99e-3, period_s);
   EXPECT_GT(r.overshoot, 0.0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Margins are compared with their definitions: |L| = 1 at the crossover, a closed-loop pole on the unit
+// Margins are compared with three definitions: |L| = 1 at the crossover, a closed-loop pole on the unit
 // circle when the margin is used up, and a numerical Nyquist scan.
 #include "sixstep/design/loops/margins.hpp"
 

@@ -30,13 +30,14 @@ TEST(Ripple, IsTheSteadyStateOfTwoExponentials) {
   for (const double d : {0.01, 0.215, 0.5, 0.9}) {
     for (const double e : {0.0, 3.0}) {  // the EMF cancels
       const double on = std::exp(-R * d * T / L), off = std::exp(-R * (1 - d) * T / L);
-      // The current tends to (U - e)/R while on and to -e/R while off: lowest = off highest - (1 - off) e/R.
+      // While the voltage is on, the current approaches (U - e)/R; while it is off, -e/R. Therefore lowest =
+      // off highest - (1 - off) e/R.
       const double highest = ((1 - on) * (24 - e) / R - on * (1 - off) * e / R) / (1 - on * off);
       const double lowest = off * highest - (1 - off) * e / R;
       EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, d), highest - lowest, 1e-12);
     }
   }
-  // According to model.md 13, the ripple is 0.21 A at 5 A, with d = 5 R/24 and the rotor locked.
+  // According to model.md 13, the ripple is 0.21 A at 5 A. The duty is d = 5 R/24, and the rotor is locked.
   EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, 5 * R / 24), 0.21, 0.005);
 }
 
@@ -51,15 +52,16 @@ TEST(Ripple, IsWorstAtHalfDutyAndTwiceAsLargeInHardChopping) {
   EXPECT_TRUE(std::isinf(period_for_ripple_s(m, 24.0, control::Chopping::soft, 24.0)));
 }
 
-/// A leg's terminal voltage, divided by the bus voltage. With both switches off a diode conducts: the lower
-/// diode of the source leg, or the upper diode of the sink leg.
+/// A leg's terminal voltage, divided by the bus voltage. If both switches are off, a diode conducts: the
+/// lower diode in the source leg, the upper diode in the sink leg.
 double terminal(control::LegSide side, bool source) {
   if (side == control::LegSide::high) return 1.0;
   if (side == control::LegSide::low) return 0.0;
   return source ? 0.0 : 1.0;
 }
 
-/// Mean of the pair's voltage over a period while current flows, from the timer's control of its legs.
+/// Mean of the pair's voltage over a period while a current flows. It is computed from the timer's states of
+/// the two legs.
 double mean_voltage(control::Chopping chopping, control::ChoppedSwitch chopped, double duty) {
   const auto mean = [&](const control::LegCommand<double>& leg, bool source) {
     const control::LegSides sides = control::sides_of(leg);
@@ -89,9 +91,9 @@ TEST(Headroom, EndsWhereTheBusIsUsedUp) {
   EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
 }
 
-/// At the limit, the whole bus voltage just keeps the staying phase's current constant. The star's equations
-/// with the plant's shapes are L di/dt = v_k - e_k - R i_k - v_star. The leaving leg is at the rail of the
-/// staying leg.
+/// At the limit, the whole bus voltage just keeps the staying phase's current constant. The equations of the
+/// star, with the plant's shapes, are L di/dt = v_k - e_k - R i_k - v_star (symbols of model.md). The leaving
+/// leg is at the same rail as the staying leg.
 TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
   const auto rate = [](const MotorModel& m, double bus_V, double i, double w) {
     const plant::Machine& x = m.machine;

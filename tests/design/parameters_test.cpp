@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data sheet to model: the reference motor's numbers to the bit, the sector means of the shapes, and refused
-// sheets.
+// A data sheet is converted to a model. The tests check the bits of the reference motor's values, the sector
+// means of the shapes, and sheets that are refused.
 #include "sixstep/design/sheet/parameters.hpp"
 
 #include <gtest/gtest.h>
@@ -79,8 +79,9 @@ TEST(MotorModel, PhaseFrameIsTakenAsItIs) {
 }
 
 TEST(MotorModel, TorquePerAmpereIsTheSectorMeanOfTheShape) {
-  // A check with the shape itself: the midpoint rule over the first sector, with the pair a, b. It is exact
-  // for piecewise linear shapes whose ramps end on the grid, and has an error of h^2/24 f'' for other shapes.
+  // An independent check by the shape itself: the midpoint rule over the first sector, with the pair a, b.
+  // The rule is exact if the shape is piecewise linear and its ramps end on the grid. For other shapes, its
+  // error is h^2/24 f'' (step h, second derivative f'').
   for (const double flat : {10.0, 60.0, 90.0, 119.0, 120.0, 121.0, 150.0, 179.0}) {
     Sheet s = maxon();
     s.flat_deg = flat;
@@ -140,7 +141,7 @@ TEST(MotorModel, BothConstantsMustBeOneFact) {
       "back_emf_mV_s = 16.76 contradicts torque_constant_mNm_A, which means 16.75; keep one of the two\n");
 }
 
-/// The values are in SI units under keys in mH and gcm2. A run of such a motor would not end.
+/// The values are in SI units, but under keys in mH and gcm2. A run of such a motor would not end.
 TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   Sheet henry = maxon();
   henry.inductance_mH->value = 0.572e-3;

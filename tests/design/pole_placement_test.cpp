@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's numbers (model.md 13), and their defining property: the roots of the closed loop's polynomial
-// are the required poles.
+// Tests the numbers of the thesis (model.md 13), and the definition: the roots of the closed loop's
+// polynomial are the required poles.
 #include "sixstep/design/loops/pole_placement.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr double period_s = 30e-6;
 const ZohPlant current = current_plant(1.03, 0.572e-3, period_s);
 const ZohPlant speed = speed_plant(0.78, 1.35e-5, 7.3e-6, period_s);
 
-/// The value is equal to the printed value, within half a unit of the last printed digit.
+/// Expects that the value is equal to the printed value, within half a unit of the last printed digit.
 void expect_printed(double got, double printed, int decimals) {
   EXPECT_NEAR(got, printed, 0.5001 * std::pow(10.0, -decimals));
 }
@@ -50,7 +50,7 @@ TEST(PolePlacement, SpeedLoopOfTheThesis) {
 
 TEST(PolePlacement, ThesisNumbersToSixteenDigits) {
   // The expected values were computed with 200 bits. Each gain is a difference of numbers near 2, divided by
-  // b0: the bound is a few roundings of these numbers.
+  // b0. The tolerance is a few roundings of these numbers.
   const auto c = place_poles(current, 1e-3, 0.9, period_s), s = place_poles(speed, 10e-3, 0.9, period_s);
   ASSERT_TRUE(c && s);
   EXPECT_NEAR(c->w0_rad_s, 5111.1111111111111, 8 * eps * 5111);
@@ -67,7 +67,7 @@ TEST(PolePlacement, TheClosedLoopsPolynomialHasTheWantedRoots) {
       for (const ZohPlant& plant : {current, speed, speed_plant(0.78, 1.35e-5, 0.0, period_s)}) {
         const auto p = place_poles(plant, settle_s, damping, period_s);
         ASSERT_TRUE(p);
-        // An independent check: the pole in long double, inserted into (z - 1)(z + a0) + b0 (d1 z + d0).
+        // An independent check in long double: the pole z is inserted into (z - 1)(z + a0) + b0 (d1 z + d0).
         const Wide w0 = 4.6L / (Wide(damping) * settle_s);
         const std::complex<Wide> s{-damping * w0, w0 * std::sqrt(1.0L - Wide(damping) * damping)};
         const std::complex<Wide> z = std::exp(s * Wide(period_s));
@@ -82,14 +82,14 @@ TEST(PolePlacement, TheClosedLoopsPolynomialHasTheWantedRoots) {
 }
 
 TEST(ZohPlants, AreTheStepResponsesAfterOnePeriod) {
-  // The relation also holds for a pole so slow that 1 - exp(-x) would cancel.
+  // The relation also holds if the pole is so slow that 1 - exp(-x) would lose its digits.
   for (double x = 1e-12; x < 40.0; x *= 1.7) {
     const ZohPlant p = current_plant(2.0, 2.0 * period_s / x, period_s);
     const Wide b0 = -std::expm1(-Wide(x)) / 2.0L;
     EXPECT_NEAR(p.b0 / static_cast<double>(b0), 1.0, 8 * eps) << x;
     EXPECT_NEAR(p.a0, static_cast<double>(-std::exp(-Wide(x))), 4 * eps) << x;
   }
-  // With vanishing friction, the plant is a pure integrator.
+  // If the friction is nearly 0, the plant is a pure integrator.
   EXPECT_EQ(speed_plant(0.78, 1.35e-5, 0.0, period_s).a0, -1.0);
   EXPECT_NEAR(speed_plant(0.78, 1.35e-5, 1e-20, period_s).b0, speed_plant(0.78, 1.35e-5, 0.0, period_s).b0,
               8 * eps);

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::control;
 
-/// The product drive of docs/reference/fixed-point.md, in double.
+/// The product drive of docs/reference/fixed-point.md, in double precision.
 ProtectedConfig<double> product() {
   ProtectedConfig<double> c;
   c.drive.mode = Mode::speed;
@@ -48,7 +48,7 @@ TYPED_TEST(ProductScaling, CountsAndEdgesReadTheSameAsInDouble) {
     const auto n = static_cast<std::uint16_t>(counts);
     const double i = adc_value(exact.current_adc[0], AdcState{}, n),
                  u = adc_value(exact.bus_adc, AdcState{}, n);
-    // The tolerance is the relative rounding of the gain times the value, plus half a digit.
+    // The tolerance is the value times the relative rounding of the gain, plus half a digit.
     EXPECT_NEAR(static_cast<double>(adc_value(c.current_adc[0], AdcState{}, n)) * b.current_A, i,
                 gains * std::fabs(i) + digit / 2 * b.current_A * 1.0001);
     EXPECT_NEAR(static_cast<double>(adc_value(c.bus_adc, AdcState{}, n)) * b.voltage_V, u,

@@ -14,7 +14,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using sixstep::testing::maxon;
 
-/// The 251601 at 24 V, with an assumed salient rotor and saturated iron; 5 mA per count.
+/// The 251601 motor at 24 V. The test assumes a salient rotor and saturated iron, and a converter with 5 mA
+/// per count.
 constexpr design::PulseSpec salient{.bus_V = 24,
                                     .period_s = 30e-6,
                                     .L_d_H = 0.24e-3,
@@ -27,7 +28,8 @@ constexpr double L_S = 0.29e-3;
 
 double current_A(double t_s, double L_H) { return 24 / 1.03 * (1 - std::exp(-1.03 * t_s / (2 * L_H))); }
 
-/// Ratio of polarity signal to noise for a pulse of this number of periods, with converters without noise.
+/// Ratio of polarity signal to noise for a pulse of `periods` periods. The only noise is the rounding of the
+/// converter.
 double north(double periods, double lsb_A) {
   const double t = periods * 30e-6, I = current_A(t, L_S), x = 1.03 * t / (2 * L_S),
                k = x / (std::exp(x) - 1);
@@ -51,7 +53,7 @@ TEST(PulseStartDesign, FollowsItsClosedForms) {
   EXPECT_NEAR(start->current_A, current_A(45e-6, L_S), 1e-12);
   const double least = 0.24e-3 * (1 - 2 / std::sqrt(3.0) * 3.495 / 80);
   EXPECT_NEAR(start->greatest_A, current_A(45e-6, least), 1e-12);
-  // The greatest current satisfies i L(x, i) = psi. No angle gives a greater current.
+  // The greatest current i satisfies i L(x, i) = psi. No rotor angle gives a greater current.
   double i = 0;
   for (int n = 0; n < 100; ++n) i = current_A(45e-6, 0.24e-3 * (1 - 2 / std::sqrt(3.0) * i / 80));
   EXPECT_LT(i, start->greatest_A);
@@ -61,8 +63,8 @@ TEST(PulseStartDesign, FollowsItsClosedForms) {
   EXPECT_NEAR(start->lasts_s, (64 + 8 * 6 * (p.pulse_ticks + p.rest_ticks)) * 30e-6, 1e-12);
 }
 
-/// The rotation is proportional to torque constant, current, time squared and 1/inertia. Without saliency and
-/// saturation, only the first part remains.
+/// The rotation is proportional to the torque constant, the current, the square of the time, and 1/inertia.
+/// Without saliency and saturation, only the first part of the rotation is left.
 TEST(PulseStartDesign, BoundsWhatThePulsesTurn) {
   design::PulseSpec round = salient;
   round.L_d_H = round.L_q_H = L_S;
@@ -82,8 +84,8 @@ TEST(PulseStartDesign, BoundsWhatThePulsesTurn) {
   EXPECT_TRUE(!refused || refused->turned_deg <= 15.0) << "a quarter of a sector";
 }
 
-/// Without a saturation current, the necessary pulse is unknown. The design uses the longest pulse within its
-/// limits: a pulse longer by one period would exceed a limit.
+/// If the sheet states no saturation current, the necessary pulse is unknown. The design then uses the
+/// longest pulse within its limits: with one period more, the pulse would exceed a limit.
 TEST(PulseStartDesign, AsksAsLoudAsItMayWhereTheSheetIsSilent) {
   design::PulseSpec silent = salient;
   silent.saturation_A = 0;
@@ -96,7 +98,8 @@ TEST(PulseStartDesign, AsksAsLoudAsItMayWhereTheSheetIsSilent) {
   EXPECT_GT(current_A(t + 30e-6, 0.24e-3), 3.495);
 }
 
-/// A delayed command uses up a period. A noisy converter and a slow amplifier need longer pulses.
+/// A delayed command reduces the allowed pulse by one period. A noisy converter and a slow amplifier need
+/// longer pulses.
 TEST(PulseStartDesign, LengthensWithWhatTheBoardTakes) {
   const design::PulseStart plain = *design::pulse_start(maxon(), salient);
   design::PulseSpec s = salient;
@@ -133,15 +136,15 @@ TEST(PulseStartDesign, TellsEveryMistakeByItsKey) {
   EXPECT_EQ(where(with([](auto& s) { s.current_range_A = 0; }), maxon()), "current_range_A");
   EXPECT_EQ(where(with([](auto& s) { s.adc_bits = 4; }), maxon()), "adc_bits");
   EXPECT_EQ(where(with([](auto& s) { s.L_d_H = 0; }), maxon()), "motor");
-  // A single period already exceeds the start's current, the converter's range, the saturation model or the
-  // allowed rotation.
+  // In each case, a pulse of a single period already exceeds a limit: the start's current, the converter's
+  // range, the saturation model, or the allowed rotation.
   EXPECT_EQ(where(with([](auto& s) { s.most_A = 0.3; }), maxon()), "overload");
   EXPECT_EQ(where(with([](auto& s) { s.current_range_A = 0.3; }), maxon()), "current_range_A");
   EXPECT_EQ(where(with([](auto& s) { s.saturation_A = 0.5; }), maxon()), "period_s");
   design::MotorModel light = maxon();
   light.shaft.J_kg_m2 = 1e-8;
   EXPECT_EQ(where(salient, light), "period_s");
-  // The step of the converter is too coarse for any allowed current.
+  // The step of the converter is too coarse for every allowed current.
   EXPECT_EQ(where(with([](auto& s) { s.current_range_A = 2000; }), maxon()), "current_range_A");
   EXPECT_EQ(where(salient, maxon()), "");
 }

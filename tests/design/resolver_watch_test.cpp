@@ -11,8 +11,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-// The smallest c^2 + s^2 over the whole turn is twice the lower limit; the largest is four fifths of the
-// upper limit.
+// The smallest c^2 + s^2 over the whole turn is twice the lower limit. The largest c^2 + s^2 is four fifths
+// of the upper limit. (c, s: cosine and sine signal.)
 TEST(ResolverWatch, LimitsAreThoseOfTheWholeTurn) {
   for (const design::ResolverShows& x : {design::ResolverShows{},
                                          {.k_1 = 0.9, .k_2 = 1.3, .quadrature_rad = 0.0},
@@ -33,8 +33,8 @@ TEST(ResolverWatch, LimitsAreThoseOfTheWholeTurn) {
   }
 }
 
-// For equal windings, the upper limit is closer, at a distance of sqrt(5)/2 - 1. Results without common
-// samples exceed it more rarely than exp(-z^2/2)/2.
+// For equal windings, the upper limit is the closer one, at a distance of sqrt(5)/2 - 1. Independent results
+// exceed it with a probability below exp(-z^2/2)/2, where z is the distance in standard deviations.
 TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
   const double room = std::sqrt(5.0) / 2 - 1;
   int before = 1;
@@ -51,8 +51,8 @@ TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
       const double c = 1 + room / z * base::normal({1, 2, n}), s = room / z * base::normal({1, 3, n});
       beyond += c * c + s * s > limits.greatest_square;
     }
-    // The noise perpendicular to the radius adds twice its square to the squared amplitude. Half of this
-    // enters the amplitude.
+    // The noise perpendicular to the radius adds twice its square to the squared amplitude. The amplitude
+    // increases by half of this part.
     if (z >= 3) {
       EXPECT_LE(beyond, results * rare + 5 * std::sqrt(results * rare) + 5);
     }

@@ -14,9 +14,9 @@
 namespace sixstep::design {
 namespace SIXSTEP_TEST_FILE {
 
-/// The sensor by its definition: at each edge, one sector apart, it outputs the mean over the last k sectors
-/// and holds it until the next edge. The input is a speed of 1 + sin v t. Returns the output's component at
-/// v, over whole beats of both frequencies.
+/// The sensor by its definition: at each edge, it outputs the mean over the last k sectors, and keeps this
+/// output until the next edge. The edges are one sector apart. The input is a speed of 1 + sin v t. Returns
+/// the component of the output at the frequency v, over whole beats of both frequencies.
 std::complex<double> measured_response(int k, double sector_s, double v) {
   const int per_sector = 64, sectors = 6000;
   const double step = sector_s / per_sector;
@@ -41,7 +41,7 @@ TEST(SpeedLag, IsTheSensorsResponseWhereverInTheSectorATickFalls) {
       const double v = part * 2 * base::pi / T;
       const Complex H = lag.at(v);
       const std::complex<double> found = measured_response(k, T, v);
-      // Incomplete beats cause an error of 1/(number of sectors).
+      // The beats are not complete, which causes an error of 1/(number of sectors).
       EXPECT_NEAR(H.re, found.real(), 2e-3) << k << " " << part;
       EXPECT_NEAR(H.im, found.imag(), 2e-3) << k << " " << part;
     }
@@ -69,14 +69,14 @@ TEST(SpeedLag, OfAdaptiveEdgesIsNowhereLongerThanItSays) {
     EXPECT_LE(longest, said * (1 + 1e-9)) << low;
     EXPECT_GE(longest, said * 0.998) << low;
   }
-  // Six edges are used up to a phase of pi/8 at the crossover.
+  // Six edges are used up to a phase lag of pi/8 at the crossover.
   EXPECT_NEAR(3.5 / 6 * window * crossover, base::pi / 8, 1e-12);
   EXPECT_EQ(hall_window_s(0.0), 0.0);
 }
 
 TEST(SensedFigures, AreTheLoopsLessThePhaseOfTheDelay) {
-  // An integrator w_c/s, sampled at a thousand times its crossover: the phase margin is 90 degrees minus the
-  // effect of the hold.
+  // The loop is an integrator w_c/s, sampled at a thousand times its crossover w_c. The phase margin is 90
+  // degrees minus the effect of the hold.
   const double period = 1e-6, crossover = 1000.0;
   const Transfer loop{{crossover * period}, {0.0, 1.0}};
   const SpeedLag lag{0.3e-3, 0.1e-3};
@@ -84,9 +84,9 @@ TEST(SensedFigures, AreTheLoopsLessThePhaseOfTheDelay) {
   EXPECT_NEAR(*sensed.crossover_rad_s, crossover, 0.01 * crossover);
   EXPECT_NEAR(*bare.phase_rad - *sensed.phase_rad, *sensed.crossover_rad_s * 0.2e-3, 0.005);
   EXPECT_TRUE(sensed.stable);
-  // A hold over 2 D changes the phase by v D and reduces the gain by sinc(v D). The phase margin is used up
-  // at v D = pi/2 with |L H| = 1: v = w_c 2/pi and D = (pi/2)^2/w_c. Multiples of this D must not count as
-  // stable.
+  // A mean over 2 D changes the phase by v D at the frequency v and reduces the gain by sinc(v D). With this
+  // mean H, the phase margin is used up at v D = pi/2 with |L H| = 1. Then v = w_c 2/pi and D = (pi/2)^2/w_c.
+  // Multiples of this D must not count as stable either.
   const double D = base::pi / 2 * base::pi / 2 / crossover;
   for (const double times : {1.05, 6.0, 25.0})
     EXPECT_FALSE(sensed_figures({loop, {0.0, 2 * times * D}, {}}, period).stable) << times;
@@ -102,8 +102,8 @@ TEST(SensedFigures, OfALoopAroundASensedOneWithoutLagAreItsOwn) {
 }
 
 TEST(SensedStep, IsTheStepOfTheLoopWithItsDelayedMean) {
-  // An integrator with feedback of its mean over two samples, computed by hand: y' = g (1 - (y +
-  // y_before)/2).
+  // An integrator with the gain g, whose feedback is the mean of two samples, computed by hand: y' = g (1 -
+  // (y + y_before)/2).
   const double period = 1.0, g = 0.2;
   const StepResponse r = sensed_step({Transfer{{g}, {0.0, 1.0}}, {2 * period, 0.0}, {}}, period, 50.0);
   double y = 0.0, before = 0.0;

@@ -14,7 +14,7 @@ using namespace sixstep;
 using namespace sixstep::control;
 using design::OperatingRange;
 
-/// The thesis's cascade (chapter 6) on the maxon 251601.
+/// The cascade of the thesis (chapter 6) for the maxon 251601.
 DriveConfig<double> cascade(Mode mode) {
   DriveConfig<double> d;
   d.mode = mode;
@@ -46,8 +46,9 @@ TYPED_TEST_SUITE(Scaling, Formats);
 template <class S>
 constexpr double digit = static_cast<double>(S::from_raw(1));
 
-/// Inputs are at the ends of their ranges or anywhere between, for several ticks. A sum that saturates in
-/// contradiction to the proof would be wrong by a large part of full scale; rounding is not.
+/// The inputs are at the ends of their ranges or anywhere between, for several ticks. If a sum saturated
+/// although the proof excludes it, the result would be wrong by a large part of full scale. Rounding causes
+/// much smaller errors.
 TYPED_TEST(Scaling, CornersOfTheRangeFollowDoubleWithinTheirResolution) {
   using S = TypeParam;
   constexpr int seed = 251601;
@@ -59,8 +60,9 @@ TYPED_TEST(Scaling, CornersOfTheRangeFollowDoubleWithinTheirResolution) {
     const auto scaled = design::scaled<S>(d, r);
     ASSERT_TRUE(scaled) << base::to_string(scaled.problems()[0]);
     const design::Bases b = scaled->bases;
-    // The tolerances are one digit of each signal in SI units. A measured current, the half difference and
-    // the reference are rounded. A gain has a relative error of 2^(1-bits), times at most full scale.
+    // The tolerances are one digit of each signal, in SI units. The rounded values are a measured current,
+    // the half difference and the reference. A gain has a relative error of 2^(1-bits), multiplied by at most
+    // full scale.
     const double gains = std::ldexp(1.0, 1 - 8 * int{sizeof(S)});
     const double i = b.current_A * digit<S>, w = b.speed_rad_s * digit<S>, p = b.position_deg * digit<S>;
     const double u = b.voltage_V * digit<S>;
@@ -92,8 +94,8 @@ TYPED_TEST(Scaling, CornersOfTheRangeFollowDoubleWithinTheirResolution) {
         step(scaled->config, fixed, q, {S(setpoint / mode_base)}, s);
         double i_ref_off = i;
         if (mode != Mode::current) {
-          // The limits of pi_step() never increase a difference, so each tick adds the error of its
-          // increments.
+          // The limits of pi_step() never increase a difference between both calculations. Each tick
+          // therefore adds only the error of its increments.
           fraction_off += d.speed.d1 * 2 * w_off + K_i_w * w_off + gains * (d.speed.d1 + K_i_w) * jump_w;
           i_ref_off = d.current_at_full_torque_A * (fraction_off + 2 * digit<S> + gains) + i;
           ASSERT_NEAR(static_cast<double>(s.current_reference_A) * b.current_A, t.current_reference_A,
@@ -165,8 +167,8 @@ TYPED_TEST(Scaling, GainsThatTheFormatCannotHoldAreNamed) {
   EXPECT_TRUE(names(saturating.problems(), "current integral increment"));
 }
 
-/// The setpoint slews from full speed backwards. The largest error is twice the full speed, even for a small
-/// setpoint.
+/// The slewed setpoint starts at the measured speed, which may be full speed backwards. The largest error is
+/// therefore twice the full speed, even if the setpoint is small.
 TYPED_TEST(Scaling, ASlewedSetpointBeginsAtWhatIsMeasured) {
   DriveConfig<double> d = cascade(Mode::speed);
   OperatingRange r = range(Mode::speed);
@@ -184,8 +186,8 @@ TYPED_TEST(Scaling, ASlewedSetpointBeginsAtWhatIsMeasured) {
   EXPECT_EQ(error_of(), 1440.0);
 }
 
-/// The derivative and its integral are sums of 16 times the output. Their largest values are determined by
-/// the fastest change of the measured speed.
+/// The derivative and its integral are sums of 16 times the output. The fastest change of the measured speed
+/// determines their largest values.
 TYPED_TEST(Scaling, AnIntegralBehindASteepDerivativeIsProved) {
   DriveConfig<double> d = cascade(Mode::speed);
   OperatingRange r = range(Mode::speed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input of the sensorless designs that the tests compute by hand: the 251601 at 24 V.
+// Input of the sensorless designs that the tests compute by hand: the 251601 motor at 24 V.
 #pragma once
 #include "sixstep/design/loops/sensorless_start.hpp"
 

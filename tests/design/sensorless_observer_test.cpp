@@ -17,7 +17,7 @@ using control::Follow;
 using sixstep::testing::maxon;
 using sixstep::testing::spec;
 
-/// The lag is 1/5 of the shortest sector.
+/// The lag is a fifth of the shortest sector.
 const double lag_s = base::pi / 3 / 8 / (24 / 0.0335) / 5;
 
 TEST(SensorlessObserver, PlacesBothPolesOfLuenbergersWhereTheLagAsks) {
@@ -29,7 +29,7 @@ TEST(SensorlessObserver, PlacesBothPolesOfLuenbergersWhereTheLagAsks) {
   const auto& c = o->chip.luenberger;
   EXPECT_NEAR(c.decay, std::exp(-0.515 * 30e-6 / 0.286e-3), 1e-15);
   EXPECT_NEAR(c.drive, (1 - c.decay) / 0.515, 1e-15);
-  // The matrix of the error: current and back-EMF after a period.
+  // The matrix of the observer's error: error of the current and of the back-EMF after a period.
   const double m[2][2] = {{(1 - c.current) * c.decay, -(1 - c.current) * c.drive},
                           {c.emf * c.decay, 1 - c.emf * c.drive}};
   EXPECT_NEAR(m[0][0] + m[1][1], 2 * p, 1e-14) << "trace";

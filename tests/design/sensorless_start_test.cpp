@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values of a sensorless drive are compared with the closed forms of sensorless_start.hpp, computed by
-// hand.
+// The design values of a sensorless drive are compared with the closed forms of sensorless_start.hpp, which
+// are computed by hand.
 #include "sixstep/design/loops/sensorless_start.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,8 @@ TEST(SensorlessStart, FollowsItsClosedForms) {
   EXPECT_NEAR(c.start.align_ticks, 6 * swing_s * 16e6, 1);
   const double a = (0.0335 * 3.495 - 0.5 * 0.0335 * 2.33) / (2 * 1.35e-5);
   EXPECT_NEAR(c.start.acceleration, a * 8 / (base::pi / 3) * 9e-10 * 4294967296.0, 1);
-  // The current at the ramp's end, for acceleration and viscous drag, relative to the speed loop's 5.825 A.
+  // The current at the end of the ramp, for acceleration and viscous drag. It is relative to 5.825 A, the
+  // full output of the speed loop.
   EXPECT_DOUBLE_EQ(start->start_output, (1.35e-5 * a + 7.3e-6 * start->lowest_rad_s) / 0.0335 / 5.825);
   EXPECT_NEAR(c.start.trusted_ticks, base::pi / 3 / 8 / start->lowest_rad_s * 16e6, 1);
   EXPECT_NEAR(start->duty_per_period, 2.33 * 0.0335 * 0.0335 / (1.35e-5 * 24) * 30e-6, 1e-12);
@@ -37,7 +38,7 @@ TEST(SensorlessStart, FollowsItsClosedForms) {
   EXPECT_GT(c.speed.timeout_ticks, c.lock.longest_ticks) << "a time-out would end the history";
 }
 
-/// If a pulse begins late, the part before its middle, where the sample is taken, is shorter.
+/// The sample is in the middle of the pulse. If the pulse begins late, its part before the sample is shorter.
 TEST(SensorlessStart, APulseThatBeginsLateNeedsMoreDuty) {
   design::SensorlessSpec late = spec;
   late.pulse_late_s = 1e-6;
@@ -65,7 +66,8 @@ TEST(SensorlessStart, AFilterSetsLeadBlankingAndLeastDuty) {
   EXPECT_EQ(longer->rotor.crossing.margin_ticks, std::ceil(4 * tau * 16e6)) << "the longer of both";
 }
 
-/// At the lowest speed, the on-time is a fifth of the period; with hard chopping, it is three fifths.
+/// At the lowest speed, the on-time is a fifth of the period with soft chopping, and three fifths with hard
+/// chopping.
 TEST(SensorlessStart, RefusesAFilterThatTheLeastOnTimeIsTooShortFor) {
   for (const auto& [chopping, part] :
        {std::pair{control::Chopping::soft, 0.2}, {control::Chopping::hard, 0.6}}) {
@@ -122,8 +124,8 @@ TEST(SensorlessStart, TellsEveryMistakeByItsKey) {
   EXPECT_EQ(where(spec, maxon()), "");
 }
 
-/// The hand-over keeps the reserve of the start current: half of the torque that the load leaves accelerates,
-/// and dry friction is added.
+/// The hand-over uses the reserve of the start current as the ramp does: half of the torque that the load
+/// leaves accelerates the rotor. The torque of dry friction is added.
 TEST(SensorlessStart, HandsOverTheRampsTorqueAndItsDrag) {
   design::MotorModel rubbing = maxon();
   rubbing.shaft.coulomb_Nm = 0.01;
@@ -135,17 +137,17 @@ TEST(SensorlessStart, HandsOverTheRampsTorqueAndItsDrag) {
   const double A = (1.35e-5 * a + 0.01 + 7.3e-6 * start->lowest_rad_s) / 0.0335;
   EXPECT_DOUBLE_EQ(start->start_output, A / 5.825);
   EXPECT_LT(A, start->start_current_A);
-  // The drag alone needs more than the start current. The output is at most the start current, and at most
-  // the full output.
+  // The drag alone needs more than the start current. The output is limited to the start current and to full
+  // output.
   rubbing.shaft.coulomb_Nm = rubbing.shaft.static_Nm = 0.0;
   rubbing.shaft.B_Nm_s = 0.01;
   EXPECT_DOUBLE_EQ(design::sensorless_start(rubbing, spec, 5.825)->start_output, 3.495 / 5.825);
   EXPECT_EQ(design::sensorless_start(rubbing, spec, 1.0)->start_output, 1.0);
 }
 
-/// With the virtual star as reference, 5 tau may last half a sector at no load, 183 us. With half the bus as
-/// reference, 7 tau may last the least on-time, 1.5 us. The offset and half the hysteresis increase the
-/// lock's threshold and the lowest speed.
+/// With the virtual star point as reference, 5 tau may last half a sector at no load, 183 us. With half the
+/// bus voltage as reference, 7 tau may last the least on-time, 1.5 us (tau: time constant of the filter). The
+/// offset and half the hysteresis raise the lock's threshold and the lowest speed.
 TEST(SensorlessStart, ComparatorsSetLeadLockAndLowestSpeed) {
   const double sector_s = base::pi / 3 / 8 * 0.0335 / 24;
   const auto with = [](const design::ComparatorSpec& comparators) {

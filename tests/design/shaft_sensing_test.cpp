@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stated delays of the speed from an encoder and from a resolver are compared with the decoders on an
-// oscillating rotor.
+// The delays that the design states for the speed from an encoder and from a resolver are compared with the
+// decoders on an oscillating rotor.
 #include "sixstep/design/loops/shaft_sensing.hpp"
 
 #include <gtest/gtest.h>
@@ -21,14 +21,14 @@ namespace SIXSTEP_TEST_FILE {
 
 constexpr double T_s = 30e-6;
 
-/// A shaft that turns at w (1 + part sin v t).
+/// A shaft that turns with the speed w (1 + part sin v t).
 struct Swing {
   double w, part, v;
   double angle_rad(double t) const { return w * (t + part / v * (1 - std::cos(v * t))); }
 };
 
-/// The delay of a measured speed: the phase of its component at v, over whole oscillations after the first
-/// few.
+/// The delay of a measured speed. It is computed from the phase of the speed's component at v, over whole
+/// oscillations after the first few.
 double found_delay_s(const Swing& shaft, const std::function<double(double)>& told_at) {
   const int swings = 60, skipped = 10;
   const int per_swing = static_cast<int>(std::floor(2 * base::pi / shaft.v / T_s + 0.5));
@@ -40,10 +40,10 @@ double found_delay_s(const Swing& shaft, const std::function<double(double)>& to
   return -(std::arg(sum) + base::pi / 2) / shaft.v;
 }
 
-/// A frequency near v rad/s with whole control ticks per oscillation.
+/// A frequency near v, in rad/s, with a whole number of control ticks per oscillation.
 double v_near(double v) { return 2 * base::pi / (T_s * std::floor(2 * base::pi / v / T_s)); }
 
-// At a tick, the last edge is on average half a count old.
+// At a tick, the last edge is half a count old on average.
 TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
   for (const double w : {100.0, 5.0}) {  // 1024 lines: a count in 15 us, and in 307 us
     ShaftSensing sensing{.kind = ShaftSensorKind::encoder,
@@ -71,9 +71,9 @@ TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
       return control::pulse_speed(config, state, static_cast<std::uint32_t>(t * 1e8));
     });
     const ShaftSpeedAge age = speed_age(sensing, w);
-    // A tick uses a count that passed before it. If counts are longer than ticks, half a tick is added, which
-    // is the sampling of the loop itself. An oscillation by a fifth changes the duration of the counts by a
-    // fifth.
+    // A tick uses a count that was completed before the tick. If counts are longer than ticks, half a tick is
+    // added for the sampling of the loop itself. An oscillation by a fifth changes the duration of the counts
+    // by a fifth.
     EXPECT_NEAR(found, (age.mean_s + age.hold_s) / 2, 0.2 * age.mean_s + T_s / 2) << w;
     EXPECT_GT(age.mean_s, w > 50 ? 0.99 * T_s : 9 * T_s);
   }
@@ -92,7 +92,7 @@ TEST(AbsoluteSpeed, IsHalfItsWindowAndItsLatencyOld) {
     return control::gray_step(config, state, control::gray_of_binary(count)).speed;
   });
   const ShaftSpeedAge age = speed_age(sensing, 100);
-  // The steps of 2^-20 turn act as noise, a hundredth of the oscillation.
+  // The steps of 2^-20 turn act as noise with a hundredth of the oscillation's amplitude.
   EXPECT_NEAR(found, age.mean_s / 2 + age.late_s, 2e-6);
   EXPECT_NEAR(lowest_told_rad_s(sensing), 2 * base::pi / 0x1p20 / 240e-6, 1e-12);
 }
@@ -118,8 +118,8 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     control::tracking_follow(config, state, binary(2 * shaft.angle_rad(t) / (2 * base::pi)));
     return control::tracking_speed(state) * told_unit;
   });
-  // Sampling adds half a tick. At w_n/12, the phase of w_n^2/(...) is equal to that of its delay, to
-  // (1/12)^2.
+  // Sampling adds half a tick. At w_n/12, the phase of the loop's response is equal to the phase of its
+  // delay, with a relative error of (1/12)^2.
   EXPECT_NEAR(found, speed_age(sensing, 100).late_s, T_s + 0.01 * speed_age(sensing, 100).late_s);
 
   control::TrackingState noisy{};
@@ -131,13 +131,13 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     const double told = control::tracking_speed(noisy) * told_unit;
     if (n >= skipped) squares += told * told / (steps - skipped);
   }
-  // Sampling changes the loop's time scale by w_n T_s = 6 %. The variance of the noise is proportional to
-  // w_n^3, so its rms changes by 1.5 times 6 %. The random sample is accurate to 2 %.
+  // Sampling changes the time scale of the loop by w_n T_s = 6 %. The variance of the noise is proportional
+  // to w_n^3, so its rms changes by 1.5 times 6 %. The rms of the random sample is accurate to 2 %.
   EXPECT_NEAR(std::sqrt(squares) / speed_jitter_rad_s(sensing, 0), 1, 1.5 * loop->natural_rad_s * T_s + 0.02);
 }
 
-// The speed loop includes the delay of its sensor, to a degree at its crossover. The design names the sensor
-// and its effect.
+// The speed loop includes the delay of its sensor, within one degree at the crossover. The design names the
+// sensor and its effect.
 TEST(DriveDesign, KnowsWhatItsEncoderOrResolverCosts) {
   MotorModel motor;
   motor.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8};

@@ -27,9 +27,9 @@ TEST(ShapeFactors, OfASineAreThoseOfTheTableOfConstants) {
 }
 
 TEST(ShapeFactors, OfTheIdealTrapezoidHaveClosedForms) {
-  // The difference f_a - f_b is 2 for 60 of 180 degrees, and falls to 0 on both sides within 60 degrees: mean
-  // square (60 4 + 120 4/3)/180 = 20/9. For a phase: (120 + 60/3)/180 = 7/9. The fundamental is 24/pi^2 sin
-  // 30.
+  // The difference f_a - f_b is 2 for 60 of 180 degrees. On both sides it falls to 0 within 60 degrees. Its
+  // mean square is (60 4 + 120 4/3)/180 = 20/9. The mean square of a phase is (120 + 60/3)/180 = 7/9. The
+  // fundamental is 24/pi^2 sin(30 degrees).
   const ShapeFactors f = shape_factors(BackEmfShape::trapezoid, 120.0);
   EXPECT_EQ(f.sector_mean, 2.0);
   EXPECT_EQ(f.line_peak, 2.0);
@@ -39,9 +39,9 @@ TEST(ShapeFactors, OfTheIdealTrapezoidHaveClosedForms) {
 }
 
 TEST(ShapeFactors, OfEveryWidthAreThoseOfThePlantsShape) {
-  // The midpoint rule over one turn with n points: the error at a corner is at most (slope h)^2, h = 2 pi/n.
-  // The slope is below 1/(pi/360) for the widths here, so the error of 12 corners is below 12 (720/pi 2
-  // pi/n)^2/n.
+  // The midpoint rule over one turn has n points. Its error at a corner is at most (slope h)^2 with h = 2
+  // pi/n. For the widths in this test, the slope is below 1/(pi/360). The error of 12 corners is therefore
+  // below 12 (720/pi 2 pi/n)^2/n.
   constexpr int n = 360000;
   const double slope_h = 720.0 / base::pi * 2.0 * base::pi / n, bound = 12.0 * slope_h * slope_h;
   for (const double flat : {1.0, 30.0, 59.0, 60.0, 61.0, 100.0, 120.0, 140.0, 179.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A back-EMF as a table: its factors are compared with closed forms, other shapes and sums over the turn.
-// Invalid tables are refused.
+// A table states the back-EMF. Its factors are compared with closed forms, with other shapes and with sums
+// over the turn. Invalid tables are refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Points {
   std::vector<double> angle, value;
 };
 
-/// The corners of a trapezoid, its top centred at 60 degrees.
+/// The corners of a trapezoid whose top is centred at 60 degrees.
 Points corners(double flat_deg) {
   Points p;
   for (const auto& [angle, value] : {std::pair{60 - flat_deg / 2, 1.0},
@@ -52,7 +52,7 @@ Points sampled(int count, F&& f) {
 /// A shape whose half waves all differ.
 Points crooked() { return {{10, 80, 150, 200, 260, 330}, {0.5, 1.3, 0.2, -1.0, -0.4, -0.6}}; }
 
-/// Subtracts the mean: a winding's flux linkage is the same after a turn.
+/// Subtracts the mean, because the flux linkage of a winding is the same after a turn.
 Points closed(Points p) {
   double mean = 0;
   for (std::size_t n = 0; n < p.angle.size(); ++n) {
@@ -87,8 +87,8 @@ TEST(ShapeTable, OfTheTrapezoidsCornersHasTheTrapezoidsFactors) {
 }
 
 TEST(ShapeTable, OfManySamplesApproachesWhatWasSampled) {
-  // A chord differs from the curve by at most h^2/8 times the second derivative, which is at most 1 + 25 0.1.
-  // The factors are means over the curve.
+  // A chord differs from the curve by at most h^2/8 times the second derivative (step h). This derivative is
+  // at most 1 + 25 0.1. The factors are means over the curve.
   const int count = 720;
   const double h = 2 * base::pi / count, bound = 3.5 * h * h;
   const auto f = [](double x) {
@@ -111,7 +111,8 @@ TEST(ShapeTable, WithoutSymmetryHasTheMeansOfAllSectorsAsTheKernelDoes) {
   plant::general::Machine m{.K_e_V_s = {1, 1, 1}};
   for (std::size_t n = 0; n < p.angle.size(); ++n) m.shape.table.push_back({p.angle[n], p.value[n]});
   EXPECT_NEAR(f.sector_mean, plant::general::sector_mean(m), 1e-14);
-  // Midpoint sums over the turn: the error at a corner is at most the change of slope times the step squared.
+  // Midpoint sums over the turn. The error at a corner is at most the change of slope times the square of the
+  // step.
   constexpr int n = 36000;
   double mean = 0, cos = 0, sin = 0, square = 0;
   const int source[] = {0, 0, 1, 1, 2, 2}, sink[] = {1, 2, 2, 0, 0, 1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relations of a sheet: the values of the 251601 are consistent, every error is found, and rounded values
-// are accepted.
+// The relations between the values of a sheet. The sheet of the 251601 is consistent, every error is found,
+// and rounded values are accepted.
 #include "sixstep/design/sheet/sheet_check.hpp"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,8 @@ Relation relation(const SheetCheck& check, const std::string& name) {
   return {};
 }
 
-/// The tolerance of the torque, with friction subtracted, is equal to the effect of the rounding of I and
-/// I_0.
+/// The tolerance of the nominal torque, after friction is subtracted, is equal to the effect of the rounding
+/// of I and I_0.
 TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   const double K = 54.1, I = 2.05, I_0 = 0.092, I_half = 0.005, I_0_half = 0.5e-3, K_half = 0.05;
   Sheet s = printed_251601();
@@ -43,14 +43,14 @@ TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   s.no_load_current_mA = {1e3 * I_0, "", ""};
   s.nominal_torque_mNm = {108, "", ""};
   const Relation r = relation(checked(s), "nominal torque");
-  // The largest ratio is the printed K I, divided by the true K (I - I_0), with a printed torque that is half
-  // a digit below the true torque.
+  // The largest ratio is the printed K I divided by the true K (I - I_0). In this case, the printed torque is
+  // half a digit below the true torque.
   const double largest = K * I / ((K - K_half) * (I - I_half - I_0 - I_0_half)) * 108 / 107.5 - 1;
   EXPECT_NEAR(r.highest, largest, 0.03 * largest);
   EXPECT_NEAR(r.lowest, -(I_half / I + K_half / K + 0.5 / 108), 1e-9);
 }
 
-/// Only maxon numbers the lines of its sheets.
+/// Only the sheets of maxon have numbered lines.
 TEST(SheetCheck, ANumberedLineOfAnotherMakerIsDoubted) {
   Sheet s = printed_251601();
   EXPECT_TRUE(checked(s).doubts.empty());
@@ -90,8 +90,8 @@ TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
   EXPECT_NEAR(*check.electrical_time_constant_s, 0.286e-3 / 0.515, 1e-18);
 }
 
-/// Among U/R, the stall current and the stall torque, a single error is found by the other two: 780 mNm = k_M
-/// 24/1.03.
+/// The stall point is stated by U/R, the stall current and the stall torque. If one of these three values is
+/// wrong, the other two show it: 780 mN m = k_M 24/1.03.
 TEST(SheetCheck, OneBadValueOfTheStallPointBreaksItsOwnRelationAlone) {
   Sheet s = printed_251601();
   s.stall_current_A->value = 46.6;
@@ -108,7 +108,7 @@ TEST(SheetCheck, OneBadValueOfTheStallPointBreaksItsOwnRelationAlone) {
   EXPECT_EQ(relation(checked(s), "stall torque").remark, "a factor 2: terminal against phase?");
 }
 
-/// 0.572 mH/1.03 ohm = 0.555 ms in either frame, if both values have the same frame.
+/// 0.572 mH/1.03 ohm = 0.555 ms in either frame (terminals or phase), if both values have the same frame.
 TEST(SheetCheck, AnElectricalTimeConstantIsLOverR) {
   Sheet s = printed_251601();
   s.electrical_time_constant_ms = Quantity{0.555, "", ""};
@@ -128,7 +128,8 @@ TEST(SheetCheck, ALineKeepsTheValueOfItsOwnKey) {
     }
 }
 
-/// Commutation may reduce the remaining speed by the fraction 3 p L_s i/(pi K_t), if the current is smooth.
+/// If the current is smooth, commutation may reduce the speed by the fraction 3 p L_s i/(pi K_t) (symbols of
+/// model.md).
 TEST(SheetCheck, ANominalSpeedOnTheIdealLineSaysWhatCommutationTakes) {
   Sheet s = printed_251601();
   s.nominal_speed_rpm = Quantity{5980, "", ""};
@@ -141,8 +142,8 @@ TEST(SheetCheck, ANominalSpeedOnTheIdealLineSaysWhatCommutationTakes) {
       << remark;
 }
 
-/// A no-load speed of 55000 rpm with mechanics for 15000 rpm is a misread line. A winding for 1.5 times the
-/// speed of the mechanics is valid.
+/// A no-load speed of 55000 rpm with mechanics for 15000 rpm is a misread line of the sheet. A winding for
+/// 1.5 times the maximum speed of the mechanics is accepted.
 TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   Sheet sheet = printed_251601();
   sheet.max_speed_rpm = Quantity{.value = 6710 / 1.5};
@@ -159,7 +160,7 @@ TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
 }
 
 TEST(SheetCheck, ToleranceIsTheRoundingOfWhatIsPrinted) {
-  // A printed 1.03 means 1.025 to 1.035, and 23.3 means 23.25 to 23.35; the voltage is exact.
+  // A printed 1.03 means 1.025 to 1.035, and a printed 23.3 means 23.25 to 23.35. The voltage is exact.
   const Relation r = relation(checked(printed_251601()), "stall current");
   EXPECT_NEAR(r.highest, 0.005 / 1.03 + 0.05 / 23.3, 1e-15);
   EXPECT_EQ(r.lowest, -r.highest);
@@ -169,7 +170,7 @@ TEST(SheetCheck, ToleranceIsTheRoundingOfWhatIsPrinted) {
 }
 
 TEST(SheetCheck, ASheetRoundedToThreeDigitsIsNeverCalledInconsistent) {
-  // True values of a grid of motors, each printed with three digits, as in sheets.
+  // The true values of a grid of motors, each rounded to three digits, as sheets print them.
   const auto three = [](double x) {
     const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
     return Quantity{std::strtod(std::to_string(std::round(x / unit) * unit).c_str(), nullptr), "", ""};
@@ -216,8 +217,8 @@ TEST(SheetCheck, EverySlipOfALineThatIsPrintedTwiceIsNoticed) {
     }
 }
 
-/// Friction is a torque, which is equal in the terminal frame and the phase frame. Half the current does not
-/// indicate another frame.
+/// Friction is a torque, which is equal in the terminal frame and in the phase frame. If half the current is
+/// missing, this does not indicate another frame.
 TEST(SheetCheck, FrictionThatLacksHalfTheCurrentIsNoFactorOfAFrame) {
   Sheet s = printed_251601();
   const double w = s.no_load_speed_rpm->value * base::pi / 30.0;
@@ -254,8 +255,8 @@ TEST(SheetCheck, AWellKnownFactorIsNamed) {
 }
 
 TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
-  // A check by the motor's equations: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, maximised over
-  // i. I_f: current of friction.
+  // A check by the motor's equations. The efficiency is eta = w (i - I_f(w))/(U i) K_t with w = (U - R
+  // i)/K_t, maximised over the current i. I_f is the current of friction.
   const double U = 24, R = 1.03, K = 0.0335, I_0 = 0.185, stall = U / R, w_0 = (U - R * I_0) / K;
   double coulomb = 0.0, viscous = 0.0;
   for (double i = I_0; i < stall; i += 1e-4) {
@@ -290,8 +291,8 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
             "known_deviation = \"stall\" names no relation of this sheet; name one of these: ");
 }
 
-/// In a sheet with few values, units that are too large by a thousand violate no relation. The values are
-/// then doubted because of their size.
+/// If a sheet has few values, a unit that is wrong by a factor of thousand contradicts no relation. Such
+/// values are then doubted because of their size.
 TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   const auto doubts = [](const Sheet& sheet) {
     std::vector<std::string> out;
@@ -315,7 +316,7 @@ TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   EXPECT_EQ(doubts(s)[0].substr(0, 64), "inertia_kgm2 = 48 makes R J/K_t^2 4.41e+04 s, and almost no moto");
 }
 
-/// A value printed beside a key of the file is in the unit of this key.
+/// If a message states a value beside a key of the file, the value is in the unit of this key.
 TEST(SheetCheck, MessagesNameValuesAsTheFileWritesThem) {
   Sheet s = printed_251601();
   s.with_brake = true;

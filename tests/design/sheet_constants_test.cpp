@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every printed form of a constant gives the same machine. A wrong sheet gives one message with its cure.
+// Every printed form of a constant gives the same machine. A wrong sheet gives one message with the remedy.
 #include "sixstep/design/sheet/sheet_constants.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using base::Quantity;
 
 constexpr double eps = 0x1p-52;
 
-/// A sine machine of the 251601's size, without a torque constant in its sheet.
+/// The sheet of a sine machine of the 251601's size, without a torque constant.
 Sheet without_constant() {
   Sheet s = printed_251601();
   s.torque_constant_mNm_A.reset();
@@ -130,7 +130,7 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
       "phase, 3.295 A peak, a nominal torque of 100.7 mNm; write frame = \"terminal\" or \"rms\"");
 }
 
-/// For a sheet without a torque constant, the torque is unknown, and the message names the current instead.
+/// If a sheet has no torque constant, the torque is unknown. The message then states the current instead.
 TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
   Sheet s = without_constant();
   s.nominal_current_A = Quantity{10, "", ""};
@@ -139,8 +139,8 @@ TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
                                    "another; \"rms\" means a sine of 10 A rms in each phase, 14.14 A peak;"));
 }
 
-/// Faulhaber prints k_M = 40.2 mNm/A and k_E = k_M/9.5493 = 4.21 mV/min-1: the mean over a sector between the
-/// driven pair.
+/// Faulhaber prints k_M = 40.2 mNm/A and k_E = k_M/9.5493 = 4.21 mV/min-1. This k_E is the mean over a sector
+/// between the driven terminals.
 TEST(SheetConstants, ABackEmfOverASectorIsTheTorqueConstant) {
   for (const BackEmfShape shape : {BackEmfShape::sine, BackEmfShape::trapezoid}) {
     Sheet s = without_constant();
@@ -230,7 +230,7 @@ TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
   EXPECT_NEAR(*one.all_viscous_Nm_s, loss / w0, 4 * eps * loss / w0);
   EXPECT_NEAR(*one.all_coulomb_Nm, loss, 4 * eps * loss);
   EXPECT_EQ(one.B_Nm_s, *one.all_viscous_Nm_s);  // by default all friction is viscous
-  // A motor with T = 3e-6 w + 2e-3, and its no-load currents at two speeds.
+  // A motor with the friction torque T = 3e-6 w + 2e-3 (speed w), and its no-load currents at two speeds.
   const double B = 3e-6, T_c = 2e-3, w[] = {200.0, 700.0};
   s.no_load_speed_rpm = Quantity{w[1] * 30 / base::pi, "", ""};
   s.no_load_current_mA = Quantity{(B * w[1] + T_c) / 0.0335 * 1e3, "", ""};
@@ -278,7 +278,7 @@ TEST(SheetConstants, StandardKeysMeanTheSameModel) {
   EXPECT_NEAR(a->machine.K_e_V_s, b->machine.K_e_V_s, 4 * eps);
   EXPECT_NEAR(a->machine.L_H, b->machine.L_H, 4 * eps * 1e-3);
   EXPECT_EQ(a->shaft.B_Nm_s, b->shaft.B_Nm_s);
-  // A value in a standard key keeps its bits.
+  // A value that is already under a standard key keeps its bits.
   const auto printed = motor_model(printed_251601()), again = motor_model(in_standard_keys(printed_251601()));
   EXPECT_EQ(printed->machine.K_e_V_s, again->machine.K_e_V_s);
   EXPECT_EQ(printed->machine.L_H, again->machine.L_H);

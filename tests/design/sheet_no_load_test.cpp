@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load points of a sheet: n_0 = (U - R I_0)/k_M and k_M I_0 = T_c + B w_0. Checked with the formula,
-// with a printed sheet, and with every error for each form of friction.
+// The no-load points of a sheet obey n_0 = (U - R I_0)/k_M and k_M I_0 = T_c + B w_0 (symbols of model.md).
+// They are checked with the formula, with a printed sheet, and with an error in each value for each form of
+// friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +42,8 @@ Relation relation(const Sheet& sheet, const std::string& name) {
   return r.value_or(Relation{});
 }
 
-/// A motor whose no-load speed and current satisfy both equations to rounding: U = R I + K w, K I = T_c + B w.
+/// A motor whose no-load speed w and current I satisfy both equations, apart from rounding: U = R I + K w and
+/// K I = T_c + B w.
 struct Motor {
   double U = 24.0, R = 1.03, K = 0.0335, B = 4e-6, T_c = 3e-3;
   double w(double at_V) const { return (at_V - R * T_c / K) / (K + R * B / K); }
@@ -50,7 +52,7 @@ struct Motor {
   double I() const { return I(U); }
 };
 
-/// A value printed with enough digits to make rounding negligible.
+/// A value that is printed with so many digits that its rounding is negligible.
 Quantity fine(double value, const char* frame = "") {
   Quantity q{value, frame, ""};
   q.last_digit = 1e-9 * value;
@@ -75,8 +77,8 @@ Sheet sheet_of(const Motor& m) {
 }
 
 TEST(SheetNoLoad, ASheetsOwnFrictionMakesItsNoLoadCurrent) {
-  // The sheet of Faulhaber 3564 B as printed, with its four windings: k_M mNm/A, I_0 A, n_0 rpm, U V, R ohm.
-  // C_0 and C_V are equal for all windings.
+  // The printed sheet of Faulhaber 3564 B, with four windings: k_M in mNm/A, I_0 in A, n_0 in rpm, U in V, R
+  // in ohm. The friction values C_0 and C_V are equal for all windings.
   const double C_0 = 1.10, C_V = 2.4e-4;
   const struct {
     double U, R, n_0, I_0, k_M;
@@ -118,7 +120,7 @@ TEST(SheetNoLoad, TheSpeedIsHeldWhicheverWayFrictionIsGiven) {
   for (const std::vector<Member>& lines : silent) {
     Sheet s = sheet_of(m);
     for (const Member line : lines) (s.*line).reset();
-    // Friction that the sheet does not print is not part of the computed value.
+    // The computed speed contains only the friction that the sheet prints.
     const double dry = s.coulomb_friction_mNm ? m.T_c : 0.0, viscous = s.viscous_friction_Nm_s ? m.B : 0.0;
     const double w = (m.U - m.R * dry / m.K) / (m.K + m.R * viscous / m.K);
     const double I = s.no_load_current_mA ? m.I() : (dry + viscous * w) / m.K;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random machine is printed in the terms of each kind of sheet and read back as the same machine.
+// A random machine is printed in the form of each kind of sheet. Reading this sheet gives the same machine.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace sixstep;
 using namespace sixstep::design;
 using base::Quantity;
 
-/// The seed; SIXSTEP_FUZZ_SEED=.. repeats a failed run.
+/// The seed of the random machines. The variable SIXSTEP_FUZZ_SEED repeats a failed run.
 std::uint64_t seed() {
   const char* text = std::getenv("SIXSTEP_FUZZ_SEED");
   return text ? std::strtoull(text, nullptr, 10) : 20261121;
@@ -70,8 +70,8 @@ Sheet maxon(const Drawn& d) {
   return s;
 }
 
-/// The form of drone motors: KV is a peak between terminals, and friction is given as a no-load current on
-/// the ideal line.
+/// The form of drone motors: KV is the peak voltage between terminals. Friction is stated as a no-load
+/// current on the ideal line.
 Sheet drone(const Drawn& d) {
   const plant::Machine& m = d.model.machine;
   Sheet s = maxon(d);
@@ -81,7 +81,7 @@ Sheet drone(const Drawn& d) {
   const double line = shape_factors(d.shape, m.flat_deg).line_peak;
   s.speed_constant_rpm_V = print(30 / base::pi / (m.K_e_V_s * line), "line-peak");
   s.viscous_friction_Nm_s.reset();
-  // The no-load point satisfies K_t I = B w and K_t w = U - R_tt I.
+  // The no-load point satisfies K_t I = B w and K_t w = U - R_tt I (symbols of model.md).
   const double K = d.model.K_t_Nm_A, B = d.model.shaft.B_Nm_s, U = d.model.nominal_voltage_V / 2;
   const double I = U / (2 * m.R_ohm + K * K / B);
   s.no_load_voltage_V = print(U);
@@ -130,7 +130,7 @@ constexpr Style styles[] = {
     {"maxon", maxon}, {"drone", drone}, {"servo", servo}, {"back-EMF", back_emf}, {"firmware", firmware}};
 
 TEST(SheetRoundTrip, AMachinePrintedInAnyStyleIsReadBack) {
-  // The bound is a few roundings in each direction. The no-load current adds two differences of sums.
+  // The bound is a few roundings in each direction. The no-load current adds the rounding of two differences.
   constexpr double bound = 32 * 0x1p-52;
   for (std::uint64_t n = 0; n < 2000; ++n) {
     const Drawn d = draw(n);
@@ -146,7 +146,8 @@ TEST(SheetRoundTrip, AMachinePrintedInAnyStyleIsReadBack) {
       same(read->machine.K_e_V_s, d.model.machine.K_e_V_s);
       same(read->K_t_Nm_A, d.model.K_t_Nm_A);
       same(read->shaft.J_kg_m2, d.model.shaft.J_kg_m2);
-      // B is computed from w_0 = (U - R I_0)/K_t, whose difference loses the factor U/(U - R I_0).
+      // B is computed from w_0 = (U - R I_0)/K_t. The difference increases the relative rounding error by the
+      // factor U/(U - R I_0).
       const double K = d.model.K_t_Nm_A, R_B = 2 * d.model.machine.R_ohm * d.model.shaft.B_Nm_s;
       EXPECT_NEAR(read->shaft.B_Nm_s / d.model.shaft.B_Nm_s, 1.0, bound * (1 + R_B / (K * K)));
       if (HasFailure()) return;

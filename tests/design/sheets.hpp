@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets for tests, and the messages about wrong sheets.
+// Data sheets for tests, and the messages about wrong sheets.
 #pragma once
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace sixstep::testing {
 
-/// The 251601's sheet as printed.
+/// The sheet of the 251601 as printed.
 inline design::Sheet printed_251601() {
   design::Sheet s;
   s.name = "maxon EC 45 flat 251601";
@@ -31,7 +31,7 @@ inline design::Sheet printed_251601() {
   return s;
 }
 
-/// Every Problem of the model, one per line.
+/// Every problem of the motor model, one per line.
 inline std::string told(const design::Sheet& sheet) {
   const base::Result<design::MotorModel> model = design::motor_model(sheet);
   std::string text;

@@ -14,7 +14,8 @@ using design::SpeedLawDesign;
 using design::SpeedLawSpec;
 using ::testing::HasSubstr;
 
-/// The maxon 251601 with 0.1 N m: J = 135 g cm2, and friction large enough to matter.
+/// The maxon 251601 with a torque of 0.1 N m and J = 135 g cm2. The friction is large enough to have an
+/// effect.
 SpeedLawSpec maxon() {
   return {.full_rad_s2 = 0.1 / 1.35e-5,
           .fades_1_s = 2.0,
@@ -32,7 +33,8 @@ double step_of(const SpeedLawDesign& d, const std::string& symbol) {
   return 0.0;
 }
 
-/// The designed gain minimises a weighted sum: the Riccati equation, iterated from zero, gives the same gain.
+/// The designed gain minimises a weighted sum of squares. The Riccati equation, iterated from zero, gives the
+/// same gain.
 TEST(SpeedLawDesign, StateFeedbackIsTheLinearQuadraticRegulatorOfItsWeight) {
   for (const double settle : {2e-3, 20e-3, 0.5}) {
     SpeedLawSpec spec = maxon();
@@ -50,15 +52,15 @@ TEST(SpeedLawDesign, StateFeedbackIsTheLinearQuadraticRegulatorOfItsWeight) {
   }
 }
 
-/// The friction term is equal to the friction over a sample. The trace and the determinant of the observer's
-/// matrix are those of its double pole.
+/// The friction term is equal to the effect of friction over a sample. The trace and the determinant of the
+/// observer's matrix have the values of its double pole.
 TEST(SpeedLawDesign, ObserverAndFrictionAreWhatTheyClaim) {
   for (const auto& d : {design::state_feedback(maxon()), design::disturbance_rejection(maxon())}) {
     ASSERT_TRUE(d);
     const control::ObservedSpeedConfig<double>& k = d->gains.observed;
     const double z_o = std::exp(-5 * 4.6 * 30e-6 / 20e-3);
     EXPECT_NEAR(d->fast_pole, z_o, 1e-15);
-    // The predicted error has the matrix [a - k_1, -b; L_l, 1] with k_1 = a L_w + b L_l.
+    // The predicted error changes by the matrix [a - k_1, -b; L_l, 1] with k_1 = a L_w + b L_l.
     const double k_1 = k.a * k.L_w + k.b * k.L_l;
     EXPECT_NEAR(k.a - k_1 + 1, 2 * z_o, 1e-14);
     EXPECT_NEAR(k.a - k_1 + k.b * k.L_l, z_o * z_o, 1e-14);
@@ -86,7 +88,8 @@ TEST(SpeedLawDesign, TheBoundaryLayerFollowsFromItsPole) {
   EXPECT_NEAR(step_of(*d, "t_r"), 1.35e-5 / 0.1, 1e-15);
 }
 
-/// The lag is the sum of the errors of a current step on a winding, with and without a delay of one period.
+/// The lag of the current loop is the sum of the errors after a step of the current reference, with and
+/// without a delay of one period.
 TEST(SpeedLawDesign, ACurrentLoopIsLateByResistanceOverIntegralGain) {
   const double R = 1.03, L = 0.572e-3, T = 30e-6;
   const auto placed = design::place_poles(design::current_plant(R, L, T), 1e-3, 0.9, T);
@@ -108,7 +111,8 @@ TEST(SpeedLawDesign, ACurrentLoopIsLateByResistanceOverIntegralGain) {
   EXPECT_EQ(design::current_lag_periods(R, 10 * R), 0.0) << "no torque comes before it is asked for";
 }
 
-/// The sum of c_k delta^k x at sample n, delta x[n] = x[n+1] - x[n].
+/// The polynomial p with the coefficients c_k, applied to the sequence x at sample n: the sum of c_k delta^k
+/// x, with delta x[n] = x[n+1] - x[n].
 double applied(const design::Polynomial& p, std::vector<double> x, std::size_t n) {
   double sum = 0.0;
   x.erase(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
@@ -119,7 +123,8 @@ double applied(const design::Polynomial& p, std::vector<double> x, std::size_t n
   return sum;
 }
 
-/// Checks q u = r setpoint - y speed for arbitrary signals: the outputs of the block itself for noise.
+/// Checks that the block computes q u = r setpoint - y speed (polynomials q, r, y; output u) for arbitrary
+/// signals. The inputs are noise.
 template <class Step>
 void expect_linear(const design::LinearLaw& law, Step step) {
   std::mt19937 random{20261126};
@@ -176,7 +181,8 @@ TEST(SpeedLawDesign, LinearLawsAreWhatTheBlocksCompute) {
                 });
 }
 
-/// A PI written as a linear law is equal to the PI's loop, from its setpoint and at its output.
+/// A PI that is written as a linear law gives the same loop as the PI itself, both from its setpoint and at
+/// its output.
 TEST(SpeedLawDesign, APiAsALinearLawIsItsLoop) {
   design::DriveLoops loops;
   loops.motor.machine.R_ohm = 0.515;

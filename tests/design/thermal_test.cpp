@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two-body thermal model is compared with a numerical integration of its differential equations and with
-// the textbook's two exponentials.
+// The thermal model of two bodies is compared with a numerical integration of its differential equations, and
+// with the two exponentials of the textbook.
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using design::ThermalModel;
 
 constexpr ThermalModel flat{4.5, 4.25, 16.6, 212.0, 125.0};
 
-/// Fourth-order Runge-Kutta on the equations in the header.
+/// Fourth-order Runge-Kutta for the equations in the header.
 Temperatures integrated(const ThermalModel& m, const Heating& h, Temperatures at, double seconds, int steps) {
   const double C_w = m.winding_s / m.winding_housing_K_W, C_h = m.motor_s / m.housing_ambient_K_W;
   using Pair = std::array<double, 2>;
@@ -77,7 +77,8 @@ design::Sheet ranged_sheet() {
   return s;
 }
 
-/// Each end is tested separately: no end heats the winding more than the ends that are called worse.
+/// Each end of a range is tested separately. No end heats the winding more than the ends that are called the
+/// worse ends.
 TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
   const design::Sheet sheet = ranged_sheet();
   const auto worse = design::at_worse_ends(sheet);
@@ -99,7 +100,8 @@ TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
     }
 }
 
-/// No corner of the ranges reaches the limit sooner than the worse ends. The middle values reach it later.
+/// With no combination of range ends does the winding reach its limit sooner than with the worse ends. With
+/// the sheet's plain values, the winding reaches the limit later.
 TEST(ThermalRanges, NoCornerEndsSoonerThanTheWorseEnds) {
   const design::Sheet sheet = ranged_sheet();
   for (const double copper_W : {12.0, 35.0, 560.0}) {
@@ -145,8 +147,8 @@ TEST(ThermalRanges, ARangeWithoutAWorseEndIsNone) {
   EXPECT_FALSE(design::at_worse_ends(sheet));
 }
 
-/// A network with k times the resistances and 1/k times the capacities has the same time constants, and k
-/// times the temperature rise for the same constant loss.
+/// If a network has k times the resistances and 1/k times the capacities, its time constants are the same.
+/// Its temperature rise is k times as large for the same constant loss.
 TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
   const ThermalModel scaled{4.5 * 1.3, 4.25 * 1.3, 16.6, 212, 125};
   EXPECT_NEAR(design::greater_rise(flat, scaled), 1.3, 1e-12);
@@ -154,11 +156,12 @@ TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
 }
 
 TEST(Thermal, CoolingIsTheTextbooksTwoExponentials) {
-  // Without losses, the two rates are the roots of s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w T_h) = 0.
+  // Without losses, the two decay rates s are the roots of s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w
+  // T_h) = 0 (time constants T and capacities C of winding w and housing h).
   const long double T_w = 16.6L, T_h = 212.0L, ratio = (16.6L / 4.5L) / (212.0L / 4.25L);
   const long double sum = 1 / T_w + 1 / T_h + ratio / T_w, product = 1 / (T_w * T_h);
   const long double fast = sum / 2 + std::sqrt(sum * sum / 4 - product), slow = product / fast;
-  // The initial values are x_w(0) = 80, x_h(0) = 20, dx_w/dt(0) = -(80 - 20)/T_w.
+  // The initial values are x_w(0) = 80, x_h(0) = 20 and dx_w/dt(0) = -(80 - 20)/T_w.
   const long double slope = -60 / T_w, part = (slope + 80 * slow) / (slow - fast);
   for (const double t : {0.0, 1.0, 17.0, 100.0, 1000.0}) {
     const long double x = part * std::exp(-fast * t) + (80 - part) * std::exp(-slow * t);
@@ -173,7 +176,8 @@ TEST(Thermal, RestIsWhereNothingChanges) {
   const Temperatures later = design::temperatures_after(flat, h, rest, 100.0);
   EXPECT_NEAR(later.winding_degC, rest.winding_degC, 1e-11);
   EXPECT_NEAR(later.housing_degC, rest.housing_degC, 1e-11);
-  // All heat leaves through the housing: its temperature rise is (P hot + P_f) R_ha.
+  // All heat leaves through the housing. Its temperature rise is (P hot + P_f) R_ha: copper loss P at 25
+  // degC, factor hot for the warm winding, friction loss P_f, thermal resistance R_ha.
   const double hot = 8.0 * (1 + 0.00393 * (rest.winding_degC - 25));
   EXPECT_NEAR(rest.housing_degC, 25 + (hot + 2) * 4.25, 1e-11);
   EXPECT_NEAR(rest.winding_degC, rest.housing_degC + hot * 4.5, 1e-11);
@@ -190,7 +194,7 @@ TEST(Thermal, ContinuousLossTakesTheWindingToItsLimit) {
     const double copper = design::continuous_copper_W(flat, 1.0, ambient);
     EXPECT_NEAR(design::steady_temperatures(flat, {copper, 1.0, ambient})->winding_degC, 125.0, 1e-11);
   }
-  // The loss satisfies maxon's formula: I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
+  // The loss satisfies maxon's formula I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
   EXPECT_NEAR(design::continuous_copper_W(flat, 0.0, 25.0), 100 / (4.5 + 4.25) / (1 + 0.393), 1e-13);
   EXPECT_EQ(design::continuous_copper_W(flat, 0.0, 125.0), 0.0);
   EXPECT_EQ(design::continuous_copper_W(flat, 50.0, 25.0), 0.0) << "50 W of friction alone are too much";
@@ -205,8 +209,9 @@ TEST(Thermal, ShortTimeLossReachesTheLimitJustThen) {
     EXPECT_GT(copper, design::continuous_copper_W(flat, 1.0, 40.0));
     before = copper;
   }
-  // In a very short time, only the winding's heat capacity matters: P t/C_w, with ln(1 + a dT)/a instead of
-  // dT, because the resistance of the copper increases meanwhile.
+  // In a very short time, only the heat capacity C_w of the winding has an effect. The temperature rise is P
+  // t/C_w, with ln(1 + a dT)/a instead of dT, because the resistance of the copper rises with the
+  // temperature.
   const double C_w = 16.6 / 4.5, t = 1e-3;
   EXPECT_NEAR(design::short_time_copper_W(flat, 0.0, 25.0, t) * t / C_w, std::log1p(0.00393 * 100) / 0.00393,
               0.01);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of the thesis's chapter 6 with its rounding, and the same rule evaluated exactly.
+// The numbers of the thesis's chapter 6 with their rounding, and the same rule computed exactly.
 #include "sixstep/design/thesis/thesis_figures.hpp"
 
 #include <gtest/gtest.h>
@@ -29,8 +29,9 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
     const ZohPlant plant{printed(loop, "a0"), printed(loop, "b0")};
     const double re = printed(loop, "Re z"), im = printed(loop, "Im z");
     const PiGains gains = gains_for_poles(plant, re, im);
-    // The printed z has an error of 0.5e-4; a0 and b0 have errors of half of their last digit. The tolerance
-    // is the effect of these errors on d1 and d0, plus half of the last digit of d1 and d0.
+    // The printed pole z has an error of 0.5e-4. The printed a0 and b0 have errors of half of their last
+    // digit. The tolerance is the effect of these errors on d1 and d0, plus half of the last digit of d1 and
+    // d0.
     const bool is_speed = loop == std::string_view("speed");
     const double z = 0.5e-4, a0 = is_speed ? 0.5e-5 : 0.5e-4, b0 = (is_speed ? 0.5e-3 : 0.5e-4) / plant.b0;
     EXPECT_NEAR(gains.d1, printed(loop, "d1"), (2 * z + a0) / plant.b0 + std::fabs(gains.d1) * b0 + half_d1);
@@ -41,8 +42,8 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
 }
 
 TEST(ThesisFigures, ItsGainsBelongToAFasterPole) {
-  // The gains 4.5 and -4.04 place w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms (model.md 13). The test
-  // computes back from the closed-loop polynomial z^2 + c1 z + c0 to s = log(z)/T.
+  // The gains 4.5 and -4.04 place poles with w0 = 5504 rad/s, xi = 0.908 and T_reg = 0.92 ms (model.md 13).
+  // The test computes s = log(z)/T from the roots z of the closed-loop polynomial z^2 + c1 z + c0.
   const double a0 = printed("current", "a0"), b0 = printed("current", "b0");
   const double c1 = b0 * 4.5 + a0 - 1.0, c0 = b0 * -4.04 - a0;
   const std::complex<double> z{-c1 / 2, std::sqrt(c0 - c1 * c1 / 4)}, s = std::log(z) / period_s;

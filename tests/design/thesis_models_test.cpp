@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's matrices are compared with the explicit equations of model.md 1, with each other, and with the
-// energy balance. The signs as printed in the thesis (model.md 13) violate the balance.
+// The matrices of the thesis are compared with the explicit equations of model.md 1, with each other, and
+// with the energy balance. With the signs that the thesis prints (model.md 13), the energy does not balance.
 #include "sixstep/design/thesis/thesis_models.hpp"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ struct State {
   double K() const { return machine.K_e_V_s; }
 };
 
-/// A random state of a star with random pole voltages. Every fourth machine has a sine shape, every third
-/// another flat width.
+/// A random state of a star with random terminal voltages. Every fourth machine has a sine shape, and every
+/// third machine has another flat width.
 State random_state(std::mt19937_64& random, int n) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   State s;
@@ -46,7 +46,7 @@ State random_state(std::mt19937_64& random, int n) {
   return s;
 }
 
-/// The star voltage with all legs connected is the mean of u_k - e_k (model.md (5)).
+/// If all legs are connected, the star point's voltage is the mean of u_k - e_k (model.md (5)).
 double star_voltage(const State& s) {
   return (s.u_a + s.u_b + s.u_c - s.K() * s.w * (s.f.a + s.f.b + s.f.c)) / 3.0;
 }
@@ -91,8 +91,8 @@ TEST(ThesisModels, TerminalVoltageFormIsTheSameMachine) {
   }
 }
 
-/// Rate of the stored energy, (L/2) sum i^2 + (J/2) w^2, plus the losses, minus the input power. It is zero
-/// for a real machine.
+/// The rate of the stored energy, (L/2) sum i^2 + (J/2) w^2, plus the losses, minus the input power. The
+/// result is zero for a physically possible machine.
 double unbalanced_W(const StateSpace<5, 4>& model, const State& s) {
   const double u_n = star_voltage(s);
   const auto r = model.derivative({s.i_a, s.i_b, s.i_c, s.w, s.theta_m},
@@ -109,7 +109,7 @@ TEST(ThesisModels, PowerBalancesAndThePrintedSignsDoNot) {
   double printed_sign = 0.0, printed_speed_row = 0.0, printed_factor = 0.0;
   for (int n = 0; n < 2000; ++n) {
     const State s = random_state(random, n);
-    // The power sum e_k i_k = T_e w leaves the circuit and enters the shaft.
+    // The power sum e_k i_k = T_e w leaves the circuit and accelerates the shaft.
     const double e_i =
         s.K() * s.w * s.f.a * s.i_a + s.K() * s.w * s.f.b * s.i_b + s.K() * s.w * s.f.c * s.i_c;
     EXPECT_NEAR(e_i, electromagnetic_torque(s.machine, s.f, {s.i_a, s.i_b, s.i_c}) * s.w, 16 * eps * 1500);
@@ -131,9 +131,9 @@ TEST(ThesisModels, PowerBalancesAndThePrintedSignsDoNot) {
 }
 
 TEST(ThesisModels, EigenvaluesAreTheTimeConstantsOfTheMachine) {
-  // At a fixed angle, the eigenvalues are -R/L for every current pattern without torque. For the pattern f,
-  // they are the roots of lambda^2 + (R/L + B/J) lambda + (R B + K_e^2 |f|^2)/(L J) = 0, with the eigenvector
-  // (f, 0) and w = -(L lambda + R)/K_e.
+  // At a fixed angle, the eigenvalue is -R/L for every current pattern without torque. For the pattern f, the
+  // eigenvalues are the roots of lambda^2 + (R/L + B/J) lambda + (R B + K_e^2 |f|^2)/(L J) = 0. Their
+  // eigenvectors are (f, 0) with the speed w = -(L lambda + R)/K_e.
   const State s;
   const auto& m = s.machine;
   for (const double theta_m : {0.0, 0.02, 0.1, 0.3, 0.77}) {

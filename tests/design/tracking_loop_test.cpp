@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tracking loop's gains are compared with the poles of its polynomial and with the specified response.
+// The gains of the tracking loop are compared with the poles of its polynomial, and with the specified
+// response.
 #include "sixstep/design/loops/tracking_loop.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ TEST(TrackingLoop, ItsPolesAreThoseOfFrequencyAndDamping) {
       ASSERT_TRUE(design);
       const auto [z1, z2] = poles(design->K_p, design->K_i);
       const Number s1 = std::log(z1) / T, s2 = std::log(z2) / T;
-      // The accuracy of a double pole is the square root of the rounding of the gains, 1e-16 at 1.
+      // The accuracy of a double pole is the square root of the rounding error of the gains, which is 1e-16
+      // for gains near 1.
       const double near = 4e-8 / T;
       EXPECT_NEAR(std::sqrt(std::abs(s1 * s2)), design->natural_rad_s, near) << damping << ' ' << bandwidth;
       EXPECT_NEAR(-(s1 + s2).real() / 2, damping * design->natural_rad_s, near);
@@ -50,8 +52,8 @@ TEST(TrackingLoop, FollowsByOneOverRoot2AtItsBandwidth) {
       const Number s(0, bandwidth);
       EXPECT_NEAR(std::abs((2 * damping * w * s + w * w) / (s * s + 2 * damping * w * s + w * w)),
                   std::sqrt(0.5), 1e-12);
-      // The sampled loop, (K_p (z - 1) + K_i z) divided by its polynomial, has this response with an error of
-      // the order of w_b T.
+      // The sampled loop is (K_p (z - 1) + K_i z) divided by its polynomial. It has this response with an
+      // error of about w_b T (bandwidth w_b, period T).
       const Number z = std::exp(s * 1e-5);
       const Number sampled = (design->K_p * (z - 1.0) + design->K_i * z) /
                              (z * z + (design->K_p + design->K_i - 2) * z + (1 - design->K_p));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's two models, driven with the engine's terminal voltages, reproduce the engine's trajectory.
-// Engine and models share no code.
+// The two models of the thesis receive the terminal voltages of the engine and reproduce its trajectory. The
+// engine and the models have no common code.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Voltages are smooth between two events, so each segment of the engine is integrated separately.
+/// Voltages are smooth between two events. Each segment of the engine is therefore integrated separately.
 constexpr int steps_per_segment = 8;
 
 template <std::size_t States, class Rate>
@@ -80,11 +80,11 @@ class Beside {
   double current_error_ = 0, speed_error_ = 0, angle_error_ = 0;
 };
 
-/// The error of RK4 is (h/tau)^5/120 of the scale per step and decays over tau: (h/tau)^4/120 in total.
-/// Segments last at most half the fastest time constant (`useful_length`), so h/tau <= 1/16, and the bound is
-/// 1.3e-7. With chopping, segments last at most 15 us: h/tau <= 15/(8 * 555), and the bound is 1.1e-12. A
-/// model's angle error shifts its shape, and a kink within a step increases the error by a factor of h. The
-/// factor 10 covers these errors.
+/// The error of RK4 is (h/tau)^5/120 of the scale per step (step h, fastest time constant tau). It decays
+/// over tau, so the total is (h/tau)^4/120. Segments last at most tau/2 (`useful_length`), so h/tau <= 1/16,
+/// and the bound is 1.3e-7. With chopping, segments last at most 15 us: h/tau <= 15/(8 * 555), and the bound
+/// is 1.1e-12. A model's angle error shifts its shape, and a corner of the shape within a step increases the
+/// error by a factor of h. The factor 10 covers these errors.
 void expect_beside(const Board& board, double length_s, double h_over_tau) {
   auto rig = board.rig();
   Beside beside(board);
@@ -131,8 +131,8 @@ TEST(ThesisModels, TorqueIsTheEnginesTorque) {
     }
   } torque{b};
   ASSERT_EQ(run_to(rig, 0.1, torque), sim::Stop::end);
-  // The relative error of the angle is eps (of some 235 electrical rad). A ramp has a slope of 2 per 60
-  // degrees.
+  // The relative error of the angle is eps, at an angle of some 235 electrical rad. A ramp of the shape has a
+  // slope of 2 per 60 degrees.
   const double shape_error = 4 * eps * 240 * 2 / base::sector_rad;
   EXPECT_LE(torque.worst, 3 * b.machine.K_e_V_s * 23.3 * shape_error + 64 * eps);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampled systems are compared with closed forms of first and second order, and stability with known roots.
+// Sampled systems are compared with closed forms of first and second order. Stability is compared with known
+// roots.
 #include "sixstep/design/loops/transfer.hpp"
 
 #include <gtest/gtest.h>
@@ -24,8 +25,8 @@ TEST(Sampled, FirstOrderIsTheZohPlant) {
     rl.B[0] = 1.0 / 0.572e-3;
     const Transfer t = sampled(rl, 0, period_s);
     const ZohPlant exact = current_plant(R, 0.572e-3, period_s);
-    // The difference is caused by the rounding of the exponent, R T/L (up to 2.6) times eps, and of a dozen
-    // terms.
+    // The difference has two causes: the rounding of the exponent, which is eps times R T/L (up to 2.6), and
+    // the rounding of a dozen terms.
     EXPECT_NEAR(t.den[0] / (1.0 + exact.a0), 1.0, 16 * eps + 2 * eps / (1.0 + exact.a0));
     EXPECT_NEAR(t.num[0] / exact.b0, 1.0, 16 * eps);
   }
@@ -71,7 +72,7 @@ TEST(Stable, IsWhereAllRootsAreInside) {
     }
     if (std::fabs(largest - 1.0) < 1e-6) continue;
     EXPECT_EQ(is_stable(p), largest < 1.0) << largest;
-    // For two close pairs of roots, half of the digits are lost.
+    // If two pairs of roots are close, half of the digits are lost.
     EXPECT_NEAR(1.0 - slowest_decay(p), largest, 1e-4 * largest);
   }
 }
@@ -81,8 +82,8 @@ TEST(Stable, TheSlowestDecayIsThatOfTheSlowestRootHoweverSlow) {
     EXPECT_NEAR(slowest_decay({decay, 1.0}), decay, 4 * eps * std::fabs(decay));
     EXPECT_NEAR(slowest_decay({-decay, -1.0}), decay, 4 * eps * std::fabs(decay));
   }
-  // The four roots are about 1e-5 from z = 1. In powers of z, their product would be 1e-20 of the
-  // coefficients.
+  // The four roots are about 1e-5 from z = 1. In powers of z, the product of these distances would be 1e-20
+  // of the coefficients.
   const Polynomial slow = product(product({1e-5, 1.0}, {2e-5, 1.0}), product({3e-5, 1.0}, {5e-5, 1.0}));
   EXPECT_TRUE(is_stable(slow));
   EXPECT_NEAR(slowest_decay(slow), 1e-5, 1e-12);

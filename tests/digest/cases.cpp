@@ -13,7 +13,7 @@ using control::Mode;
 
 constexpr double thesis_d1 = 0.017225, thesis_d0 = -0.01707;  // gains of the speed loop
 
-/// Adds figures that need roots, integrals and square roots of the trajectory.
+/// Adds figures whose computation needs roots, integrals and square roots of the trajectory.
 Scenario judged(Scenario s) {
   for (const MetricKind kind :
        {MetricKind::final_value, MetricKind::mean, MetricKind::rms, MetricKind::maximum, MetricKind::minimum})
@@ -55,7 +55,7 @@ Scenario hysteresis(HysteresisOn on, Chopping chopping, Comparator comparator = 
   return s;
 }
 
-/// Current PI by pole placement: exp, cos and sqrt determine the gains.
+/// A current PI by pole placement. exp(), cos() and sqrt() determine its gains.
 Scenario designed_current(double settle_s, double damping) {
   Scenario s = current_square();
   s.control.current.d1 = s.control.current.d0 = std::nullopt;
@@ -136,8 +136,8 @@ Scenario friction_and_load() {
   return s;
 }
 
-/// The timing of a small chip: centre-aligned, edges on timer counts, commutation at the sample, one period
-/// of delay.
+/// The timing of a small chip: centre-aligned PWM with edges on timer counts, commutation at the sample, and
+/// one period of delay.
 Scenario small_chip(Scenario s) {
   s.pwm.alignment = Alignment::centre;
   s.pwm.timer_Hz = 16e6;
@@ -159,8 +159,8 @@ Scenario narrow_flat() {
   return s;
 }
 
-/// A drive of a [[spread]]. The normally distributed R and L depend on the bits of the random generator, log,
-/// cos and sqrt.
+/// One drive of a [[spread]]. Its R and L are normally distributed, so they depend on the bits of the random
+/// generator, of log(), cos() and sqrt().
 Scenario series_drive() {
   Scenario s = current_square();
   for (const char* key : {"motor_override.resistance_ohm", "motor_override.inductance_mH"}) {
@@ -173,7 +173,7 @@ Scenario series_drive() {
   return varied(s, 1, 17);
 }
 
-/// Current counts with noise, from one shunt, in 16 bits.
+/// Current counts with noise, from one shunt, in 16-bit arithmetic.
 Scenario one_shunt_q15() {
   Scenario s = designed_current(1e-3, 0.9);
   s.control.arithmetic = Arithmetic::q15;
@@ -186,7 +186,8 @@ Scenario one_shunt_q15() {
   return s;
 }
 
-/// The firmware as on a chip: calibration, alignment, speed from Hall edges, and a broken line.
+/// The product's firmware as on a chip, with calibration, alignment, speed from Hall edges, and a broken
+/// line.
 Scenario product(Arithmetic arithmetic) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.3;
@@ -245,7 +246,7 @@ Scenario igbts_and_chopper() {
   s.supply.brake_off_V = 28;
   return s;
 }
-/// Wires that are mirrored at the start and corrected in the middle, and an amplifier that drifts.
+/// Wires that are mirrored at the start and corrected in the middle of the run, and an amplifier that drifts.
 Scenario crossed_wires() {
   Scenario s = small_chip(current_square());
   s.bridge.phases = rig::WireOrder::bac;
@@ -261,8 +262,8 @@ Scenario crossed_wires() {
   return s;
 }
 
-/// Each case has a separate function: forty literals in one function need a megabyte of stack, the whole
-/// stack of WebAssembly.
+/// Each case has a separate function. Forty scenarios in one function would need a megabyte of stack, which
+/// is the whole stack of WebAssembly.
 struct Row {
   const char* name;
   Scenario (*scenario)();

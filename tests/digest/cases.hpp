@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The runs whose bits are compared between platforms. The name of a run never changes. A changed or new run
-// needs a new table (tools/check_bits.sh --renew).
+// The runs whose bits are compared between platforms. The name of a run never changes. After a run is changed
+// or added, a new table is needed (tools/check_bits.sh --renew).
 #pragma once
 #include <string>
 #include <vector>

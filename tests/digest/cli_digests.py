@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""cli_digests.py PROGRAM ROOT TABLE [FILE..]: what tests/digest/read_scenarios.cpp prints, asked of the command line, for the
-files that the table names and for those behind it. The table is renewed with: cli_digests.py PROGRAM . TABLE [FILE..] >new"""
+"""cli_digests.py PROGRAM ROOT TABLE [FILE..]: prints the same lines as tests/digest/read_scenarios.cpp, with digests
+of the command line. It runs the files of the table and the given files.
+To renew the table: cli_digests.py PROGRAM . TABLE [FILE..] >new"""
 import json
 import pathlib
 import subprocess

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""compare.py EXPECTED PRINTED | compare.py EXPECTED --of PROGRAM: which cases have other bits than the table's.
+"""compare.py EXPECTED PRINTED | compare.py EXPECTED --of PROGRAM: prints the cases that have other bits than the
+table. Exits with 1 on any difference.
 
-Each line is a # comment or NAME TRAJECTORY FIGURES SEGMENTS. Says per case what differs first: the way there, or only what was
-computed from it. Exits 1 on any difference."""
+Each line is a comment with # or NAME TRAJECTORY FIGURES SEGMENTS. For each case it prints the first difference: the
+trajectory, or only the figures computed from it."""
 import pathlib
 import subprocess
 import sys
@@ -16,7 +17,7 @@ def table(text):
 
 
 def difference(expected, printed):
-    """In words; None where all is the same."""
+    """The difference in words; None if the two are equal."""
     if expected == printed:
         return None
     if expected is None or printed is None:

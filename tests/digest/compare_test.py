@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Who reads a failed comparison learns which case differs, and in what."""
+"""The message of a failed comparison names the case and the first difference."""
 import pathlib
 import subprocess
 import sys

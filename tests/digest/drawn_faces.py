@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""One digest by every interface: 30 drawn scenarios in the program, the C library, units of FMI 2.0 and 3.0, and WebAssembly, each at steps
-of 1 ms, 37 us, 10 us and drawn ones.
+"""All interfaces give the same digest. 30 random scenarios run in the program, the C library, units of FMI 2.0 and
+3.0, and WebAssembly. The steps are 1 ms, 37 us, 10 us and random.
    drawn_faces.py PROGRAM SOURCE C_LIBRARY FOLDER [COMMAND that reads scenarios in WebAssembly]
-A scenario is one that ships, with drawn values of keys that all of them have. SIXSTEP_SEED=.. draws others."""
+A scenario is a shipped scenario with random values of keys that every scenario has. SIXSTEP_SEED=.. selects others."""
 import json
 import os
 import pathlib
@@ -32,7 +32,7 @@ def drawn_text(file):
 
 
 def in_program(file):
-    """Digest of the program's run; None for a scenario that the program refuses."""
+    """The digest of the program's run; None if the program refuses the scenario."""
     done = subprocess.run([PROGRAM, "run", file, "--json", "-", "--quiet"], capture_output=True, text=True, timeout=120)
     return json.loads(done.stdout)["digest"] if done.returncode in (0, 1, 3) else None
 
@@ -62,7 +62,7 @@ def in_fmi3(unit, step, end):
 
 
 def digests(library, file, end):
-    """(interface and step, digest) of each."""
+    """(interface and kind of step, digest) for each interface and step."""
     fmi2, fmi3 = fmi2_importer.Unit(exported(file, "2")), fmi3_importer.Unit(exported(file, "3"))
     for step in STEPS:
         words = "drawn steps" if callable(step) else f"steps of {step:g} s"
@@ -72,7 +72,8 @@ def digests(library, file, end):
 
 
 def in_wasm(files):
-    """Digest by file: the reader runs each file whole and in the same kinds of steps, and fails where two of its digests differ."""
+    """{file: digest}. The reader runs each file in one advance and in the same kinds of steps. It fails if two
+    digests of a file differ."""
     done = subprocess.run([*IN_WASM, "--in-steps", *(os.path.relpath(file) for file in files)], capture_output=True, text=True, timeout=600)
     if done.returncode != 0:
         sys.exit(f"WebAssembly: {done.stderr or done.stdout}")
@@ -90,7 +91,7 @@ def main():
         file.write_text(text)
         expected = in_program(file)
         if expected is None:
-            continue  # a window or a change is after the end of this short run, or the board cannot do it
+            continue  # a window or a change is after the end of this short run, or the board does not support it
         told[file] = expected
         for name, digest in digests(library, file, end):
             if digest != expected:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints for each case: name, digest of the trajectory, digest of the figures and number of segments. The
-// program needs only the library, so any compiler and target can print its bits.
+// Prints four values for each case: name, digest of the trajectory, digest of the figures, and number of
+// segments. The program needs only the library, so any compiler and any target can print its bits.
 #include <cstdio>
 
 #include "sixstep/base/hash.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace sixstep;
 
-/// The figures computed from the trajectory, and the gains of the run.
+/// The digest of the figures that are computed from the trajectory, and of the run's gains.
 std::uint64_t figures(const study::Outcome& out) {
   base::Hash hash;
   for (const study::ComparisonResult& c : out.comparisons) hash.number(c.measured);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_scenarios [--in-steps] FILE..: reads scenarios from their texts, as a page in a browser does, runs them, and prints name, digest of
-// the trajectory and number of segments. It needs sixstep/ and the readers of text/, without a file system: this program passes the texts.
-// With --in-steps each scenario is run as a session, too, in steps of 1 ms, 37 us, 10 us and drawn ones: their digests must be the same.
+// read_scenarios [--in-steps] FILE..: reads scenarios from their texts, as a page in a browser does, and runs
+// them. It prints name, digest of the trajectory and number of segments. The code of sixstep/ and the readers
+// of text/ need no file system: this program passes the texts. With --in-steps, each scenario is also run as
+// a session in steps of 1 ms, 37 us, 10 us and random steps. All digests must be equal.
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -41,7 +42,8 @@ base::Result<study::Scenario> read(const std::string& path) {
   return text::read_scenario_text(path, std::move(*text), {.overrides = {}, .resolve = beside});
 }
 
-/// Runs the scenario as a session and reads it after each step; step_s = 0: steps of 0.1 to 300 us are drawn.
+/// Runs the scenario as a session and reads it after each step. With step_s = 0, the steps are random, from
+/// 0.1 to 300 us.
 base::Result<study::Outcome> in_steps(const study::Scenario& scenario, double step_s) {
   base::Result<study::Session> session = study::Session::open(scenario);
   if (!session) return session.problems();

@@ -9,7 +9,7 @@ namespace {
 using namespace study;
 using control::Mode;
 
-/// Applies a change. A refused change would change the digest.
+/// Applies a change at the time `at_s`. If the change were refused, the digest would differ.
 void tell(Session& session, double at_s, const At& at) {
   session.advance(at_s);
   (void)session.change(at);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions of the digest table: opened, changed during the run and closed. Also the runs of the scenarios
-// that the sessions write.
+// Sessions of the digest table. Each session is opened, changed during the run and closed. The table also
+// contains the runs of the scenarios that the sessions write.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node wasi.mjs PROGRAM: runs a wasm32-wasi program as the browser's engine would, its output to stdout.
+// node wasi.mjs PROGRAM: runs a wasm32-wasi program as the engine of a browser does, and prints its output.
 import {readFile} from 'node:fs/promises';
 import process from 'node:process';
 import {WASI} from 'node:wasi';

@@ -1,23 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""belief_laws.py: laws of the gallery's drives that believe a wrong number of motor or sensor ([believed])."""
+"""belief_laws.py: laws for the gallery's drives that assume a wrong value of the motor or sensor ([believed])."""
 import cmath
 from math import asin, cos, degrees, exp, pi, radians, sin, sqrt
 
 from gallery_sheet import B, J, L_S, PAIRS, R, near
 from magnet_laws import PEAK, PERIOD
 
-R_S, K_Q = R / 2, 1.5 * PEAK  # of a phase; torque per ampere across the magnet
+R_S, K_Q = R / 2, 1.5 * PEAK  # phase resistance; torque per ampere on the q axis
 
 
 def placed(bandwidth_Hz, resistance, inductance):
-    """PI that cancels a winding's pole, with an answer one period late (design/loops/field_current.hpp)."""
+    """The coefficients d1 and d0 of a PI controller that cancels the pole of the winding, if the command acts one
+    period late (design/loops/field_current.hpp)."""
     a, z = exp(-resistance * PERIOD / inductance), exp(-2 * pi * bandwidth_Hz * PERIOD)
     d1 = z * (1 - z) * resistance / (1 - a)
     return d1, -a * d1
 
 
 def highest(bandwidth_Hz, resistance, inductance):
-    """Largest sample of a unit step, of the PI for a believed winding on the true one."""
+    """The largest sample of the current after a unit step. The PI controller is designed for the believed winding and
+    acts on the true winding."""
     d1, d0 = placed(bandwidth_Hz, resistance, inductance)
     a, current, voltage, late, before, most = exp(-R_S * PERIOD / L_S), 0.0, 0.0, 0.0, 0.0, 0.0
     for _ in range(400):
@@ -29,7 +31,8 @@ def highest(bandwidth_Hz, resistance, inductance):
 
 
 def swings(settle_s, damping, torque, reference, believed_J):
-    """Largest sample of a speed step, of the PI placed for a believed inertia on the true one."""
+    """The largest sample of the speed after a step. The PI controller is designed for the believed inertia and acts
+    on the true inertia."""
     w0 = 4.6 / (damping * settle_s)
     z = cmath.exp(complex(-damping * w0, w0 * sqrt(1 - damping**2)) * PERIOD)
     pole = exp(-PERIOD * B / believed_J)
@@ -45,8 +48,9 @@ def swings(settle_s, damping, torque, reference, believed_J):
 
 
 def runs_back(current, offset_deg, bandwidth_Hz, after_s):
-    """Speed of a free shaft whose current lies `offset_deg` beside the magnet's normal. The decoupling acts on the wrong axis: behind
-    the rising back-EMF the PI is late by its slope over the integral's gain."""
+    """The speed of a free shaft if the current is `offset_deg` away from the normal of the magnet. The decoupling
+    then acts on the wrong axis. Thus the current lags behind its reference: the lag is the slope of the back-EMF
+    divided by the gain of the integral."""
     d = radians(offset_deg)
     torque = K_Q * current * cos(d)
     slope = PEAK * abs(torque) / J / (sum(placed(bandwidth_Hz, R_S, L_S)) / PERIOD)
@@ -56,8 +60,9 @@ def runs_back(current, offset_deg, bandwidth_Hz, after_s):
 
 
 def leads(inductance, torque):
-    """Angle error in degrees of a flux observer with this inductance, and the current across, that hold a torque."""
-    x = (L_S - inductance) * torque / K_Q / (PEAK / PAIRS)  # sin d cos d
+    """The angle error in degrees of a flux observer with this inductance, and the current on the q axis that gives
+    the torque."""
+    x = (L_S - inductance) * torque / K_Q / (PEAK / PAIRS)  # sin d cos d, with the angle error d
     d = asin(2 * x) / 2
     return degrees(d), torque / K_Q / cos(d)
 

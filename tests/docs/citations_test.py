@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""citations_test.py: what comments cite is in the repository.
+"""citations_test.py: everything that a comment cites is in the repository.
 
-`model.md 4b` names a section of docs/reference/model.md and the pages beside it (model-*.md), `model.md (5)` an equation there, `pitfall 4` a row of the table in
-docs/architecture.md; any other NAME.md is a page of the repository.
-"""
+`model.md 4b` cites a section of docs/reference/model.md or of the pages beside it (model-*.md). `model.md (5)` cites
+an equation there. `pitfall 4` cites a row of the table in docs/architecture.md. Any other NAME.md is a page of the
+repository."""
 import pathlib
 import re
 import sys
@@ -22,7 +22,7 @@ PLACE = r"(?:\(\d+\)|\d+b?\b)"
 
 
 def flowing(text):
-    """The text with comments that go on over several lines as one."""
+    """The text with each comment of several lines joined into one line."""
     return re.sub(r"\n\s*(?://+|#)\s*", " ", text)
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""coverage_test.py PROGRAM: what the program, the header files and the plans have, the pages name: options, keys, words, phases, blocks."""
+"""coverage_test.py PROGRAM: the pages name every option, key, word, phase and block of the program, the header files
+and the plans."""
 import json
 import pathlib
 import re
@@ -25,12 +26,12 @@ def told(*words):
 
 
 def words_of(key):
-    """Words of a choice, as `sixstep help KEY` lists them."""
+    """The words that the key accepts, from `sixstep help KEY`."""
     return [line.split(None, 1)[0] for line in told("help", key).splitlines() if line.startswith("    ")]
 
 
 def rows(heading):
-    """The rows of the table below a heading of the page of figures, cells without their spaces."""
+    """The rows of the table below a heading of the page of figures. The cells have no spaces at their ends."""
     part = FIGURES.split(f"\n## {heading}\n")[1].split("\n## ")[0]
     cells = ([cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in part.splitlines() if line.startswith("| `"))
     return {tuple(re.findall(r"`([^`]+)`", row[0])): row[1:] for row in cells}

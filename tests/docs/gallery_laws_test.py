@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""gallery_laws_test.py: the limits in data/scenarios/gallery are those of the laws that the files name.
+"""gallery_laws_test.py: the limits in data/scenarios/gallery follow from the laws that the files name.
 
-Nothing is simulated here: each limit is computed from the motor's sheet and the scenario's own keys, and must be the
-file's to a unit of its last digit. A requirement that stands here under no law fails.
-"""
+No simulation runs here. Each limit is computed from the motor's sheet and from the keys of the scenario. It must
+agree with the file within one unit of the last digit. A requirement without a law fails."""
 import cmath
 import decimal
 import tomllib
@@ -25,7 +24,7 @@ def ripple(d):
 
 
 def foot_duty(foot):
-    """Duty of soft chopping whose ripple has its foot at a current, by halving."""
+    """The duty of soft chopping at which the lowest current of the ripple is `foot`, by bisection."""
     low, high = 0.0, 1.0
     for _ in range(100):
         middle = (low + high) / 2
@@ -35,13 +34,15 @@ def foot_duty(foot):
 
 
 def overshoot(kp, ki, reference):
-    """Of the samples: the loop's difference equation with the pulse's exact effect."""
+    """The overshoot of the samples. It is computed from the difference equation of the loop, with the exact effect of
+    a pulse."""
     decay, current, voltage, before, largest = exp(-T / TAU), 0.0, 0.0, 0.0, 0.0
     for _ in range(100):
         error = reference - current
         voltage = min(max(voltage + kp * (error - before) + ki * before, -U), U)
         before, d = error, voltage / U
-        current = (current * decay + STALL * (exp(-(1 - d) * T / TAU) - decay) if d >= 0  # else against the whole bus
+        # Otherwise the current falls against the full bus voltage.
+        current = (current * decay + STALL * (exp(-(1 - d) * T / TAU) - decay) if d >= 0
                    else max(0.0, (current + STALL) * decay - STALL))
         largest = max(largest, current - reference)
     return largest
@@ -53,7 +54,9 @@ def hysteresis_frequency(current, band):
 
 
 def made_up(settle, damping, full_torque, steps, end):
-    """Position in rad that a speed controller whose integral winds up ends at: all that was asked for but what it holds."""
+    """The position in rad at the end, if the integral of the speed controller winds up. It is the integral of the
+    speed reference, less a part that belongs to the final value of the controller's integral. Returns lower and upper
+    limit."""
     w0 = 4.6 / (damping * settle)
     z = cmath.exp(complex(-damping * w0, w0 * sqrt(1 - damping**2)) * T)
     pole = exp(-T * B / J)
@@ -64,24 +67,26 @@ def made_up(settle, damping, full_torque, steps, end):
     return middle - sampling, middle + sampling
 
 
-FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # A; largest pulse of the free phase
+FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # A; the largest current pulse of the free phase
 FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # A; the same for an off-time that contains the middle of the sector
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
-BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
+BRAKE = (K_T * 100 - 2 * R) / U  # the duty at which the braking current at 100 rad/s is 2 A
 IN_BAND = 1e-9 / 0.4
 AMPLIFIED = read_late(5, 1 / (2 * pi * 160e3), 1e-6)
-DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # part of a sector that a commutation takes at 200 rad/s
+DIP = 3 * L / (U - 2 * K_T * 200) / (pi / 3 / PAIRS / 200)  # the part of a sector that a commutation takes at 200 rad/s
 
 
 def after_commutation(emf, current):
-    """The staying phase's current where the leaving one is gone, for a duty that holds the current with the pair and goes on."""
+    """The current of the staying phase when the leaving phase has no current. The duty is the constant duty that
+    drives this current through the pair."""
     duty_V = 2 * emf + R * current
     leaving, staying = (duty_V + 2 * emf) / (1.5 * R), (4 * emf - duty_V) / (1.5 * R)
     return (current + staying) * leaving / (leaving + current) - staying
 
 
 def commutation_held(emf, current, speed):
-    """With a duty step: what the leaving phase's back-EMF lets go at most, and what falls in a period without the step."""
+    """The lower limit of the current with a duty step. The first term is the largest decrease caused by the back-EMF
+    of the leaving phase, the second the decrease in one period without the step."""
     sectors = L_S * current / (2 * emf + 0.75 * R * current) / (pi / 3 / PAIRS / speed)
     return current * (1 - sectors / 4) - (2 * emf + R / 2 * current) / (3 * L_S) * T
 
@@ -91,7 +96,8 @@ PAIR_RIPPLE = (2 * COMMUTATING + 3 * R) * (1 - (2 * COMMUTATING + 3 * R) / U) * 
 
 
 def fifth(x):
-    """Torque of two phases over K_e I, x from the middle of their sector, with 7 % of fifth harmonic."""
+    """The torque of two phases divided by K_e I. x is the angle from the middle of their sector, and the back-EMF has
+    7 % of fifth harmonic."""
     return sqrt(3) * (cos(x) - 0.07 * cos(5 * x))
 
 
@@ -100,7 +106,7 @@ def largest_fifth():
 
 
 def salient_tau(electrical_deg):
-    """Time constant of a and b on a held salient rotor, by model.md (7)."""
+    """The time constant of the phases a and b on a held salient rotor, by model.md (7)."""
     return 2 * (0.29e-3 + 0.05e-3 * cos(radians(2 * (electrical_deg - 150) - 120))) / R
 
 
@@ -114,16 +120,17 @@ RINGS = sqrt(1 / (2e-6 * 470e-6) - FADES**2)
 LOAD_J = 4e-5
 SHAFT = sqrt(2 * (1 / J + 1 / LOAD_J))
 GEARED = K_T * 5 / (J + 1.215e-4 / 9) * 5e-3
-RADIUS = 0.02  # m; with this radius the linear motor is the 251601 unrolled
+RADIUS = 0.02  # m; with this radius the linear motor has the data of the 251601
 MASS = J / RADIUS**2
 
 R_B, R_1, C_1, C_BUS = 0.08, 0.05, 0.4, 470e-6  # ohm, ohm, F, F: the battery's model and the bus capacitor
 SAG = U / (R + R_B + R_1)
-TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # A s, taken in 0.3 s
+TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # A s, in 0.3 s
 
 
 def recovered(t):
-    """Bus after the stall: y = (U_0 - u, v_1) falls by y' = A y, exp(A t) in closed form for two by two."""
+    """The bus voltage after the stall. The vector y = (U_0 - u, v_1) follows y' = A y, with the bus voltage u and its
+    source U_0. exp(A t) has a closed form, because A has two rows and two columns."""
     a, b = 1 / (R_B * C_BUS), 1 / (R_B * C_1)
     middle, det = -(a + b + 1 / (R_1 * C_1)) / 2, a / (R_1 * C_1)
     root = sqrt(middle**2 - det)
@@ -135,7 +142,8 @@ TOPS = sqrt(2) * 18 - 2 * 0.8
 
 
 def mains(pulses):
-    """Limits behind a rectifier of so many pulses per period, duty 0.2 on the held rotor, 4.7 mF."""
+    """The limits behind a rectifier with the given pulses per period. The duty is 0.2, the rotor is held, and the
+    capacitance is 4.7 mF."""
     d, period = 0.2, 1 / 50 / pulses
     fall = (d**2 * TOPS / R * period + d * (1 - d) * d * TOPS / R * T) / 4.7e-3
     feeds = acos((TOPS - fall + 2 * 0.8) / (sqrt(2) * 18)) / pi / 50  # s, upper bound
@@ -147,7 +155,7 @@ FALLS, SLOWS = 0.6 * 0.67 / 20 / (J + 0.6 * 1e-3 / 400), B / (J + 0.6 * 1e-3 / 4
 
 
 def falling(begin):
-    """Speed gained from 70 to 100 ms by what began to fall at an instant."""
+    """The increase of the speed from 70 to 100 ms, if the load falls from the instant `begin` on."""
     return FALLS / SLOWS * (exp(-SLOWS * (0.07 - begin)) - exp(-SLOWS * (0.1 - begin)))
 
 
@@ -161,13 +169,15 @@ PASSES = 1.5 * 2 * L / U / (pi / 3 / PAIRS / 20)  # part of a sector in which 2 
 
 
 def pulse(sign):
-    """Time to 10 A along the axis of a magnet that saturates, or against it, by (7) and what bends it."""
+    """The time until the current along the axis of a saturating magnet is 10 A. The sign says whether the current
+    acts with or against the magnet. It follows from model.md (7) with a correction for the saturation."""
     a, ends = sign * 2 / sqrt(3) / 40, log(1 - R * 10 / U)
     return 2 * 0.24e-3 * (-ends / R + a * (10 / R + U * ends / R**2))
 
 
 def losses(period):
-    """Switching and conduction of a chopped duty of 0.2 with 10 mohm in each device, and the junction that has all of it."""
+    """Switching loss, conduction loss and junction temperature at a chopped duty of 0.2. Each device has 10 mohm, and
+    all losses heat one junction."""
     d, tau, stall = 0.2, L / (R + 0.02), U / (R + 0.02)
     a, b = exp(-d * period / tau), exp(-(1 - d) * period / tau)
     high = stall * (1 - a) / (1 - a * b)
@@ -179,8 +189,9 @@ def losses(period):
 
 
 def weakened(w):
-    """Effective phase current whose voltage is 0.95 of the circle at a speed that friction alone brakes, by halving of i_d."""
-    # with a constant vector over a period, while the rotor turns by twice that angle, the voltage has the factor sin(x)/x
+    """The rms phase current at a speed at which only friction brakes. The voltage is 0.95 of the circle, and i_d is
+    found by bisection."""
+    # The voltage vector is constant over a period, and the rotor turns by 2 x. Thus the mean voltage has the factor sin(x)/x.
     turns = w * PAIRS * T / 2
     circle, i_q, low, high = 0.95 * U / sqrt(3) * sin(turns) / turns, B * w / (1.5 * K_E_SINE), -K_E_SINE / PAIRS / L_S, 0.0
     for _ in range(100):
@@ -193,16 +204,17 @@ def weakened(w):
 K_E_SINE = K_T * pi / 3 / sqrt(3)  # K_t over the sector mean of a sine between two phases
 HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
 
-F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # of the trapezoid with a flat top of 120 degrees
-SHAPED = 1.5 * K_E * F_1 * 4  # torque of 4 A
-# Bound of the torque change, N m: current and shape vector have their largest size, 4/3, and a quarter of a period of the holding voltage
-# is missing.
+F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # the fundamental of a trapezoid with a flat top of 120 degrees
+SHAPED = 1.5 * K_E * F_1 * 4  # the torque at 4 A
+# The upper bound of the torque change in N m. The current and the shape vector have their largest size, 4/3. The voltage that
+# keeps the current constant is missing for a quarter of a period.
 LEFT = 1.5 * K_E * 4 / 3 * hypot(R / 2 * 4 + 20 * K_E * 4 / 3, 20 * PAIRS * L_S * 4) * T / 4 / L_S
 COPPER = 1.5 * R / 2 * 4**2
 
 
 def finite_set():
-    """Band of the currents, and from 6 to -6 A by the fastest and the slowest vector, 20 us a period."""
+    """The band of the currents, and the time from 6 to -6 A with the fastest and with the slowest vector. The period
+    is 20 us."""
     period, emf = 20e-6, 20 * K_E_SINE
     band = 2 / (3 * sqrt(3)) * (1 - exp(-period / TAU)) / (R / 2) * U
     def falls(volts, to):
@@ -211,7 +223,7 @@ def finite_set():
     return [(None, 6 + band), (6 - band, None), (period + falls(2 * U / 3, -4.8), 2 * period + falls(U / sqrt(3), -6)), (None, 1 / (2 * period))]
 
 
-# (min, max) of each requirement; None: the file has none.
+# (min, max) of each requirement. None: the file has no such limit.
 LAWS = {
     **position_laws.LAWS,
     **magnet_laws.LAWS,

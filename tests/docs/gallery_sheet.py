@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""gallery_sheet.py: the motor of the gallery, and what several of its laws are made of."""
+"""gallery_sheet.py: the data of the gallery's motor, and functions that several of its laws use."""
 import tomllib
 from math import exp, pi
 
@@ -15,7 +15,7 @@ STALL = U / R
 
 
 def near(value, part=1e-6):
-    """A value and what is allowed around it, as a part of it."""
+    """The interval around a value; `part` is its relative half width."""
     return value * (1 - part), value * (1 + part)
 
 
@@ -24,19 +24,21 @@ def halves(d):
 
 
 def lagged(x, final, start, lag, t):
-    """Behind a first-order lag at x, what goes from `start` to `final` with L/R, after t."""
+    """The output of a first-order lag after the time t. The output begins at x. The input goes from `start` to
+    `final` with the time constant L/R."""
     bent = (start - final) / (1 - lag / TAU)
     return final + bent * exp(-t / TAU) + (x - final - bent) * exp(-t / lag)
 
 
 def read_late(reading, lag, delay):
-    """Mean current of a centred pulse that reads this in its middle, behind lag and delay, by halving of its duty."""
+    """The mean current of a centred pulse, if the sample in its middle is `reading`. The sensor has a lag and a
+    delay. The duty is found by bisection."""
     low, high = 0.0, 1.0
     for _ in range(60):
         middle = (low + high) / 2
         a, b = halves(middle)
         top, x = STALL * (1 - a) / (1 - a * b), 0.0
-        for _ in range(100):  # many time constants of the lag, so that the start has decayed
+        for _ in range(100):  # many time constants of the lag, so that the initial value has no effect
             x = lagged(x, STALL, top * b, lag, middle * T)
             x = lagged(x, 0, top, lag, (1 - middle) * T)
         late = lagged(x, STALL, top * b, lag, middle * T / 2 - delay)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""docs/reference/glossary.md is a table that can be looked up, and nobody uses the words that its last column excludes."""
+"""docs/reference/glossary.md is a table. No page and no text of the program uses the words
+that the last column excludes."""
 import pathlib
 import re
 import unittest

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""names_test.py PROGRAM: what prose, messages and comments of examples name exists.
+"""names_test.py PROGRAM: all names in prose, messages and comments of examples exist.
 
-- Every key path (`pwm.period_s`) in Markdown code and in the string literals of the sources is a key by its description.
-- Every option that a page or a message writes behind `sixstep VERB` is one that the verb declares.
-"""
+- Every key path (`pwm.period_s`) in Markdown code and in the string literals of the sources is a key of the schema.
+- Every option that a page or a message shows after `sixstep VERB` is an option of this verb."""
 import json
 import pathlib
 import re
@@ -30,14 +29,14 @@ def paths_of(schema, prefix=""):
 
 
 def code_in(page):
-    """Fenced blocks and `code` of a page, but for the blocks that show mistakes."""
+    """The fenced blocks and the `code` of a page, without the blocks that show mistakes."""
     text = re.sub(r"(?ms)^<!-- test: [^\n]*exit=2[^\n]*\n```.*?^```$", "", page.read_text(encoding="utf-8"))
     blocks = re.findall(r"(?ms)^```\w*\n(.*?)^```$", text)
     return blocks + re.findall(r"`([^`\n]+)`", re.sub(r"(?ms)^```.*?^```$", "", text))
 
 
 def strings_in(source):
-    """String literals; those that only a line end parts are one."""
+    """All string literals. Literals that are separated only by the end of a line count as one."""
     text = re.sub(r"(?m)^\s*//.*$|^#include.*$", "", source.read_text(encoding="utf-8"))
     return [re.sub(r"\"\s*\n\s*\"", "", literal).replace('\\"', '"')
             for literal in re.findall(r"\"((?:[^\"\\\n]|\\.)*(?:\"\s*\n\s*\"(?:[^\"\\\n]|\\.)*)*)\"", text)]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""own_controller_test.py PROGRAM: the files and commands of docs/howto/write-a-controller.md work as they stand, and the program reports the
-faults that the page lists."""
+"""own_controller_test.py PROGRAM: the files and commands of docs/howto/write-a-controller.md work unchanged. The
+program reports the faults that the page lists."""
 import json
 import os
 import pathlib
@@ -47,7 +47,7 @@ class OwnControllerPage(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = pathlib.Path(cls.folder.name)
-        for part in ("sixstep", "data"):  # files that the commands name, as in a checkout
+        for part in ("sixstep", "data"):  # the commands need these files, as in a checkout
             (cls.path / part).symlink_to(REPOSITORY / part)
         for block in HOWTO.blocks:
             if block.word == "write":
@@ -76,7 +76,7 @@ class OwnControllerPage(unittest.TestCase):
     def test_every_field_and_constant_of_the_interface_is_on_the_page(self):
         header = (REPOSITORY / "sixstep/control/own/own_controller.h").read_text(encoding="utf-8")
         code = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
-        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r" \1;", code, flags=re.S)  # members that are functions
+        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r" \1;", code, flags=re.S)  # removes members that are pointers to functions
         structs = re.findall(r"typedef struct \{(.*?)\} sixstep_", code, re.S)
         names = {name for struct in structs for name in re.findall(r"(\w+)(?:\[3\])?\s*[,;]", struct)}
         names |= set(re.findall(r"\b(SIXSTEP_\w+) =", code))
@@ -108,7 +108,7 @@ class OwnControllerPage(unittest.TestCase):
         self.assertIn("chopping as the controller commands", page)
 
     def test_a_report_names_no_current_reference_that_nobody_gave(self):
-        """mine.c limits no current and answers no reference."""
+        """The controller mine.c limits no current and returns no current reference."""
         self.run_program("run", "mine.toml", "--quiet", "--html", "mine.html")
         page = (self.path / "mine.html").read_text(encoding="utf-8")
         self.assertNotIn("reference at", page.split('class="glance"')[1].split('<section id')[0])
@@ -120,7 +120,7 @@ class OwnControllerPage(unittest.TestCase):
         self.assertEqual(len(rows), 6, rows)
         shutil.copy(self.path / "mine.so", self.path / "kept.so")
         with open(self.path / "mine.so", "ab") as file:
-            file.write(b"\0")  # compiled again
+            file.write(b"\0")  # another file, as after a new compilation
         try:
             told = self.run_program("run", "mine.toml", "--vary", vary, "--store", "own.db", "--resume", code=2)
             self.assertIn("own.db", told.stderr)
@@ -151,7 +151,7 @@ class OwnControllerPage(unittest.TestCase):
             (("--set", "control.own.controller=short.c"), 2, "is not a compiled library"),
             (("--set", "control.own.controller=mine.so"), 2, "is not the name of a number of the controller"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
-            (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),
+            (("--set", "control.mode=position"), 2, "PI in integers controls a current or a speed"),
             (("--set", "control.limits.current_A=3"), 2, "--set control.limits.current_A: control.limits applies to the built-in loops"),
             (("--set", "control.arithmetic=q15"), 2, "has its own number types")]}
         (self.path / "short.c").write_text("int a;\n", encoding="utf-8")

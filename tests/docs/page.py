@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One reader for all pages: what README.md and docs/ show is what the program does.
+"""Reads all pages: the content of README.md and docs/ must agree with the program.
 
-A comment above each fenced block says how it is tested; a block without one fails:
-  <!-- test: console [exit=N] -->   each line after "$ " is run; below it stands exactly what it prints
+A comment above each fenced block says how the block is tested. A block without a comment fails:
+  <!-- test: console [exit=N] -->   each line after "$ " is run; the lines below are exactly its output
   <!-- test: run [exit=N] -->       is run, with ./run as the program
-  <!-- test: output -->             is exactly what the block before it printed
-  <!-- test: excerpt of COMMAND[; exit=N] -->   its lines stand so in the command's output; a line "..." leaves lines out
+  <!-- test: output -->             is exactly the output of the block before it
+  <!-- test: excerpt of COMMAND[; exit=N] -->   its lines are lines of the command's output; a line "..." replaces omitted lines
   <!-- test: write NAME -->         is written into the folder in which the page's commands run
-  <!-- test: file PATH -->          is that file without its licence line; a scenario passes
-  <!-- test: chip --> or host       C++: those of a page compile together, for a chip without a C library or for the host
-  <!-- test: c -->              C: statements that have an open session `drive` of current-square.toml; compiled as C99 and run
-  <!-- test: python -->             Python: those of the page run from top to bottom (tests/python/page_test.py)
-  <!-- test: programs -->           each line begins with a program of the repository: it exists, may be executed
+  <!-- test: file PATH -->          is this file without its licence line; a scenario must pass
+  <!-- test: chip --> or host       C++: the blocks of a page compile together, for a chip without a C library or for the host
+  <!-- test: c -->              C statements with an open session `drive` of current-square.toml; compiled as C99 and run
+  <!-- test: python -->             Python: the blocks of the page run from top to bottom (tests/python/page_test.py)
+  <!-- test: programs -->           each line begins with a program of the repository, which exists and is executable
   <!-- test: measured -->           differs from machine to machine: not compared
-pages_test.py runs them.
-"""
+pages_test.py runs them."""
 import os
 import pathlib
 import re
@@ -31,10 +30,10 @@ COMMAND = re.compile(r"^\$ (.*)\n", re.M)
 
 class Block(typing.NamedTuple):
     line: int
-    word: str    # kind of the test
-    detail: str  # what follows the word
+    word: str    # the kind of the test
+    detail: str  # the text after this word
     text: str
-    span: tuple  # place in the page's text
+    span: tuple  # the position in the page's text
 
 
 class Page:
@@ -70,7 +69,7 @@ int main(void) {
 
 
 class Desk:
-    """A scratch copy of what a reader has in front of him, with the built program as ./run and sixstep."""
+    """A temporary copy of the folder that a reader uses, with the built program as ./run and sixstep."""
 
     def __init__(self, program):
         self._folder = tempfile.TemporaryDirectory()
@@ -79,12 +78,12 @@ class Desk:
             shutil.copytree(REPOSITORY / name, self.folder / name)
         for name in ("build/release", "bin"):
             (self.folder / name).mkdir(parents=True)
-        for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run first installs and builds
+        for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run would first install packages and build
             (self.folder / name).symlink_to(program)
         (self.folder / "build/dev").symlink_to(program.parent)
         for name in ("tests", "sixstep", "faces"):
             (self.folder / name).symlink_to(REPOSITORY / name)
-        # libsixstep as if it were installed
+        # the same files as an installed libsixstep
         library = program.parent / "lib"
         (self.folder / "sixstep.pc").write_text(f"Name: sixstep\nVersion: 0\nDescription: of the build\nLibs: -L{library} -lsixstep\n"
                                                 f"Cflags: -I{REPOSITORY / 'faces/c'} -I{REPOSITORY}\n", encoding="utf-8")
@@ -101,18 +100,19 @@ class Desk:
         return done.stdout
 
     def c(self, statements):
-        """What the statements print, compiled with the library."""
+        """The output of the statements, compiled with the library."""
         (self.folder / "block.c").write_text(C_PROGRAM % statements, encoding="utf-8")
         return self.shell("cc -std=c99 -Wall -Wextra -Werror block.c $(pkg-config --cflags --libs sixstep) -o block && ./block")
 
     def console(self, text, detail):
-        """The console block with what its commands print now."""
+        """The console block with the present output of its commands."""
         code = int(detail.removeprefix("exit=") or 0)
         return "".join(f"$ {command}\n{self.shell(command, code)}" for command in COMMAND.findall(text))
 
 
 def first_missing(quoted, printed):
-    """The first quoted line that does not stand in its place, or None. Between two "..." lines follow each other."""
+    """The first quoted line that is not at its place, or None. Lines between two "..." must follow each other
+    directly."""
     at, anywhere = 0, False
     for line in quoted:
         if line == "...":
@@ -126,7 +126,7 @@ def first_missing(quoted, printed):
 
 
 def walk(page, desk):
-    """Does what the page says, block by block: yields each block, and for one that shows output what that is now."""
+    """Executes a page block by block. Yields each block and, if the block shows output, its present output."""
     printed = None
     for block in page.blocks:
         now = None
@@ -146,7 +146,7 @@ def walk(page, desk):
 
 
 def anchors(file):
-    """The headings of a page, as links name them, and what it keeps by <a id="..."> of older ones."""
+    """The targets of links on a page: its headings, and its older names in <a id="...">."""
     text = BLOCK.sub("", file.read_text(encoding="utf-8"))
     headings = [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)", text, re.M)]
     return headings + re.findall(r'^<a id="([\w-]+)"></a>$', text, re.M)

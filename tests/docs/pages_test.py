@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""pages_test.py PROGRAM [--renew] [PAGE...]: what the pages show is what the program does, and each page has the form of the style section
-in docs/contributing.md. Without PAGE all of them; --renew writes their console and output blocks anew instead."""
+"""pages_test.py PROGRAM [--renew] [PAGE...]: the pages agree with the program, and each page has the form that the
+style section of docs/contributing.md requires. Without PAGE it tests all pages. --renew writes the console and output
+blocks again."""
 import os
 import pathlib
 import re
@@ -13,7 +14,7 @@ import page
 from page import REPOSITORY
 
 NAMES = ["README.md", *sorted(str(f.relative_to(REPOSITORY)) for f in (REPOSITORY / "docs").rglob("*.md"))]
-GENERATED = ("docs/gallery/", "docs/reference/keys/")  # by tools/gallery.py and tools/scenario_reference.py, which check them
+GENERATED = ("docs/gallery/", "docs/reference/keys/")  # tools/gallery.py and tools/scenario_reference.py write and check these pages
 PROGRAM = REPOSITORY / "build/dev/sixstep"
 WARNINGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion", "-Wdouble-promotion", "-Werror"]
 ALONE = {"chip": ["-ffreestanding", "-fno-exceptions", "-fno-rtti"], "host": []}
@@ -110,7 +111,7 @@ def renew(name):
             if now is not None:
                 text += [it.text[at:block.span[0]], now]
                 at = block.span[1]
-    except AssertionError as failure:  # for example where a program is not built
+    except AssertionError as failure:  # for example if a program is not built
         print(f"{name}: the rest is left as it is, after {failure}", file=sys.stderr)
     it.file.write_text("".join(text) + it.text[at:], encoding="utf-8")
     desk.close()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""position_laws.py: laws of the gallery's scenarios about where the rotor is taken to be, and how that and currents are sensed."""
+"""position_laws.py: laws of the gallery's scenarios about the estimated rotor position, and about the sensors of
+position and current."""
 from math import atan, atan2, cos, degrees, exp, pi, radians, sin, sqrt
 
 from gallery_sheet import (I_N, J, K_E, K_T, L, LOOP_GAIN, L_S, PAIRS, R, SECTOR, STALL, T, U,
@@ -7,21 +8,23 @@ from gallery_sheet import (I_N, J, K_E, K_T, L, LOOP_GAIN, L_S, PAIRS, R, SECTOR
 
 
 def late(degrees):
-    """Mean torque of a current whose pair is driven so many degrees late, as a part of K_t i."""
+    """The mean torque as a part of K_t i, if the pair is switched `degrees` too late."""
     return 1 - degrees**2 / 7200
 
 
-SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # electrical degrees by which a filter of 100 us delays an edge at 300 rad/s
-# electrical degrees until the current has commutated to the next phase
+SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # the delay of an edge in electrical degrees: a filter of 100 us at 300 rad/s
+# the electrical degrees until the current has commutated to the next phase
 PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi
-SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # s; period of the swing about the pair's rest angle
-SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the hand-over, rad/s^2
+SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # s; the period of the oscillation about the pair's rest angle
+SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the end of the ramp; rad/s^2
 LONGEST_RAMP = 2 * 2 * SLOWEST / RAMP + 12 * pi / 3 / PAIRS / SLOWEST
-LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # s of listening to a rotor that turns already
+# s; the time in which the drive detects a rotor that already turns.
+LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST
 
 
 def two_period_pulses():
-    """Seconds that they take, and degrees of the shaft by which they turn it at most (design/loops/pulse_start.hpp)."""
+    """The duration of the pulses in s, and the largest shaft angle in degrees by which they turn the rotor
+    (design/loops/pulse_start.hpp)."""
     apart, t, l_d, l_q, i_sat, most = 5 * T, 1.5 * T, 0.24e-3, 0.34e-3, 40, 1.5 * I_N
     i = STALL * (1 - exp(-R * t / 2 / (l_d * (1 - 2 / sqrt(3) * most / 2 / i_sat))))
     p = pi / 3 * K_T * i * t
@@ -34,12 +37,13 @@ PULSED, TURNED = two_period_pulses()
 
 
 def closed_loop_peak(damping):
-    """Of (2 D w s + w^2)/(s^2 + 2 D w s + w^2)."""
+    """The largest gain of (2 D w s + w^2)/(s^2 + 2 D w s + w^2), with the damping D and the Laplace variable s."""
     return max(abs((1 + 2j * damping * x) / (1 - x * x + 2j * damping * x)) for x in (n / 1000 for n in range(1, 3000)))
 
 
 def link_reads(reading, lag=1 / (2 * pi * 150e3)):
-    """Mean current of a centred pulse that a lag in the DC link, where nothing flows beside the pulse, reads so in its middle."""
+    """The mean current of a centred pulse, if the sensor in the DC link samples `reading` in the middle of the pulse.
+    The sensor has a lag, and outside of the pulse the link has no current."""
     low, high = 0.0, 1.0
     for _ in range(60):
         middle, x = (low + high) / 2, 0.0
@@ -56,13 +60,14 @@ def half_count(value):
 
 
 def tracking(bandwidth, period):
-    """K_p and K_i of a critically damped loop of type 2 (design/loops/tracking_loop.hpp)."""
+    """K_p and K_i of a critically damped tracking loop of type 2 (design/loops/tracking_loop.hpp)."""
     x = 2 * pi * bandwidth / sqrt(3 + sqrt(10)) * period
     return 1 - exp(-2 * x), (1 - exp(-x))**2
 
 
 def noise_rms():
-    """Of the current asked for: two samples' mean through tracking loop and PI."""
+    """The rms noise of the current reference. The noise is the mean of two samples, filtered by the tracking loop and
+    the PI controller."""
     k_p, k_i = tracking(500, T)
     w = angle = out = before = squares = 0.0
     for n in range(3000):
@@ -76,14 +81,15 @@ def noise_rms():
 
 
 def missed_rms(each=360 * PAIRS / 4096, mean=400 * 2 * pi / 100):
-    """Degrees by which edges missed since the index, and sampling, make a commutation late."""
+    """The rms delay of a commutation in degrees. It has two causes: sampling, and the edges missed since the index."""
     period = 100 * PAIRS * T * 180 / pi
     u, scatter = (period + each) / 2, (period**2 + each**2) / 12
     return sqrt(each**2 * (mean / 2 + mean**2 / 3) + each * mean * u + u**2 + scatter)
 
 
 def pole_noise():
-    """Mean square of what two poles leave of the mean of two samples, for the lag of design/loops/sensorless_observer.hpp."""
+    """The mean square of the mean of two samples after two poles. The poles are those of the lag in
+    design/loops/sensorless_observer.hpp."""
     m = 0.2 * pi / 3 / PAIRS * K_T / U / T - 0.5
     p, slow, estimate, squares = m / (2 + m), 0.0, 0.0, 0.0
     for n in range(200):
@@ -93,15 +99,15 @@ def pole_noise():
     return squares
 
 
-LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees of a commutation by single samples at 60 rad/s
-E_20 = pi / 3 / PAIRS / 20  # a sector at 20 rad/s
+LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees; the error of a commutation at 60 rad/s, with single samples
+E_20 = pi / 3 / PAIRS / 20  # s; the duration of a sector at 20 rad/s
 CHIP_LAG = degrees(atan(1e4 * PAIRS * 2e-6**2 / tracking(200, 2e-6)[1]))
-PERIOD = PAIRS * T * 180 / pi  # degrees per rad/s
+PERIOD = PAIRS * T * 180 / pi  # electrical degrees per period, for each rad/s
 ROUNDS = degrees(sqrt(2) / 2 * 5 / 4096 / 2) + 360 / 65536
 COUNT = 360 / 16384
 
 
-RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees about the angle where a pair has no torque
+RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees; the error about the angle at which a pair has no torque
 
 
 def ramp(part):
@@ -112,7 +118,7 @@ def around(value, by):
     return value - by, value + by
 
 
-# (min, max) of each requirement; None: the file has none.
+# (min, max) of each requirement. None: the file has no such limit.
 LAWS = {
     "hall-hysteresis": [near(5 + 10, 1e-4 / 15), near(10 - 5, 1e-4 / 5)],
     "hall-magnets": [near(3, 1e-4 / 3), (LOOP_GAIN * 100 * (360 / 357 - 360 / 363), None)],
@@ -134,7 +140,7 @@ LAWS = {
     "sensorless-luenberger": [(None, LOOK / 0.88 * sqrt(pole_noise()))],
     "sensorless-sliding-mode": [near(60, T * 60 * PAIRS * 3 / pi + 0.004)],
     "sensorless-flux-linkage": [around(30 * (1 / sqrt(0.88) - 1), 60 * PERIOD / 2)],
-    # The delay is below an off-time; the lead compensates the comparators' low-pass.
+    # The delay is shorter than an off-time. The lead compensates the low-pass of the comparators.
     "sensorless-comparators": [(None, 60 * PERIOD)],
     "hall-glitch": [near(100, T / SECTOR + 0.004)],
     "hall-60": [near(100, T / SECTOR + 0.004)],
@@ -144,8 +150,8 @@ LAWS = {
     "hall-misplaced": [(LOOP_GAIN * 100 * (60 / 55 - 60 / 66), None),
                        (None, K_T / J * LOOP_GAIN * 100 * (60 / 55 - 60 / 66) * SECTOR)],
     "hall-misplaced-six": [(None, K_T / J * (LOOP_GAIN * 100 * (1 - 60 / 66) * SECTOR / 10 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
-    # The bound. Places are right to two ticks of 1 us and times to one more, at both ends of the narrowest sector and in both directions.
-    # The error is held for the widest sector.
+    # An upper bound. The angle of an edge is right within two ticks of 1 us, and a time within one more tick. This is true at
+    # both ends of the narrowest sector and in both directions. The error acts for the duration of the widest sector.
     "hall-calibrated": [(None, K_T / J * (LOOP_GAIN * 100 * 4 * 3e-6 / (SECTOR * 55 / 60) * SECTOR * 66 / 60 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
     "encoder": [(450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
     "absolute-encoder": [(1000 - 2 * 360 / 2**14, 1000 + 2 * 360 / 2**14), (None, 2 * 360 / 2**14)],

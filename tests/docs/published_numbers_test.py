@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""published_numbers_test.py: every number that README.md and docs/ print is judged by a law, not only by what is printed today.
+"""published_numbers_test.py: a law checks every number in README.md and docs/. A comparison with the present output
+is not sufficient.
 
-What a page shows is found by its blocks and tables. A block whose numbers no law judges fails, with its place. The laws stand in
-laws/: each says what must be true of the values by physics, by a sum, by a closed form or by a second way.
-"""
+The numbers are found by blocks and tables. A block without a law fails, and the message names its place. The laws are
+in laws/. Each law uses physics, a sum, a closed form or a second computation."""
 import random
 import re
 import unittest
@@ -15,7 +15,7 @@ PRINTED = re.compile(r"(?<![\w.^-])\d+(?:\.\d+)?(?![\w-]*\.toml)")
 
 
 def walk():
-    """Each spot with the command above it and the files that its page has written so far."""
+    """Each spot with the command above it, and the files that its page has written before."""
     for name in spots.pages():
         command, written = "", {}
         for spot in spots.spots_of(name):
@@ -32,7 +32,7 @@ class PublishedNumbers(unittest.TestCase):
     maxDiff = None
 
     def judge(self, spot, command, written):
-        """Whether any law judged it."""
+        """Returns whether a law has checked the spot."""
         by_run, law = run_output.judges(spot), pages_laws.law_of(spot)
         if by_run:
             run_output.judge(self, spot, command, written)
@@ -49,7 +49,7 @@ class PublishedNumbers(unittest.TestCase):
         self.assertEqual([], unjudged, "nobody judges these numbers: give each a law in tests/docs/laws")
 
     def test_a_number_that_is_ten_times_what_it_was_is_seen(self):
-        """The laws can fail: of printed results that are made ten times as large most are noticed."""
+        """The laws can fail: if printed results are multiplied by ten, the laws notice most of these errors."""
         draw, seen, changed = random.Random(20261127), 0, 0
         for spot, command, written in walk():
             law = pages_laws.law_of(spot)

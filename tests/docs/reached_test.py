@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""reached_test.py: every page is reached by links from README.md."""
+"""reached_test.py: links lead from README.md to every page."""
 import re
 import unittest
 

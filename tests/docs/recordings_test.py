@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""recordings_test.py PROGRAM: what the program says of recorded real motors is what others measured of them."""
+"""recordings_test.py PROGRAM: the program's results for recorded real motors agree with published measurements."""
 import json
 import math
 import pathlib
@@ -22,7 +22,8 @@ class Recordings(unittest.TestCase):
         return json.loads(self.desk.shell(f"./run motor emf data/recordings/{words} --json"))
 
     def test_the_bly172s_is_a_sine_of_38_3_mV_s(self):
-        """2.010 V peak at 33.4 Hz by another least-squares fit, 38.3 mV s/rad: each rounded to its last digit."""
+        """Another least-squares fit found a peak of 2.010 V at 33.4 Hz, and 38.3 mV s/rad. Each number is rounded to
+        its last digit."""
         told = self.emf("bly172s-emf.csv --pole-pairs 4")
         peak = told["constants_V_s_per_electrical_rad"]["line_peak"]
         self.assertAlmostEqual(4e3 * peak["value"], 38.3, delta=0.05 + 38.3 * (0.05 / 33.4 + 0.0005 / 2.01))
@@ -40,7 +41,8 @@ class Recordings(unittest.TestCase):
         self.assertAlmostEqual(first / second, 1, delta=0.004)
 
     def test_the_losses_of_cut_tops_are_those_of_a_cut_sine(self):
-        """By another way than the page's formulas: the wave itself, its Fourier integral, and it less the mean of its thirds of a turn."""
+        """The losses are computed a second time, without the page's formulas: from the samples of the wave, its
+        Fourier integral, and the wave without the mean of its thirds of a turn."""
         rows = {line.split("|")[1].strip(): [float(cell.split()[0]) for cell in line.split("|")[2:-1]]
                 for line in Page("docs/howto/measure-the-back-emf.md").text.splitlines() if line.startswith(("| cut off, 1", "| fundamental too low", "| peak too low"))}
         count = 14400
@@ -53,7 +55,7 @@ class Recordings(unittest.TestCase):
                 self.assertAlmostEqual(told, true, delta=0.5 * 10 ** (-1 if told >= 10 else -2) + 1e-4)
 
     def test_what_the_simulator_was_told_is_found_again(self):
-        for _ in walk(Page("docs/howto/find-the-hall-order.md"), self.desk):  # the page's commands write turned.csv
+        for _ in walk(Page("docs/howto/find-the-hall-order.md"), self.desk):  # the commands of the page write turned.csv
             pass
         told = json.loads(self.desk.shell("./run motor identify turned.csv --json"))
         place, edges = told["place"], [2, -1, 0, -3, 1, 1]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every exported header compiles for a chip, and its constants are known at compile time.
+// Every exported header compiles for a chip, and its constants are available at compile time.
 #include "tests/export/headers.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmware and simulation use the same bits: the definitions in exported headers are compared with the values
+// Firmware and simulation use the same bits. The definitions in exported headers are compared with the values
 // of the run.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -64,7 +64,7 @@ requires std::is_enum_v<Whole> || std::is_integral_v<Whole> std::int64_t bits(Wh
   return static_cast<std::int64_t>(x);
 }
 
-/// The bits of every member (tests/design/fields_test.cpp).
+/// The bits of every member. tests/design/fields_test.cpp proves that no member is missing.
 struct Bits {
   std::vector<std::int64_t> all;
   static constexpr bool when_run(bool) { return true; }
@@ -105,7 +105,7 @@ TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
   EXPECT_EQ(bits_of(exported_position_float::drive), bits_of(study::in_arithmetic<float>(position)));
 }
 
-/// Checks that drive and bases are equal to those of design::scaled() over the header's range.
+/// Checks that drive and bases are equal to the result of design::scaled() over the header's range.
 template <class S>
 void expect_scaled(const DriveConfig<S>& drive, const Units<S>& units, const char* name,
                    std::optional<design::OperatingRange> stated = {}) {
@@ -181,8 +181,8 @@ study::Scenario salient() {
   return s;
 }
 
-/// Checks that the constants and each step's results are equal to those of the run, for any input of the
-/// chip.
+/// Checks that the constants of the header are equal to the constants of the run. For any input of the chip,
+/// the results of each step are also equal.
 template <class S>
 void expect_field(const FieldDriveConfig<S>& header, const study::Scenario& s) {
   const auto run = study::field_in<S>(compiled(s));
@@ -274,7 +274,7 @@ TEST(ExportHeader, ExtrasComeAlong) {
   EXPECT_EQ(bits_of(extras_q31()), bits_of(design::scaled<Q31>(extras::drive(), extras::range)->config));
 }
 
-// Constants converted with the header's units are equal to the constants that scaled_product proves.
+// Constants that the header's units convert are equal to the constants that design::scaled_product() proves.
 TEST(ExportHeader, UnitsGiveTheBitsOfTheProductsScaling) {
   constexpr auto u = exported_speed_stated::units;
   ProtectedConfig<double> product;
@@ -334,7 +334,7 @@ TEST(ExportHeader, WhatDoesNotFitIsNamed) {
   EXPECT_TRUE(header_of(s, study::Arithmetic::float64));
 }
 
-// A PI that cancels the plant's pole leaves this pole, -a0, and adds a pole at 1 - b0 d1.
+// The PI cancels the plant's pole at -a0. This pole remains, and the second pole is at 1 - b0 d1.
 TEST(ExportHeader, GivenGainsAreToldWithTheirOwnPoles) {
   study::Scenario s = shipped("current-square");
   const design::ZohPlant plant = design::current_plant(1.03, 0.572e-3, s.pwm.period_s);
@@ -361,8 +361,8 @@ TEST(ExportHeader, NamespacesAreNames) {
     EXPECT_FALSE(header_of(s, study::Arithmetic::float64, bad)) << bad;
 }
 
-// A title must not reach the compiler: the comment has no line end, no line continuation and no reordering
-// characters.
+// A title must have no effect on the compiler. The comment therefore contains no line end, no line
+// continuation and no reordering characters.
 TEST(ExportHeader, TextsStayInTheirComment) {
   study::Scenario s = shipped("thesis/7.5-position");
   s.title = "a\nint b;\r*/ \u202e\u2066 gr\u00fcn \\";

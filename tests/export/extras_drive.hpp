@@ -4,7 +4,7 @@
 
 namespace extras {
 
-/// A speed drive with every extra function; all its numbers differ.
+/// A speed drive with every extra function. All its numbers differ, so that an exchange is detected.
 inline sixstep::control::DriveConfig<double> drive() {
   using namespace sixstep::control;
   DriveConfig<double> d;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_extras double|q31 FILE: writes the exporter's lines for a drive with every extra function.
+// write_extras double|q31 FILE: writes the lines that the exporter prints for a drive with every extra
+// function.
 #include <fstream>
 #include <string>
 

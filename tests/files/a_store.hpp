@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A store in its own folder, and rows for it.
+// A plan's store in a folder of its own, and rows for the store.
 #pragma once
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -60,7 +60,7 @@ class Store : public testing::Test {
             .digest = 0xffffffff00000000u + n};
   }
   static analysis::RunRecord row(std::size_t n) { return row(values(n)); }
-  /// Executes the statement in SQLite without the store's code.
+  /// Executes the statement in SQLite, without the code of the store.
   void tamper(const std::string& sql) const { ASSERT_EQ(Database::open(path())->run(sql), base::Problems{}); }
   std::string text_of_file() const {
     std::ifstream file(path(), std::ios::binary);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers from shared objects: those of data/ behave in scenarios as documented. Other files are refused
-// with the reason.
+// Controllers from shared objects. The controllers of data/ behave in scenarios as documented. Other files
+// are refused with the reason.
 #include "files/controller_file.hpp"
 
 #include <gtest/gtest.h>
@@ -69,8 +69,8 @@ double final_of(const study::Scenario& given, study::MetricKind metric, study::S
   return out ? out->comparisons[0].measured : NAN;
 }
 
-/// The drive controls current and speed to within the steps of the integers, mA, and half the PWM ripple,
-/// which a sample does not contain.
+/// The drive controls current and speed. The tolerance is the steps of the integers, in mA, and half the PWM
+/// ripple, which a sample does not contain.
 TEST(ControllerFile, IntegersHoldCurrentAndSpeed) {
   for (const double wanted : {3.0, -2.0}) {
     const auto current = read("pi_in_integers.so",
@@ -87,8 +87,8 @@ TEST(ControllerFile, IntegersHoldCurrentAndSpeed) {
   EXPECT_NEAR(final_of(*speed, study::MetricKind::mean, study::Signal::speed, 0.015), 100.0, 0.5);
 }
 
-/// With a rotor locked at angle 0, only the winding matters: the current across the magnet is half the bus
-/// voltage times the duty, divided by R. The magnet is 150 degrees behind phase a's axis.
+/// The rotor is locked at angle 0, so only the winding has an effect. The current across the magnet is half
+/// the bus voltage times the duty, divided by R. The magnet is 150 degrees behind the axis of phase a.
 TEST(ControllerFile, ThreeLegsMakeAVectorAcrossTheMagnet) {
   const auto s =
       read("sine_voltage.so",
@@ -121,7 +121,8 @@ TEST(ControllerFile, ScenariosTellWhatTheyCannotHave) {
       "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario, or the controller's numbers in control.own.number");
 }
 
-/// The digest of the inputs includes the controller's bytes, so a store detects a recompiled controller.
+/// The digest of the inputs includes the bytes of the controller. A store therefore detects a recompiled
+/// controller.
 TEST(ControllerFile, ItsBytesCountAsRead) {
   const auto digest = [](const std::string& controller) {
     files::ReadLog log;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any damage of a store is reported. A damaged store never returns a row that was not written.
+// Every damage of a store is reported. A damaged store never returns a row that was not written.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files appear completely or not at all, and the numbers in them are read back exactly.
+// A file appears completely or not at all, and the numbers in it are read back exactly.
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -21,7 +21,7 @@ namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
-/// The first line of a file that may be overwritten without --force.
+/// The first line of a file that the program may overwrite without --force.
 constexpr const char* ours = "# sixstep 0.1.0\n";
 
 class Files : public ::testing::Test {

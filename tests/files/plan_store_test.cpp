@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows in a store survive the end of the program and can be read with plain SQL.
+// The rows of a store survive the end of the program. Plain SQL can read them.
 #include "files/store/plan_store.hpp"
 
 #include <gmock/gmock.h>
@@ -135,8 +135,8 @@ TEST_F(Store, TakesNoRowOfOtherColumns) {
   EXPECT_TRUE(store->failed());
 }
 
-/// A label must have no effect in a terminal that prints the store, or in a spreadsheet that opens SQLite's
-/// export.
+/// A label must have no effect in a terminal that prints the store, or in a spreadsheet that opens an export
+/// from SQLite.
 TEST_F(Store, ShowsWhatActsInNames) {
   const std::string evil = "=1+1 \x1b[31m\n\xe2\x80\xae";
   StoredPlan odd = plan();
@@ -164,7 +164,7 @@ TEST_F(Store, ShowsWhatActsInNames) {
   EXPECT_NE(bytes.find("\"'=1+1 \\u001b[31m\\u000a\\u202e [A]\""), std::string::npos);
 }
 
-/// Rows that rows() has counted survive kill -9, and the store can be continued.
+/// Rows that rows() has counted survive kill -9. A run can then continue the store.
 TEST_F(Store, KeepsWhatItHasCountedThroughKills) {
   std::size_t told = 0;
   for (int kill = 0; kill < 10; ++kill) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The effect of an output on an existing file: owner, permissions, links, names, pipes.
+// Tests the effect of an output on an existing file: owner, permissions, links, names and pipes.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
@@ -41,7 +41,7 @@ class ReplacedFiles : public ::testing::Test {
   std::size_t entries() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
-  /// Empty after success, else the message.
+  /// Writes the file. Returns an empty text after success, else the message.
   static std::string told_writing(const Destination& to, const std::string& text) {
     base::Result<AtomicFile> file = AtomicFile::create(to);
     if (!file) return to_string(file.problems().at(0));
@@ -121,8 +121,8 @@ TEST_F(ReplacedFiles, WhatAKilledProgramLeftIsInNobodysWay) {
     ASSERT_TRUE(first && second);
     EXPECT_NE(first->temporary(), second->temporary()) << "nor do two at once share a name";
   }
-  // In a container, every program has the same process number, so the file of a killed program may have the
-  // name of the next program's file.
+  // In a container, every program has the same process number. The temporary file of a killed program may
+  // therefore have the name that the next program chooses.
   for (int count = 0; count < 64; ++count)
     with(".a.csv.tmp" + std::to_string(::getpid()) + "-" + std::to_string(count), "");
   EXPECT_EQ(told_writing(at("a.csv"), ours), "");
@@ -190,7 +190,7 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const ::pthread_t here = ::pthread_self();
   const auto signalled = [&](const auto& work) {
-    // repeated, because a signal may arrive before the call blocks
+    // The signal is repeated, because it may arrive before the call blocks.
     const std::jthread caller([&](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -207,7 +207,7 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   base::Result<AtomicFile> file = AtomicFile::create(pipe);
   ASSERT_TRUE(file);
-  // The text exceeds the pipe's capacity: without a reader, the write blocks.
+  // The text exceeds the pipe's capacity. Without a reader, the write therefore blocks.
   signalled([&] { file->write(std::string(1 << 20, 'x')); });
   EXPECT_TRUE(file->failed());
   EXPECT_TRUE(file->commit().empty()) << "whoever asked to end needs no complaint";

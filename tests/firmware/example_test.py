@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """example_test.py configs PROGRAM | cortex_m CLANG NM | avr CLANG NM
 
-configs: each example's drive_config.hpp is what the command in its comment writes.
-a chip:  the example compiles for it with all warnings as errors, and asks the linker for nothing but what the chip's
-         compiler itself brings: no floating point on the AVR, nothing at all on the Cortex-M but memory functions.
-"""
+configs: the command in the comment of each drive_config.hpp writes this file.
+a chip:  the example compiles for the chip with all warnings as errors. Its undefined functions are only those of the
+         chip's compiler: no floating point on the AVR, and only memory functions on the Cortex-M."""
 import pathlib
 import re
 import shlex
@@ -24,7 +23,7 @@ FLAGS = ["-std=c++20", "-ffreestanding", "-nostdinc++", "-fno-exceptions", "-fno
 TARGET = {"cortex_m": ["--target=thumbv7em-none-eabihf", "-mcpu=cortex-m4"],
           "avr": ["--target=avr", "-mmcu=atmega2560"]}
 MEMORY = r"memcpy|memmove|memset|__aeabi_mem\w+"
-# Integer multiplication and division, and the symbols by which avr-libc's start code clears and copies sections.
+# Integer multiplication and division, and the symbols with which the start code of avr-libc clears and copies sections.
 MAY_NEED = {"cortex_m": MEMORY,
             "avr": MEMORY + r"|__u?divmod[qhs]i4|__mul[qhs]i3|__mulsi3|__ashl\w+|__lshr\w+|__do_(clear_bss|copy_data)"}
 KIND, TOOLS = sys.argv.pop(1), []
@@ -32,7 +31,7 @@ KIND, TOOLS = sys.argv.pop(1), []
 
 class Examples(unittest.TestCase):
     def compiled(self, chip, config):
-        """With the drive_config.hpp of that folder."""
+        """Compiles the example with the drive_config.hpp of the folder `config`."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         out = pathlib.Path(folder.name) / "main.o"
@@ -87,7 +86,8 @@ class Examples(unittest.TestCase):
 
     @unittest.skipUnless(KIND == "cortex_m", "the AVR's drive times no edges")
     def test_a_header_of_another_clock_does_not_compile(self):
-        """Of a clock of 1 MHz, the scenario's default, every speed would be 72 times too low, and so the over-speed check."""
+        """With a clock of 1 MHz, the default of a scenario, every speed would be 72 times too low. The over-speed
+        protection would then not act."""
         text = (EXAMPLES / "cortex_m" / "drive_config.hpp").read_text()
         held = re.search(r"double timer_Hz = (\S+);", text)[1]
         scenario = tomllib.loads((REPOSITORY / "data/scenarios/firmware/cortex-m.toml").read_text())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The output registers of the examples, interpreted according to the manuals of the chips, are equal to the
-// gates of the command.
+// The output registers of the example firmware are interpreted according to the manuals of the chips. They
+// are equal to the gates of the command.
 #include <gtest/gtest.h>
 
 #include "faces/firmware/example/avr/bridge.hpp"
@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
-/// Every possible command of a bridge: all pairs, each kind of chopping with either switch, off.
+/// Every possible command of a bridge: off, and all pairs with each kind of chopping and either switch.
 std::vector<BridgeCommand<float>> commands() {
   std::vector<BridgeCommand<float>> all(1);
   for (const Leg source : {Leg::a, Leg::b, Leg::c})
@@ -26,9 +26,9 @@ std::vector<BridgeCommand<float>> commands() {
 }
 
 /// The gates according to RM0316 (output control bits of complementary channels, MOE = OSSR = 1), from CCxE,
-/// CCxNE and the reference OCxREF. PWM mode 1 (110) sets OCxREF in the on-time, mode 2 (111) in the rest; 101
-/// forces it high, 100 low. There is no dead time here. Without an enable bit the outputs float, which is
-/// never allowed for a gate.
+/// CCxNE and the reference OCxREF. PWM mode 1 (110) sets OCxREF in the on-time, PWM mode 2 (111) outside the
+/// on-time. Mode 101 forces OCxREF high, mode 100 low. Dead time is not included. Without an enable bit the
+/// output floats, which is never allowed for a gate.
 unsigned gates_of(const firmware::GateOutputs& out, bool on_time) {
   unsigned gates = 0;
   for (unsigned n = 0; n < 3; ++n) {
@@ -50,9 +50,9 @@ TEST(CortexM, TheTimersOutputsAreTheGates) {
   }
 }
 
-/// For each change between two commands: a leg that changes from one switch to the other without the timer's
-/// dead time is off in between, and no other leg is off. In between, no leg conducts through a switch that
-/// neither command uses. tests/target/transitions.py checks the executed image, clock by clock.
+/// Each change between two commands is tested. If a leg changes from one switch to the other without the
+/// timer's dead time, this leg is off in between, and no other leg is. In between, no leg conducts through a
+/// switch that neither command uses. tests/target/transitions.py checks the executed image, clock by clock.
 TEST(CortexM, ALegThatChangesSidesIsOffOnTheWay) {
   using firmware::BridgeOutputs;
   const auto can = [](const BridgeOutputs& o, bool pulse) { return gates_of(firmware::registers(o), pulse); };
@@ -77,7 +77,7 @@ TEST(CortexM, ALegThatChangesSidesIsOffOnTheWay) {
   EXPECT_GT(pauses, 500);
 }
 
-/// RM0316, 20.4.18, DTG: the upper bits select the step.
+/// Counts of the dead time by RM0316, 20.4.18, DTG: the upper bits select the step.
 std::uint32_t counts_of(std::uint32_t dtg) {
   if (dtg < 0x80) return dtg;
   if (dtg < 0xC0) return 2 * (64 + (dtg & 0x3f));
@@ -97,8 +97,8 @@ TEST(CortexM, ADeadTimeIsNeverShorterAndAtMostAStepLonger) {
   }
 }
 
-/// ATmega2560 data sheet, 17.11.1 and 13.2.1: with COM1x1, a pin has the timer's pulse if its bit of DDRB
-/// makes it an output. Otherwise the pin floats, and an external resistor pulls it down.
+/// ATmega2560 data sheet, 17.11.1 and 13.2.1: with COM1x1, a pin carries the timer's pulse if its bit of DDRB
+/// makes the pin an output. Otherwise the pin floats, and an external resistor pulls it down.
 unsigned gates_of(const firmware::Pins& pins, bool on_time) {
   unsigned gates = 0;
   EXPECT_EQ(pins.DDRB & 0x1f, 0);
@@ -109,10 +109,10 @@ unsigned gates_of(const firmware::Pins& pins, bool on_time) {
   return gates;
 }
 
-/// tests/target/avr_gates.py checks the sequence and the pauses between two settings on the executed image.
+/// tests/target/avr_gates.py checks the executed image for the sequence and the pauses between two settings.
 TEST(Avr, ThePinsAreTheGates) {
   for (const BridgeCommand<float>& c : commands()) {
-    // The example refuses all other drives at compile time.
+    // At compile time, the example refuses all other drives.
     if (c.chopping != Chopping::soft || c.chopped != ChoppedSwitch::upper) continue;
     for (const bool on_time : {true, false})
       EXPECT_EQ(gates_of(firmware::pins(c), on_time), gates(c, on_time));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The output of the examples on a serial line, and the commands that they accept.
+// Tests the output of the examples on a serial line, and the commands that they accept.
 #include "faces/firmware/example/log.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ std::string written(const firmware::Instant& t) {
   return out;
 }
 
-/// The time does not wrap at 2^31 us (36 minutes), or at 2^32 counts of 72 MHz (one minute).
+/// The time does not wrap at 2^31 us (36 minutes), and not at 2^32 counts of 72 MHz (one minute).
 TEST(Log, AnInstantIsItsMicrosecondsHoweverLate) {
   EXPECT_EQ(written(firmware::Instant{}), "0");
   EXPECT_EQ(written({.seconds = 0, .microseconds = 999'999}), "999999");
@@ -119,7 +119,7 @@ TEST(Commands, ASetpointInThousandths) {
   }
 }
 
-/// The message appears at the invalid character and at Enter. The next line is valid again.
+/// The message is printed at the invalid character and at Enter. The next line is read as usual.
 TEST(Commands, WhatIsNoNumberIsDroppedAsAWhole) {
   using Kind = firmware::Command::Kind;
   for (const std::string typed : {"1,5",
@@ -171,8 +171,8 @@ TEST(Commands, AStopCountsAnywhereAndNothingElseInASpoiledLine) {
   }
 }
 
-/// The commands that the main loop reads after the interrupt has stored all of `typed` in the ring. The
-/// characters in `missing` are lost on the line.
+/// Returns the commands that the main loop reads. Before that, the interrupt has stored all characters of
+/// `typed` in the ring, except the characters of `missing`, which the serial line has lost.
 std::vector<firmware::Command> obeyed(const std::string& typed, const std::string& missing = "") {
   firmware::Ring<16> ring;
   firmware::Commands commands;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a unit of FMI 2.0 holds: a description by the rules of the standard, a binary that needs nothing, sources, motor and rows.
-   fmi2_content_test.py PROGRAM SOURCE LIBRARY"""
+"""The content of a unit of FMI 2.0: a description by the rules of the standard, a binary without dependencies,
+sources, motor and rows.
+fmi2_content_test.py PROGRAM SOURCE LIBRARY"""
 import math
 import pathlib
 import re
@@ -14,7 +15,7 @@ from fmi2_units import CURRENT, FILES, FOLDER, LIBRARY, SOURCE, SPEED, exported,
 
 
 class Description(unittest.TestCase):
-    """Rules of the standard, as checks, on the units of many scenarios."""
+    """Checks the rules of the standard on the units of many scenarios."""
 
     def test_every_unit_holds_the_rules_of_the_standard(self):
         for file in [*FILES[::6], SPEED]:
@@ -116,7 +117,7 @@ class Content(unittest.TestCase):
         self.assertEqual((told.stdout.strip(), told.returncode), (ran(CURRENT)["digest"], 0), told.stderr)
 
     def test_a_unit_takes_its_motor_and_its_rows_along(self):
-        """From a folder that is gone when the unit runs."""
+        """The folder of the motor and rows is deleted before the unit runs."""
         with tempfile.TemporaryDirectory() as folder:
             here = pathlib.Path(folder)
             (here / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
@@ -132,7 +133,8 @@ class Content(unittest.TestCase):
         self.assertEqual(instance.digest(), told["digest"])
 
     def test_a_saved_state_with_any_bit_changed_is_refused(self):
-        """One bit in each byte of the unit's own numbers, and of every hundredth byte of the session's."""
+        """One bit is changed in each byte of the unit's own numbers, and in every hundredth byte of the session's
+        state."""
         unit = exported(CURRENT)
         instance, other = fmi.Instance(unit).begin(), fmi.Instance(unit)
         instance.run(1e-4, 5e-4)
@@ -149,13 +151,14 @@ class Content(unittest.TestCase):
         self.assertEqual((other.run(1e-4, unit.stop(), 5e-4), other.digest()), (unit.stop(), ran(CURRENT)["digest"]))
 
     def test_no_step_goes_beyond_the_stop_time(self):
-        """A stop time of the set-up is a limit, also one before the scenario's end; a step up to it, give or take rounding, is none beyond."""
+        """The stop time of the set-up is a limit, even if it is before the scenario's end. A step may pass it by a
+        rounding error."""
         unit = exported(CURRENT)
         instance = fmi.Instance(unit).begin(stop=1e-3)
         self.assertEqual(instance.step(0, 2e-3), fmi.ERROR)
         self.assertRegex(instance.messages[-1][2], r"0\.002 s.*stop time.*0\.001 s")
         now = 0.0
-        for _ in range(30):  # a sum of steps misses the stop time by rounding
+        for _ in range(30):  # the sum of the steps differs from the stop time by rounding
             self.assertEqual(instance.step(now, 1e-3 / 30), fmi.OK, instance.messages)
             now += 1e-3 / 30
         self.assertEqual(instance.step(now, 1e-6), fmi.ERROR)

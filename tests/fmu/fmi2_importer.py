@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An importer of FMI 2.0 for co-simulation in ctypes: it unzips a unit, reads its description, and calls it."""
+"""An importer of FMI 2.0 for co-simulation with ctypes. It unzips a unit, reads its description, and calls its
+functions."""
 import ctypes as C
 import pathlib
 import tempfile
@@ -65,7 +66,7 @@ class Unit:
 
 
 class Instance:
-    """An instance; `messages` has what it logged as (status, category, text)."""
+    """An instance. `messages` is its log as (status, category, text)."""
 
     def __init__(self, unit, *, guid=None, resources=None, kind=1, name=b"drive", logging=False):
         self.unit, self.messages = unit, []
@@ -98,7 +99,8 @@ class Instance:
         return self.call("DoStep", at, size, 1)
 
     def run(self, step, stop, start=0.0):
-        """Steps of this size, or of those that step() gives, to `stop` exactly. Returns the time of the last one."""
+        """Makes steps until exactly `stop`. `step` is the step size, or a function that returns it. Returns the end
+        of the last step."""
         now, n = start, 0
         while now < stop:
             n += 1

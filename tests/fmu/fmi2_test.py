@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Units of FMI 2.0, driven by an importer of our own: bits are those of the program, and no call crashes.
-   fmi2_test.py PROGRAM SOURCE LIBRARY [--long]"""
+"""Units of FMI 2.0, called by this repository's importer. The bits are equal to those of the program, and no call
+crashes.
+fmi2_test.py PROGRAM SOURCE LIBRARY [--long]"""
 import concurrent.futures
 import ctypes as C
 import math
@@ -67,7 +68,8 @@ class Bits(unittest.TestCase):
         self.assertAlmostEqual(pushed.get("load_N"), 1.5, delta=1e-12)
 
     def test_a_changed_input_is_an_at_of_the_scenario(self):
-        """At communication points of 1 ms, with steps of any length between them."""
+        """The inputs change at communication points of 1 ms. The steps between them have any length. The result is
+        equal to a scenario with the same changes in [[at]]."""
         unit, digests, logged = exported(CURRENT), set(), None
         for step in (1e-3, 1e-4, 37e-6):
             instance = fmi.Instance(unit, logging=True).begin()

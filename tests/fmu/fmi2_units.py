@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program, a folder and units exported into it, for the tests of FMI 2.0: each is called as TEST.py PROGRAM SOURCE LIBRARY [--long]."""
+"""The program, a folder and the units exported into it, for the tests of FMI 2.0. Each test is called as TEST.py
+PROGRAM SOURCE LIBRARY [--long]."""
 import functools
 import json
 import pathlib

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Units of FMI 3.0: early return, event mode with clocks, intermediate update. None of them changes a bit.
-   fmi3_events_test.py PROGRAM SOURCE LIBRARY"""
+"""Units of FMI 3.0: early return, event mode with clocks, intermediate update. These features change no bit.
+fmi3_events_test.py PROGRAM SOURCE LIBRARY"""
 import ctypes as C
 import functools
 import math
@@ -26,7 +26,7 @@ def unit_of(file, *words):
 
 
 class Clocked(fmi.Instance):
-    """An instance in event mode; `seen` has (instant, tick, Hall edge) of each event."""
+    """An instance with event mode. `seen` has (instant, tick, Hall edge) for each event."""
 
     def __init__(self, unit, early=True, **more):
         super().__init__(unit, events=True, early=early, **more)
@@ -38,7 +38,7 @@ class Clocked(fmi.Instance):
         return tuple(values)
 
     def handle(self, now):
-        """Event mode, from its begin to step mode."""
+        """Handles an event, from the begin of event mode to step mode."""
         clocks = self.clocks()
         if any(clocks):
             self.seen.append((now, *clocks))
@@ -50,7 +50,8 @@ class Clocked(fmi.Instance):
         assert self.call("EnterStepMode") == OK, self.messages
 
     def walk(self, step, stop):
-        """Communication points of `step`; a step that returns early goes on from where it returned."""
+        """Makes steps with communication points at multiples of `step`. After an early return, the next step begins
+        at the returned time."""
         now, n = 0.0, 0
         self.handle(now)
         while now < stop:
@@ -70,7 +71,7 @@ class Clocked(fmi.Instance):
 
 
 def edges_of(file, *words):
-    """Instants of changes of the Hall code by the program's own trace, s."""
+    """The instants in s at which the Hall code changes in the program's trace."""
     vcd = FOLDER / "run.vcd"
     sixstep("run", file, "--vcd", vcd, "--force", "--quiet", *words, code=None)
     names, code, at, found = {}, {}, 0, []
@@ -190,7 +191,7 @@ class EarlyReturn(unittest.TestCase):
 
 class Intermediate(unittest.TestCase):
     def updated(self, early=False, ask=None):
-        """Events of a whole run at one step, with the values that the callback read."""
+        """Runs to the end in one step. Returns the events, with the values that the callback read."""
         unit, seen, statuses = unit_of(PLAIN, *FAST), [], set()
 
         def update(_, t, set_requested, get_allowed, finished, can_return, asked, at):
@@ -218,7 +219,8 @@ class Intermediate(unittest.TestCase):
         for t, speed, current in seen[:60]:
             reader.step(now, t - now)
             now = t
-            self.assertAlmostEqual(reader.get("speed_rad_s"), speed, delta=1e-8)  # an event has a fraction of a picosecond, a communication point none
+            # The time of an event has a fraction of a picosecond, the time of a communication point has none.
+            self.assertAlmostEqual(reader.get("speed_rad_s"), speed, delta=1e-8)
             self.assertAlmostEqual(reader.get("i_a_A"), current, delta=1e-6)
         self.assertEqual(instance.digest(), ran(PLAIN, *FAST)["digest"])
 
@@ -260,7 +262,7 @@ class Misuse(unittest.TestCase):
         self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
 
     def test_calls_in_any_order_crash_nothing(self):
-        """Of drives and plants, in any mode: each answers by a status, and a refusal by a message."""
+        """Drives and plants in any mode. Each call returns a status, and each refusal has a message."""
         seed = random.randrange(10**9)
         print(f"seed {seed}", file=sys.stderr)
         draw, statuses = random.Random(seed), {}

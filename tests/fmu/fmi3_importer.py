@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An importer of FMI 3.0 for co-simulation in ctypes: it unzips a unit, reads its description, and calls it."""
+"""An importer of FMI 3.0 for co-simulation with ctypes. It unzips a unit, reads its description, and calls its
+functions."""
 import ctypes as C
 import pathlib
 import tempfile
@@ -51,7 +52,7 @@ class Unit:
 
 
 class Instance:
-    """An instance; `messages` has what it logged as (status, category, text). `update` is called at events within a step."""
+    """An instance. `messages` is its log as (status, category, text). `update` is called at events within a step."""
 
     def __init__(self, unit, token=None, events=False, early=False, update=None, intermediate=()):
         self.unit, self.messages = unit, []

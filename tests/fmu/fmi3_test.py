@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""sixstep export fmu --fmi 3: what differs from FMI 2.0, which fmi2_test.py holds in all; both share faces/fmu/drive.c.
-   fmi3_test.py PROGRAM SOURCE LIBRARY"""
+"""sixstep export fmu --fmi 3: the differences from FMI 2.0. fmi2_test.py tests all common features, because both
+versions use faces/fmu/drive.c.
+fmi3_test.py PROGRAM SOURCE LIBRARY"""
 import ctypes as C
 import functools
 import json

@@ -11,7 +11,7 @@
 
 static void* library;
 
-/* ISO C has no cast from an object to a function. */
+/* ISO C has no cast from an object pointer to a function pointer. */
 static void find(const char* name, void* function) {
   void* found = dlsym(library, name);
   if (!found) {

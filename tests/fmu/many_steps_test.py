@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two instances in one process, each in its thread, over 10^5 communication steps (--long: 10^6): memory stays flat, and the bits
-of each are those of a run alone.   many_steps_test.py PROGRAM SOURCE LIBRARY [--long]"""
+"""Two instances in one process, each in its own thread, make 10^5 communication steps (--long: 10^6). The memory does
+not grow, and each has the same bits as alone.
+many_steps_test.py PROGRAM SOURCE LIBRARY [--long]"""
 import ctypes as C
 import threading
 import unittest
@@ -26,7 +27,8 @@ def resident_kB():
 
 
 class Stepped:
-    """An instance that takes equal steps to its end. `kB` has the resident memory at a tenth of them and at their end."""
+    """An instance that makes equal steps to its end. `kB` is the resident memory after a tenth of the steps and at
+    the end."""
 
     def __init__(self, version, unit, set_up=None, **more):
         self.instance = (fmi2 if version == 2 else fmi3).Instance(unit, **more).begin()
@@ -85,7 +87,7 @@ class ManySteps(unittest.TestCase):
         self.assertEqual({one, again}, {alone.run(1e-3, unit.stop()).digest()})
 
     def test_gates_that_change_at_each_step_take_few_bytes(self):
-        """They are kept for a saved state: 16 bytes, and what a growing table has in reserve."""
+        """The changes are stored for a saved state. Each needs 16 bytes, plus the reserve of a growing table."""
         unit = exported(2, "--kind", "plant", name="gates")
         instance, size = fmi2.Instance(unit).begin(), unit.stop() / STEPS
         reference, value, before = (C.c_uint * 1)(unit.reference("gate_b_lower")), (C.c_int * 1)(), None

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Units without controller: one outside has the bits of the same one inside, and gates act when they are set.
-   plant_test.py PROGRAM SOURCE LIBRARY"""
+"""Units without a controller. With a controller outside, the bits are the same as with this controller inside. Gates
+act at the instant at which they are set.
+plant_test.py PROGRAM SOURCE LIBRARY"""
 import ctypes as C
 import functools
 import math
@@ -47,7 +48,7 @@ def unit_of(version, name, inputs, *words):
 
 
 class Plant:
-    """An instance of either version. Arrays are written and read as three scalars of FMI 2 or one array of FMI 3."""
+    """An instance of either version. An array is three scalars in FMI 2 and one array in FMI 3."""
 
     def __init__(self, version, name, inputs, *words):
         self.version, self.unit = version, unit_of(version, name, inputs, *words)
@@ -66,7 +67,7 @@ class Plant:
         return self.is_.call("Set" + of, (C.c_uint * 1)(self.unit.reference(name)), 1, array)
 
     def put_three(self, array, one, values):
-        """Statuses; `one` has {} in the place of a, b, c."""
+        """Writes three values. Returns the status. `one` is the name of a scalar, with {} in the place of a, b, c."""
         return self.put(array, values) if self.version == 3 else max(self.put(one.format(k), v) for k, v in zip("abc", values))
 
     def get(self, name):
@@ -98,7 +99,7 @@ class Plant:
 
 
 class OwnController:
-    """The step function of a compiled controller, on the outputs and inputs of a unit."""
+    """The step function of a compiled controller, connected to the outputs and inputs of a unit."""
 
     def __init__(self, name):
         class Controller(C.Structure):
@@ -129,7 +130,7 @@ class OwnController:
 
 class Bits(unittest.TestCase):
     def controlled(self, version, name, inputs, controller, save_at=None, part=1.0):
-        """Steps of the PWM period times `part`; the controller acts at the ticks."""
+        """Makes steps of the PWM period times `part`. The controller acts at the ticks."""
         plant, own = Plant(version, name, inputs), OwnController(controller)
         for n in range(120):
             if n == save_at:
@@ -163,7 +164,8 @@ class Bits(unittest.TestCase):
         self.assertEqual(plant.digest(), told["digest"])
 
     def test_sums_of_step_sizes_reach_the_ticks(self):
-        """Communication points that an importer adds up miss k T by rounding, and the controller acts at each tick."""
+        """An importer adds up the step sizes. The communication points differ from k T by rounding, with the period
+        T. The controller still acts at each tick."""
         plant, own, now, ticks = Plant(2, "plain", "pair"), OwnController("pair_of_the_code"), 0.0, 0
         size = PERIOD / 3
         for n in range(360):
@@ -179,7 +181,7 @@ class Bits(unittest.TestCase):
         self.assertEqual(plant.digest(), told["digest"])
 
     def chopped(self, set_gates, advance, sector):
-        """The pair of the sector, its upper switch on for 0.4 of the period."""
+        """Drives the pair of the sector, with the upper switch on for 0.4 of the period."""
         pairs = [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)]
         for n in range(100):
             source, sink = pairs[int(sector())]
@@ -234,10 +236,11 @@ class Measured(unittest.TestCase):
         return plant
 
     def test_they_hold_the_last_control_tick_whatever_the_steps(self):
-        """Steps of any size show what the same unit, stepped from tick to tick, has at the last tick."""
+        """Steps of any size show the values of the last tick. The reference is the same unit, stepped from tick to
+        tick."""
         for version, inputs, words, first in ((2, "pair", self.MIDDLE, 0.5), (3, "legs", self.MIDDLE, 0.5), (3, "pair", self.NOISE, 0.0)):
             ticked, at_ticks = self.driven(version, inputs, words), []
-            at_ticks.append(self.seen(ticked))  # first = 0.5: nothing is measured yet
+            at_ticks.append(self.seen(ticked))  # first = 0.5: no sample exists yet
             for k in range(100):
                 if k + first > 0:
                     self.assertEqual(ticked.step((k + first) * PERIOD), OK, ticked.messages())
@@ -257,7 +260,7 @@ class Measured(unittest.TestCase):
                     self.assertEqual(plant.digest(), digest)
 
     def test_ticks_between_hall_edges_are_measured_too(self):
-        """In event mode with the Hall clock alone a step stops at edges, and shows the tick before."""
+        """In event mode with only the Hall clock, a step ends at a Hall edge. It shows the values of the tick before."""
         ticked = self.driven(3, "pair", ())
         at_ticks = [self.seen(ticked)] + [(ticked.step(k * PERIOD), self.seen(ticked))[1] for k in range(1, 120)]
         edged = fmi3.Instance(unit_of(3, "plain", "pair"), events=True, early=True)
@@ -284,7 +287,7 @@ class Laws(unittest.TestCase):
         R, L, U = 1.03, 0.572e-3, 24  # terminal values of data/motors/maxon-251601.toml
         for version in (2, 3):
             plant = Plant(version, "held", "gates")
-            plant.gates(0b001001)  # upper a, lower b
+            plant.gates(0b001001)  # upper switch of leg a, lower switch of leg b
             for t in (20e-6, 130e-6, 1e-3):
                 self.assertEqual(plant.step(t), OK)
                 expected = U / R * (1 - math.exp(-t * R / L))
@@ -294,7 +297,8 @@ class Laws(unittest.TestCase):
             self.assertAlmostEqual(a - b, U, delta=1e-9)
 
     def test_gates_act_at_their_communication_point(self):
-        """At 137.5 us: from there, and not from a control tick on, the pair's current rises."""
+        """The gates are set at 137.5 us. The current of the pair rises from this instant on, and not from the next
+        control tick on."""
         plant, begin, t = Plant(2, "held", "gates"), 137.5e-6, 61e-6
         plant.step(begin)
         plant.gates(0b001001)
@@ -303,7 +307,7 @@ class Laws(unittest.TestCase):
         self.assertAlmostEqual(plant.currents()[0], expected, delta=2e-9 * expected)
 
     def test_hall_code_follows_the_angle(self):
-        """One code per sector of 60 electrical degrees, and the six differ."""
+        """Each sector of 60 electrical degrees has one Hall code, and all codes differ."""
         plant, pole_pairs, codes, draw = Plant(3, "plain", "gates"), 8, {}, random.Random(2)
         while plant.now < 5.9e-3:
             plant.step(plant.now + draw.uniform(1e-6, 2e-5))
@@ -318,7 +322,7 @@ class Laws(unittest.TestCase):
             plant.step(2.36e-3)
             self.assertEqual(plant.get("encoder_count"), math.floor(plant.get("angle_rad") * 2000 / (2 * math.pi)))
             self.assertGreater(plant.get("encoder_count"), 50)
-        for n in range(1, 60):  # several reads within a segment, and at ticks
+        for n in range(1, 60):  # reads several times within a segment, and at ticks
             plant.step(2.36e-3 + n * 10e-6)
             quarter = plant.get("encoder_count") % 4
             self.assertEqual((plant.get("encoder_A"), plant.get("encoder_B")), (int(quarter < 2), int(quarter in (1, 2))))
@@ -369,7 +373,8 @@ class Misuse(unittest.TestCase):
         self.assertEqual((plant.step(1e-4), legs.step(1e-4)), (OK, OK))
 
     def test_a_pair_of_equal_legs_is_refused_and_a_valid_one_goes_on(self):
-        """From the start values `enabled` alone is a pair: source a, sink b. Both the same leg are none, whoever names it first."""
+        """With the start values, `enabled` alone drives a pair: source a, sink b. Two equal legs are no pair; the
+        order in which the caller sets them is irrelevant."""
         for version in (2, 3):
             self.assertEqual([self.start_of(version, name) for name in ("source", "sink", "duty", "enabled")], ["0", "1", "0", "false"])
             plant = Plant(version, "held", "pair")

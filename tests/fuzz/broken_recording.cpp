@@ -19,7 +19,7 @@ namespace {
 
 using Table = std::vector<std::vector<std::string>>;
 
-/// Texts that instruments write instead of a number, in addition to hostile_literals.hpp.
+/// Texts that instruments write instead of a number. They are used in addition to hostile_literals.hpp.
 constexpr const char* cells[] = {"",       "---",    "OL",       "#DIV/0!", "1,5",      "1.2.3",
                                  "+5",     ".5",     "1e",       "0x1",     "12:30:01", "1e12",
                                  "1.1e12", "1e-300", "-1e-12",   "3.3 V",   "-0",       "7",
@@ -29,8 +29,8 @@ constexpr const char* headings[] = {"time [s]", "time", "t_ms",      "hall",    
                                     "u_c",      "CH1",  "",          "time [V]",    "hall1 [s]", "[s]",
                                     "s",        "V",    "\x1b[31m",  "\xe2\x80\xae"};
 
-/// A recording of a motor turned at constant speed, six to forty rows per sector: Hall lines, a code or
-/// voltages, with or without a heading. The table is valid; other functions damage it.
+/// A recording of a motor that is turned at constant speed, with six to forty rows per sector. It contains
+/// Hall lines, a code or voltages, with or without a heading. The table is valid; other functions damage it.
 Table drawn_table(Draw& draw) {
   const int kind = draw.one_of(5), rows = 12 * (20 + draw.one_of(60));
   const double row_deg = draw.decades(1.5, 10.0), row_s = draw.decades(1e-6, 1e-2),
@@ -167,7 +167,7 @@ class RecordingBreaker {
     return "a column in another unit";
   }
 
-  /// A burst: the rows of a range alternate.
+  /// Simulates a bouncing contact: the rows of a range alternate.
   const char* bounce() {
     const std::size_t from = at(table_.size()), length = std::min(table_.size() - from, at(60));
     const std::vector<std::string> other = line();

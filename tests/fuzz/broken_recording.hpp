@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A damaged recording of a motor on a bench: by an exporter, a full disk, an editing error or an attacker.
+// A recording of a motor on a bench, damaged as by an exporter, a full disk, an editing error or an attacker.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@ struct BrokenRecording {
   std::string text;
 };
 
-/// A damaged recording; the seed determines the table and its damage.
+/// A damaged recording. The seed determines the table and its damage.
 BrokenRecording broken_recording(std::uint64_t seed);
 
 }  // namespace sixstep::testing

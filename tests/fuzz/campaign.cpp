@@ -18,7 +18,8 @@
 namespace sixstep::testing {
 namespace {
 
-/// CPU time of a thread, s. It does not depend on the load of the machine. No valid case takes so long.
+/// CPU time of a thread, in s, after which a case counts as hung. It does not depend on the load of the
+/// machine. No valid case needs this time.
 constexpr double hung_s = 60.0;
 constexpr std::size_t most_broken = 200;
 
@@ -33,7 +34,7 @@ struct Worker {
 thread_local std::uint64_t seed_at_hand = 0;
 const char* campaign_at_hand = "";
 
-/// Prints the seed, with async-signal-safe calls only.
+/// Prints the seed. Only async-signal-safe calls are allowed in this function.
 [[maybe_unused]] void on_crash(int signal) {
   char text[64];
   char* at = text + sizeof text;
@@ -50,7 +51,7 @@ const char* campaign_at_hand = "";
 #if defined(__SANITIZE_ADDRESS__)
 void catch_crashes() {}  // the sanitizer prints more than this handler
 #else
-/// The handler has a separate stack, because an overflowed stack has no space for it.
+/// The handler has a separate stack, because an overflowed stack has no space for the handler.
 void catch_crashes() {
   static thread_local std::unique_ptr<char[]> stack(new char[1 << 16]);
   const stack_t own{.ss_sp = stack.get(), .ss_flags = 0, .ss_size = 1 << 16};
@@ -79,8 +80,8 @@ void work(const Campaign& c, std::atomic<std::uint64_t>& next, Worker& own) {
   own.done = true;
 }
 
-/// Watches the workers for a case that takes too long. The caller joins the workers afterwards, so each
-/// thread's clock exists until then.
+/// Watches the workers for a case that takes too long. The caller joins the workers only afterwards, so the
+/// clock of each thread exists until then.
 void watch(const Campaign& c, std::vector<Worker>& workers) {
   for (bool busy = true; busy;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

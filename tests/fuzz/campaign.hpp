@@ -41,10 +41,11 @@ struct CampaignResult {
   void add(const CampaignResult& other);
 };
 
-/// Runs the cases. A crash, or a case of minutes, ends the program and prints the seed.
+/// Runs the cases. After a crash, or if a case takes minutes, the program prints the seed and ends.
 CampaignResult carry_out(const Campaign& campaign);
 
-/// The results as Markdown tables: counts, kinds, and the used fraction of each law's tolerance.
+/// The results as Markdown tables: the counts, the kinds, and the fraction of each law's tolerance that was
+/// used.
 std::string as_markdown(const Campaign& campaign, const CampaignResult& result);
 
 }  // namespace sixstep::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers of one drawn case. Only the seed determines them.
+// The random numbers of one case. Only the seed determines them.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace sixstep::testing {
 
-/// The mapping to intervals is the project's code: the distributions of standard libraries differ, but a seed
-/// must always give the same numbers.
+/// A seed must always give the same numbers. The distributions of standard libraries differ, so the project's
+/// own code maps the random bits to intervals.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
-  /// Every decade is equally likely.
+  /// A number from `low` to `high`; every decade is equally likely.
   double decades(double low, double high) { return low * std::pow(high / low, unit()); }
   bool chance(double p) { return unit() < p; }
   int one_of(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
@@ -31,7 +31,8 @@ inline std::uint64_t environment(const char* name, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// The seeds of a test: SIXSTEP_FUZZ_SEED=n selects only seed n, SIXSTEP_FUZZ_COUNT sets the number of seeds.
+/// The seeds of a test. SIXSTEP_FUZZ_SEED=n selects only the seed n. SIXSTEP_FUZZ_COUNT sets the number of
+/// seeds.
 struct Seeds {
   std::uint64_t first, count;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers, sensors and protection.
+// Draws controllers, sensors and protection.
 #include <algorithm>
 
 #include "tests/fuzz/drawn_parts.hpp"
@@ -11,8 +11,8 @@ using control::Mode;
 
 namespace {
 
-/// Draws gains in one of three forms: settling time with damping, d1 with d0, k_p with k_i. `natural` is a
-/// proportional gain of ordinary size.
+/// Draws gains in one of three forms: settling time with damping, d1 with d0, or k_p with k_i. `natural` is a
+/// proportional gain of usual size.
 template <class Loop>
 void draw_gains(Draw& draw, Loop& loop, double natural, double period_s, double slowest_periods) {
   const double d1 = natural * draw.decades(0.1, 1.5), ratio = draw.between(-1.0, -0.6);
@@ -57,8 +57,8 @@ void draw_limits(Draw& draw, Scenario& s, const Scales& of) {
     s.control.regeneration.limit_V = draw.between(1.05, 1.5) * of.U_V;
 }
 
-/// The full output of the speed loop is a torque. A natural gain reaches it for an error of a tenth of the
-/// top speed.
+/// The full output of the speed loop is a torque. With the natural gain, the output is full at an error of a
+/// tenth of the top speed.
 void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   SpeedLoop& loop = s.control.speed;
   if (draw.chance(0.2)) loop.output = SpeedOutput::duty;
@@ -71,7 +71,7 @@ void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   if (loop.derivative_s && draw.chance(0.5)) loop.derivative_filter_s = *loop.derivative_s * draw.unit();
 }
 
-/// A sensorless start and the following run, with or without Hall probes.
+/// Draws a sensorless start and the run after it, with or without Hall probes.
 void draw_sensorless(Draw& draw, Scenario& s) {
   s.control.drive = FirmwareKind::sensorless;
   s.pwm.alignment = Alignment::centre;
@@ -164,7 +164,7 @@ void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
                           static_cast<Level01>(draw.one_of(2))};
 }
 
-/// Thresholds that are within the converters' range and that normal operation does not reach.
+/// Draws thresholds that are within the converters' range and that normal operation does not reach.
 void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   Protection& p = s.protection;
   const bool loop = s.control.mode != Mode::off && s.control.mode != Mode::duty &&
@@ -178,7 +178,7 @@ void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   p.voltage_samples = 1 + draw.one_of(10);
   if (draw.chance(0.4)) {
     p.stall_current_A = draw.between(0.2, 0.7) * *p.over_current_A;
-    // A threshold above the speed loop's limit would never trip.
+    // A threshold above the speed loop's limit would never trigger.
     if (loop && s.control.mode != Mode::current)
       p.stall_current_A = std::min(*p.stall_current_A, 0.5 * of.kept_A);
     p.stall_s = draw.between(5.0, 200.0) * s.pwm.period_s;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random drive: machine, devices, supply, load, board, controller, start. Parameters are drawn as ratios to
-// the machine's scales (stall current, no-load speed, PWM period), so that they span decades and most drives
-// still run.
+// A random drive: machine, devices, supply, load, board, controller and start. Parameters are drawn as ratios
+// to the scales of the machine (stall current, no-load speed, PWM period). They therefore span decades, and
+// most drives still run.
 #pragma once
 #include <algorithm>
 #include <sstream>
@@ -59,7 +59,8 @@ struct DrawnDrive : Board {
                  draw.chance(0.7) ? draw.decades(1e-3, 0.3) * machine.R_ohm : 0.0};
     start.bus_V = supply.V_0_V;
     if (!draw.chance(0.4)) return;
-    // C is at least L/R^2, so that the stall current of the winding cannot discharge the capacitor below 0 V.
+    // The capacitance C is at least L/R^2, so that the stall current of the winding cannot discharge the
+    // capacitor below 0 V.
     const double least = machine.L_H / (machine.R_ohm * machine.R_ohm);
     supply.R_b_ohm = draw.decades(1e-2, 0.5) * machine.R_ohm;
     supply.C_F = draw.decades(1.0, 300.0) * least;
@@ -92,7 +93,7 @@ struct DrawnDrive : Board {
     drive.current = {d1, d1 * draw.between(-1.1, -0.5), supply.V_0_V};
     if (draw.chance(0.5)) {
       drive.current_control = CurrentControl::hysteresis;
-      // The first factor is the number of periods in which the current crosses the band at full voltage.
+      // The first factor is the number of periods in which the current changes by the band at full voltage.
       drive.hysteresis.band_A = draw.decades(0.1, 10.0) * period_s() / L_tt() * supply.V_0_V;
       drive.hysteresis.watch = static_cast<Watch>(draw.one_of(3));
       if (drive.hysteresis.watch != Watch::none) board.delayed = false;
@@ -156,7 +157,7 @@ struct DrawnDrive : Board {
   }
 };
 
-/// The message of a failure: the command that repeats the case, and the drawn values.
+/// The text for a failure: the command that repeats the case, and the drawn values.
 inline std::string reproduce(std::uint64_t seed, const DrawnDrive& d) {
   const rig::ModulatorConfig& m = d.board.modulator;
   std::ostringstream s;

@@ -34,7 +34,7 @@ void draw_levels(Draw& draw, Reference& r, const Scenario& s, const Scales& of, 
   }
 }
 
-/// An instant at a tick, in the middle of a period, a picosecond after a tick, or anywhere.
+/// Draws an instant: at a tick, in the middle of a period, a picosecond after a tick, or anywhere.
 double instant(Draw& draw, const Scenario& s) {
   const double period = s.pwm.period_s, any = draw.between(0.0, 0.95) * s.duration_s;
   const double tick = static_cast<double>(static_cast<int>(any / period)) * period;
@@ -128,7 +128,7 @@ void draw_events(Draw& draw, Scenario& s, const Scales& of) {
   }
 }
 
-/// Draws figures of every kind. Figures of another signal or mode are covered by the tests of the check.
+/// Draws figures of every kind. The tests of study::check() cover figures of another signal or mode.
 void draw_measures(Draw& draw, Scenario& s) {
   for (int n = draw.one_of(4); n > 0; --n) {
     static constexpr MetricKind kinds[] = {MetricKind::final_value,  MetricKind::mean,

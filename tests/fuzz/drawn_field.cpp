@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes some lean drives field-oriented, without the keys of six-step. The keys are drawn last, so that the
-// other values of a seed do not change.
+// Makes some of the lean drives field-oriented, without the keys of six-step. The keys are drawn last, so
+// that the other values of a seed do not change.
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
@@ -12,7 +12,7 @@ using control::Mode;
 
 namespace {
 
-/// Sets three legs, centred in the period, and loops that control currents.
+/// Sets three legs with centred pulses, and loops that control currents.
 void leave_six_step(Draw& draw, Scenario& s, const Scales& of) {
   Control& c = s.control;
   c.arithmetic = draw.chance(0.5) ? Arithmetic::float64 : Arithmetic::float32;
@@ -52,7 +52,7 @@ void draw_keys(Draw& draw, Scenario& s, const design::MotorModel& motor) {
         draw.between(0.05, 0.99) * design::most_weakening_A(design::field_machine(motor, s.sheet));
 }
 
-/// A drive without a rotor sensor. For a salient rotor that saturates, pulses find the angle. Other rotors
+/// Makes some drives sensorless. If the rotor is salient and saturates, pulses find its angle. Other rotors
 /// are started open-loop until the observer follows them.
 void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (s.sensors.rotor != RotorSensing::ideal || s.control.mode == Mode::position || !draw.chance(0.3)) return;
@@ -69,8 +69,8 @@ void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (draw.chance(0.2)) f.angle_bandwidth_Hz = draw.decades(2e-3, 0.05) / s.pwm.period_s;
 }
 
-/// Harmonic currents and the selection of the legs' states. They are drawn after the keys above, so that the
-/// values of these keys do not change for a seed.
+/// Draws harmonic currents and the selection of the legs' states. They are drawn after the keys above, so
+/// that a seed gives these keys the same values as before.
 void draw_more_keys(Draw& draw, Scenario& s) {
   Field& f = s.control.field;
   if (!design::is_salient(s.sheet) && draw.chance(0.4)) f.harmonic_current = true;
@@ -99,7 +99,7 @@ void keep_angles(Draw& draw, Scenario& s) {
   x.shaft = SensorShaft::motor;
 }
 
-/// Uses the signals of the axes in some figures.
+/// Some figures use the signals of the d and q axes.
 void ask_of_axes(Draw& draw, Scenario& s) {
   static constexpr Signal signals[] = {Signal::direct_current,
                                        Signal::quadrature_current,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws keys that need the general kernel. They are drawn last, so that the other values of a seed do not
-// change.
+// Draws keys that need the general kernel. These keys are drawn last, so that the other values of a seed do
+// not change.
 #include <algorithm>
 #include <numbers>
 
@@ -125,7 +125,8 @@ void draw_shaft_sensor(Draw& draw, Scenario& s) {
   x.resolver.noise_V = draw.decades(1e-5, 1e-2);
 }
 
-/// Draws the reading, the place and the faults of the shaft sensor, after all other values of a seed.
+/// Draws how the shaft sensor is read, where it is mounted, and its faults. This happens after all other
+/// values of a seed.
 void draw_shaft_faults(Draw& draw, Scenario& s) {
   Sensors& x = s.sensors;
   if (s.control.drive == FirmwareKind::product || x.rotor == RotorSensing::ideal) return;

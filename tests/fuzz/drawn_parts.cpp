@@ -17,7 +17,8 @@ namespace {
 void draw_supply(Draw& draw, Scenario& s, const design::MotorModel& motor) {
   s.supply.voltage_V = motor.nominal_voltage_V * draw.decades(0.4, 1.5);
   if (!draw.chance(0.35)) return;
-  // C is at least L/R^2, so that the stall current of the winding cannot discharge the capacitor below 0 V.
+  // The capacitance C is at least L/R^2, so that the stall current of the winding cannot discharge the
+  // capacitor below 0 V.
   const double R = motor.machine.R_ohm, least = motor.machine.L_H / (R * R);
   s.supply.resistance_ohm = draw.decades(1e-2, 0.5) * R;
   s.supply.capacitance_F = draw.decades(1.0, 300.0) * least;
@@ -30,7 +31,7 @@ void draw_bridge(Draw& draw, Scenario& s, double R_ohm) {
   if (draw.chance(0.5)) s.bridge.diode_drop_V = draw.between(0.2, 1.2);
   if (draw.chance(0.5)) s.bridge.diode_resistance_ohm = draw.decades(1e-3, 0.3) * R_ohm;
   if (draw.chance(0.6)) s.bridge.dead_time_s = draw.decades(1e-3, 0.3) * s.pwm.period_s;
-  // A timer whose counts shorten the dead time is refused.
+  // The check refuses a timer whose counts shorten the dead time.
   if (s.pwm.timer_Hz > 0)
     s.bridge.dead_time_s = std::ceil(s.bridge.dead_time_s * s.pwm.timer_Hz) / s.pwm.timer_Hz;
   s.bridge.dead_time_at_commutation = draw.chance(0.4);

@@ -21,7 +21,7 @@ struct Motor {
   design::Sheet sheet;
 };
 
-/// Motors of the library that can be simulated and whose voltage is known.
+/// Motors of the library that can be simulated and that have a nominal voltage.
 const std::vector<Motor>& library() {
   static const std::vector<Motor> motors = [] {
     std::vector<Motor> all;
@@ -36,7 +36,7 @@ const std::vector<Motor>& library() {
   return motors;
 }
 
-/// Replaces the sheet's values by random values of another motor.
+/// Replaces the values of the sheet by random values of another motor.
 void redraw(Draw& draw, design::Sheet& sheet) {
   const double U = draw.decades(6.0, 400.0), R = draw.decades(5e-3, 20.0), top = draw.decades(30.0, 3000.0);
   const double L = 1e3 * R * draw.decades(1e-4, 1e-2), K_t = 1e3 * U / top;

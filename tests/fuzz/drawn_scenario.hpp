@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random scenario of the kind that an engineer writes: a motor of the library or a random one, every mode,
-// sensor, firmware, arithmetic and kind of event. Each key is within its limits.
+// A random scenario like an engineer's: a motor of the library or a random motor, and every mode, sensor,
+// firmware, arithmetic and kind of event. Each key is within its limits.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ struct DrawnScenario {
   std::string text;  ///< the text of the scenario file, with the random motor's values as overrides
 };
 
-/// A random scenario; only the seed determines it.
+/// A random scenario. Only the seed determines it.
 DrawnScenario drawn_scenario(std::uint64_t seed);
 
 }  // namespace sixstep::testing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Optional parts of a six-step drive: PWM patterns, deadbeat current control, the staying phase's current,
-// laws of the speed loop. Also the profile of any drive's position loop. They are drawn last, so that the
-// other values of a seed do not change.
+// Draws optional parts of a six-step drive: PWM patterns, deadbeat current control, commutation with the
+// staying phase's current, and laws of the speed loop. It also draws the profile of any drive's position
+// loop. These parts are drawn last, so that the other values of a seed do not change.
 #include <algorithm>
 #include <iterator>
 
@@ -24,7 +24,7 @@ bool never(const Scenario& s, Has has) {
   return std::none_of(s.at.begin(), s.at.end(), has);
 }
 
-/// Whether the drive chops hard, from the start or from an event on.
+/// Returns whether the drive uses hard chopping, from the start or after an event.
 bool chops_both(const Scenario& s) {
   const bool hard = s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on;
   return hard || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; });
@@ -74,8 +74,8 @@ void draw_six_step(Draw& draw, Scenario& s) {
   draw_law(draw, s);
 }
 
-/// Values that are not drawn are computed from the drive: an event that lowers the torque or speed limit
-/// could make a given value exceed the limit.
+/// Values that are not drawn are computed from the drive. A drawn value could exceed the limit after an event
+/// that lowers the torque limit or the speed limit.
 void draw_profile(Draw& draw, Scenario& s) {
   Control& c = s.control;
   const bool floats = c.arithmetic == Arithmetic::float64 || c.arithmetic == Arithmetic::float32;

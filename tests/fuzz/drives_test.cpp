@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random complete drives: each run ends at its duration with finite values, and obeys the laws of model.md 5.
+// Random complete drives. Each run ends at its duration with finite values, and obeys the laws of model.md 5.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/drawn_drive.hpp"
@@ -10,8 +10,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Checks the laws and counts segments. A valid run of this length never reaches the limit of segments, so
-/// the limit detects a run that hardly advances.
+/// Checks the laws and counts the segments. A valid run of this length never reaches the limit of segments.
+/// The limit therefore detects a run that hardly advances.
 class Watchdog {
  public:
   template <class System>
@@ -42,7 +42,7 @@ void run_one(std::uint64_t seed) {
   EXPECT_EQ(run_to(rig, drive.length_s, watchdog), sim::Stop::end)
       << "at " << rig.now().seconds() << " fault " << int(rig.fault());
   EXPECT_TRUE(finite(rig.plant().state()));
-  // A tenth of the tolerance of the other tests: none of 100 000 drives exceeded 1e-13.
+  // A tenth of the tolerance of the other tests, because the error of none of 100 000 drives exceeded 1e-13.
   watchdog.laws.expect_all(1e-12);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Literals that replace a value in a text.
+// Texts that replace a value in a file.
 #pragma once
 
 namespace sixstep::testing {

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The texts that are changed: every shipped scenario, and a file that uses the whole language.
+/// The texts that are changed: every shipped scenario, and a file that uses all keys of the language.
 const std::vector<std::string>& shipped() {
   static const std::vector<std::string> texts = [] {
     std::vector<fs::path> files{fs::path(SIXSTEP_SOURCE_DIR) /
@@ -88,7 +88,7 @@ class Breaker {
     return out;
   }
 
-  /// A range between two characters of a given kind, as [begin, end).
+  /// A range between two characters of the set `ends`, as [begin, end).
   std::pair<std::size_t, std::size_t> stretch(const char* ends) {
     const std::size_t place = at(text_.size());
     const std::size_t begin = text_.find_last_of(ends, place), end = text_.find_first_of(ends, place);
@@ -96,7 +96,7 @@ class Breaker {
     return {from, std::max(from, std::min(end, text_.size()))};
   }
 
-  /// Replaces the value after some '=': the rest of its line.
+  /// Replaces a value: the rest of a line after some '='.
   void value_in_place() {
     std::size_t sign = text_.find('=', at(text_.size()));
     if (sign == std::string::npos) sign = text_.find('=');
@@ -104,7 +104,7 @@ class Breaker {
     const std::size_t end = std::min(text_.find('\n', sign), text_.size());
     text_.replace(sign + 1, end - sign - 1, " " + literal());
   }
-  /// Changes a number of the file by some decades or in sign.
+  /// Changes a number of the file by some decades, or changes its sign.
   void number_in_place() {
     std::size_t place = text_.find_first_of("0123456789", at(text_.size()));
     if (place == std::string::npos) return value_in_place();
@@ -114,7 +114,7 @@ class Breaker {
     const std::string number = text_.substr(place, end - place);
     text_.replace(place, end - place, (draw_.chance(0.2) ? "-" : "") + number + ends[at(std::size(ends))]);
   }
-  /// Adds a key of the language, dotted, at the start of the file or in its table.
+  /// Adds a key of the language: with its full path at the start of the file, or within its table.
   void extra_key() {
     const std::string path = key().path, line = path + " = " + literal() + "\n";
     const std::size_t dot = path.rfind('.');
@@ -123,7 +123,7 @@ class Breaker {
     else
       text_ += "\n[" + path.substr(0, dot) + "]\n" + path.substr(dot + 1) + " = " + literal() + "\n";
   }
-  /// Sets a number at or next to an end of the key's range.
+  /// Sets a key to a number at an end of its range, or next to this end.
   void end_of_range() {
     const text::KeyEntry& k = key();
     const auto& range = k.about.range;
@@ -176,7 +176,7 @@ class Breaker {
     for (const char c : text_) out += c == '\n' ? std::string(end) : std::string(1, c);
     text_ = out;
   }
-  /// Length of names, texts and lists. Very long ones are rare, because they cost time.
+  /// Length of names, texts and lists. Very long lengths are rare, because they cost time.
   std::size_t length() {
     return static_cast<std::size_t>(draw_.decades(10.0, draw_.chance(0.01) ? 2e5 : 2e3));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A damaged scenario text: by typing errors, a faulty program, a full disk or an attacker.
+// A scenario text that is damaged as by typing errors, a faulty program, a full disk or an attacker.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@ struct BrokenText {
   std::string text;
 };
 
-/// A damaged scenario text; only the seed determines it.
+/// A damaged scenario text. Only the seed determines it.
 BrokenText broken_text(std::uint64_t seed);
 
 }  // namespace sixstep::testing

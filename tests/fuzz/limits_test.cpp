@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits hold for every motor of the library, chopping, sample instant, delay, arithmetic, sensor and drive:
-// current, speed and bus voltage stay within the bounds of design/loops/limit_bounds.hpp, or the scenario is
-// refused.
+// Tests that limits apply to every motor of the library, chopping, sample instant, delay, arithmetic, sensor
+// and drive. Current, speed and bus voltage stay within the bounds of design/loops/limit_bounds.hpp, or the
+// scenario is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using study::MetricKind;
 using study::Scenario;
 using study::Signal;
 
-/// Sheets from which a motor model can be computed.
+/// Data sheets from which a motor model can be computed.
 const std::vector<design::Sheet>& motors() {
   static const std::vector<design::Sheet> all = [] {
     std::vector<design::Sheet> out;
@@ -42,7 +42,7 @@ const std::vector<design::Sheet>& motors() {
 constexpr Arithmetic arithmetics[] = {Arithmetic::float64, Arithmetic::float32, Arithmetic::q15,
                                       Arithmetic::q14,     Arithmetic::q31,     Arithmetic::q30};
 
-/// A drive with limits, whose reference has first one sign and then the other.
+/// A drive with limits. Its reference has first one sign and then the other sign.
 struct DrawnLimits {
   explicit DrawnLimits(std::uint64_t seed);
   void draw_board(Draw& draw);
@@ -89,7 +89,8 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.control.speed.settle_s = draw.between(5e-3, 50e-3);
   s.control.speed.damping = 0.9;
   s.control.speed.torque_limit_Nm = draw.between(1.0, 1.5) * current_A * motor.K_t_Nm_A;
-  // Acceleration to top speed takes 4 to 20 ms, or longer if the rotor's inertia alone is larger.
+  // The acceleration to top speed takes 4 to 20 ms. It takes longer if the rotor's inertia alone needs more
+  // time.
   const double way = draw.between(4e-3, 20e-3) * current_A * motor.K_t_Nm_A / top_rad_s;
   s.load.inertia_kg_m2 = std::max(0.0, way - motor.shaft.J_kg_m2);
   s.duration_s = 50e-3;
@@ -106,7 +107,8 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.control.regeneration.limit_V = bus_V + headroom_V;
   // The capacitance is 0.7 to 30 times the value that absorbs the windings' energy within the headroom.
   s.supply.capacitance_F = draw.decades(0.7, 30) * L * std::pow(2 * current_A / headroom_V, 2);
-  // The rotor's energy exceeds the energy that the headroom absorbs, so the limit must act.
+  // The rotor's kinetic energy exceeds the energy that the capacitor absorbs within the headroom. The limit
+  // must therefore act.
   const double enough = 6 * s.supply.capacitance_F * bus_V * headroom_V / (top_rad_s * top_rad_s);
   s.load.inertia_kg_m2 = std::max(s.load.inertia_kg_m2, enough);
 }
@@ -137,7 +139,7 @@ void DrawnLimits::draw_sensors(Draw& draw) {
                   .over_speed_rad_s = 1.5 * top_rad_s};
 }
 
-/// Largest magnitudes of a run.
+/// Largest magnitudes in a run.
 struct Reached {
   double current_A = 0, speed_rad_s = 0, bus_V = 0;
 };
@@ -160,15 +162,16 @@ void ask(Scenario& s) {
   add(MetricKind::maximum, Signal::bus_voltage);
 }
 
-/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The range of the
-/// format is twice the largest value, because it must also contain differences.
+/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The range of a format
+/// is twice the largest value, because the format must also represent differences.
 double digits(const Scenario& s, double largest) {
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   return largest *
          ((narrow ? 0x1p-12 : 0.0) + 0x1p-10 * (s.sensors.currents != rig::CurrentMeasurement::ideal));
 }
 
-/// The number of reached limits, and the largest used fraction of the allowed overshoot.
+/// Counts of the runs in which each limit was reached, and the largest used fraction of each allowed
+/// overshoot.
 struct Counts {
   int runs = 0, refused = 0, currents = 0, speeds = 0, buses = 0;
   double current = 0, speed = 0, bus = 0;

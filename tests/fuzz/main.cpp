@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]: runs cases from seed S on; with
-// `new`, the system draws S.
+// drawn_scenarios [--valid N] [--hostile N] [--seed S|new] [--threads T]: runs N cases, starting with the
+// seed S. With `new`, S is random.
 // drawn_scenarios --show valid|hostile S: prints the text of one case.
-// The results are printed as Markdown. The exit code is 1 if a law is broken.
+// The results are printed as Markdown. The exit code is 1 if a case violates a law.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double is compared with long double on random drives. The growth of rounding errors depends on the drive:
-// for example on a comparator that just misses its level, or on a rotor that just breaks away. A third run,
-// in long double with parameters changed by 1e-13, measures this growth. The tolerance of double is 1e-11 of
-// the machine's scales, plus four times the difference of the third run, because this run tries only one of
-// many directions.
+// On random drives, the results in double are compared with the results in long double. The growth of
+// rounding errors depends on the drive: for example, a comparator may just miss its level, or a rotor may
+// just break away. To measure this growth, a third run in long double has parameters that are changed by
+// 1e-13. The tolerance of double is 1e-11 of the machine's scales plus four times the difference of the third
+// run. The factor four is needed because the third run tries only one of many directions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -47,16 +47,16 @@ struct Outcome {
   double worst = 0;  ///< error of double while `tame` is true
 };
 
-/// A zero current with a zero setpoint: the sign of the last bit decides whether soft chopping coasts or
-/// brakes (model.md 4b), so a comparison is not possible.
+/// Returns whether a setpoint of the current is zero. The sign of the last bit then decides whether soft
+/// chopping coasts or brakes (model.md 4b), so a comparison is not possible.
 bool asks_for_nothing(const DrawnDrive& d) {
   return std::any_of(d.timeline.begin(), d.timeline.end(), [](const rig::Action& a) {
     return a.kind == rig::ActionKind::setpoint && a.value == 0.0;
   });
 }
 
-/// The comparison ends once the changed run has diverged from the exact run, because double may then differ
-/// as well.
+/// The comparison ends when the changed run has diverged from the exact run, because the run in double may
+/// then differ too.
 Outcome compare(std::uint64_t seed) {
   const DrawnDrive drive(seed), other = nearly(drive);
   if (drive.drive.mode != control::Mode::duty && asks_for_nothing(drive)) return {.tame = false};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged recordings: each is refused with one message that names fault and cure, or gives numbers.
-// SIXSTEP_FUZZ_SEED=n repeats one case, SIXSTEP_FUZZ_COUNT sets the number of cases.
+// Each damaged recording is refused with one message that names the fault and the remedy, or it gives
+// numbers. SIXSTEP_FUZZ_SEED=n repeats one case, and SIXSTEP_FUZZ_COUNT sets the number of cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,7 +83,7 @@ void expect_numbers(const analysis::EmfResult& found) {
   for (const double x : found.shape) EXPECT_TRUE(std::isfinite(x));
 }
 
-/// Whether identification succeeds.
+/// Returns whether the identification succeeds.
 bool identified(const text::Recording& recording) {
   text::Notes notes;
   const auto log = text::hall_log_of(recording, {}, notes);
@@ -113,7 +113,7 @@ bool measured(const text::Recording& recording) {
   return true;
 }
 
-/// Both results must occur; otherwise the test would cover only half of the readers.
+/// Both kinds of result must occur. Otherwise the test would cover only half of the readers.
 TEST(BrokenRecordings, AreRefusedWithWordsOrAnsweredWithNumbers) {
   const Seeds range = seeds(usual_count);
   Tally tally;

@@ -29,10 +29,10 @@ constexpr double longest_case_s = 60.0;
 #else
 constexpr double longest_case_s = 6.0;
 #endif
-/// Number of callbacks after which the run of a hostile text is stopped.
+/// The run of a hostile text is stopped after this number of callbacks.
 constexpr std::int64_t hostile_looks = 8;
 
-/// A path in the scenarios' folder, where the files named in a text are found.
+/// The path of a file in the scenarios' folder. The files that a text names are in this folder.
 std::string beside_scenarios(const char* name) {
   return std::string(SIXSTEP_SOURCE_DIR) + "/data/scenarios/" + name;
 }
@@ -45,7 +45,7 @@ double cpu_s() {
 
 constexpr double yes_no(bool holds) { return holds ? 0.0 : 2.0; }
 
-/// Every row of a run: the values before and after each jump, and the recorded rows.
+/// Checks every row of a run: the values before and after each jump, and the recorded rows.
 struct Rows {
   bool finite = true, rising = true;
   double last_s = 0.0;
@@ -57,7 +57,7 @@ struct Rows {
   }
 };
 
-/// The facts about one case from which its laws are computed.
+/// The results of one case from which its laws are computed.
 struct Evidence {
   const Examined& examined;
   const base::Problems& problems;  ///< problems of reading or running; empty after a complete run
@@ -84,8 +84,8 @@ bool no_defect(const base::Problems& problems) {
   return true;
 }
 
-/// Whether the value is a valid figure. A time that was never reached is infinite and exceeds any lower
-/// limit.
+/// Returns whether the value is a valid figure. A time that was never reached is infinite; it exceeds any
+/// lower limit.
 bool is_figure(const Verdict& v) { return std::isfinite(v.measured) || (v.unit == "s" && v.measured > 0); }
 
 bool sound_figures(const Outcome& outcome) {
@@ -103,7 +103,7 @@ struct Law {
   double (*used)(const Evidence&);
 };
 
-/// Laws of every case, random or hostile.
+/// Laws of every case, whether it is random or hostile.
 constexpr Law always[] = {
     {"bounded time", [](const Evidence& e) { return e.seconds / longest_case_s; }},
     {"what is refused has a place, a rule and a cure",
@@ -117,7 +117,8 @@ constexpr Law always[] = {
      [](const Evidence& e) { return yes_no(!e.outcome || e.shorts || !says(*e.outcome, "shoot-through")); }},
 };
 
-/// Laws of an accepted random case: it has an outcome, a watched outcome and a walk.
+/// Laws of an accepted random case. Such a case has an outcome, an outcome with observers, and a run segment
+/// by segment.
 constexpr Law of_a_run[] = {
     {"it reads back as it was written", [](const Evidence& e) { return yes_no(e.read_back_equal); }},
     {"it ends, and not by crawling",
@@ -138,8 +139,8 @@ constexpr Law of_a_run[] = {
      [](const Evidence& e) { return yes_no(e.breaks_a_hall_line || !says(*e.outcome, "does not follow")); }},
 };
 
-/// Relative tolerance of the energy balance, a tenth of the default. The laws of the plant apply within each
-/// segment (tests/support/laws.hpp).
+/// Relative tolerance of the energy balance: a tenth of the default. The laws of the plant are checked within
+/// each segment (tests/support/laws.hpp).
 constexpr double energy_tolerance = 1e-12;
 
 void ask(const Evidence& e, Examined& out) {
@@ -220,8 +221,8 @@ Listeners all_ears(Rows& rows, control::Mode mode) {
 std::string drawn_text(std::uint64_t seed) { return drawn_scenario(seed).text; }
 std::string hostile_text(std::uint64_t seed) { return broken_text(seed).text; }
 
-/// Whether the read scenario is equal to the random scenario (for the sheet: its random values), and whether
-/// its written text reads back as the same scenario.
+/// Returns whether the read scenario is equal to the random scenario; of the sheet, only the random values
+/// are compared. The text that is written from it must also give the same scenario.
 bool reads_back(const Scenario& read, const Scenario& drawn) {
   Scenario plain = read;
   plain.sheet = drawn.sheet;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws for every scenario, random or damaged. Each law returns the used fraction of its tolerance. A new law
-// is one line in scenario_laws.cpp.
+// Laws for every scenario, random or damaged. Each law returns the fraction of its tolerance that a case
+// uses. A new law needs one line in scenario_laws.cpp.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -23,14 +23,14 @@ struct Examined {
   std::string words;  ///< the message that violates a law, for the report of a failure
 };
 
-/// A scenario of the kind that an engineer writes: written, read back, checked, run, run with observers, and
-/// run from snapshots.
+/// Examines a random scenario. It is written, read back, checked, run, run with observers, and run from
+/// snapshots.
 Examined examine_drawn(std::uint64_t seed);
 
-/// One damaged text: read, checked, and run for a while if it is accepted.
+/// Examines one damaged text. It is read and checked; if it is accepted, it runs for a while.
 Examined examine_hostile(std::uint64_t seed);
 
-/// The text of either case, for inspection.
+/// The text of a random case and of a hostile case, for inspection.
 std::string drawn_text(std::uint64_t seed);
 std::string hostile_text(std::uint64_t seed);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The random scenarios of the standard tests: always the same seeds. ctest --preset long draws new seeds.
+// The random scenarios of the standard tests, always with the same seeds. ctest --preset long uses new seeds.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/campaign.hpp"
@@ -30,7 +30,7 @@ TEST(DrawnScenarios, KeepTheLawsInEveryFirmwareAndArithmetic) {
   EXPECT_EQ(result.kinds.size(), 26u) << "four firmwares in six arithmetics, the field-oriented one in two";
 }
 
-/// Both results must occur; otherwise the test would cover only half of the reader.
+/// Both kinds of result must occur. Otherwise the test would cover only half of the reader.
 TEST(HostileScenarios, AreRefusedWithWordsOrRunToNumbers) {
   const CampaignResult result = all_hold("hostile", examine_hostile, hostile_count);
   if (std::getenv("SIXSTEP_FUZZ_SEED")) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions on random scenarios. After any steps, copies and changes, the scenario that a session writes has a
-// run with the session's digest, also if it is written to and read from text.
+// Sessions of random scenarios. A session has any steps, copies and changes, and writes a scenario. The run
+// of this scenario has the session's digest, even after the scenario was written to text and read again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr std::uint64_t usual_count = 40;
 constexpr std::uint64_t usual_count = 250;
 #endif
 
-/// A level in the unit of a mode that the motor can reach.
+/// A setpoint that the motor can reach, in the unit of the mode.
 double drawn_level(Draw& draw, const Scenario& s, Mode mode) {
   const auto motor = design::motor_model(s.sheet);
   const double part = draw.between(-1.0, 1.0), U = s.supply.voltage_V;
@@ -81,7 +81,7 @@ void draw_tuning(Draw& draw, const Scenario& s, At& at) {
   }
 }
 
-/// A random change that a session accepts.
+/// A random change of the kind that a session accepts.
 At drawn_change(Draw& draw, const Scenario& s, double left_s) {
   At at;
   const Mode mode = s.at.empty() ? s.control.mode : modes_from(s).back();
@@ -122,7 +122,7 @@ struct Told {
   int changes = 0, refused = 0, mode_changes = 0;
 };
 
-/// Advances in steps of any length, with some changes, and sometimes a copy that replaces the original.
+/// Advances in steps of any length, with some changes. Sometimes a copy of the session replaces the session.
 void live(Draw& draw, Session& session, Told& told) {
   const double duration_s = session.scenario().duration_s;
   double t_s = 0.0;
@@ -159,8 +159,8 @@ bool examine(std::uint64_t seed, Told& told) {
   live(draw, *session, told);
   if (draw.chance(0.6)) session->advance(1e6);
   auto out = session->close();
-  // A shorter duration would make a different drive from the start. The close is refused, and the session
-  // continues.
+  // With a shorter duration, the scenario would describe a different drive from the start. close() refuses
+  // it, and the session continues.
   if (!out && out.problems()[0].where == "duration_s") {
     session->advance(1e6);
     out = session->close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fake_core.cpp simulates a chip's emulator with a fault. The real emulator runs under ./test --target
+// fake_core.cpp simulates a chip's emulator with a fault. ./test --target runs the real emulator
 // (tests/target/avr.py).
 #include "faces/loop/chip.hpp"
 

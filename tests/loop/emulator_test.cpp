@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fake_core.cpp simulates an emulated core with a fault. The real cores run under ./test --target
+// fake_core.cpp simulates an emulated core with a fault. ./test --target runs the real cores
 // (tests/target/loop.py).
 #include "faces/loop/emulator.hpp"
 
@@ -16,7 +16,7 @@ using Command = sixstep::control::BridgeCommand<double>;
 
 Core playing(const char* how) { return {"fake", "Fake", {}, {FAKE_CORE, how}, "", "", {}}; }
 
-/// A drive that turns the bridge off, so the host's answers are equal to those of fake_core.
+/// A drive that turns the bridge off, so that the host's answers are equal to the answers of fake_core.
 struct Asked {
   Core core;
   std::unique_ptr<Emulator> emulator;

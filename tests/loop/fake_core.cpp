@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// fake_core HOW IMAGE replaces an emulator. It sends the greeting of faces/loop/core/main.cpp, answers three
-// calls of a lean drive with the bridge off, and then behaves as HOW states. If HOW begins with "chip", it
-// replaces faces/loop/avr/board.cpp, and its gates never switch.
+// fake_core HOW IMAGE replaces an emulator. It sends the greeting of faces/loop/core/main.cpp and answers
+// three calls of a lean drive with the bridge off. Then it behaves as HOW states. If HOW begins with "chip",
+// fake_core replaces faces/loop/avr/board.cpp, and its gates never switch.
 #include <unistd.h>
 
 #include <cstring>
@@ -17,7 +17,7 @@ using Call = rig::LeanCall<double>;
 using Answer = rig::CoreAnswer<double>;
 constexpr int calls = 3, answers = 4;
 
-/// An answer with the bridge off, equal to the host's answer in the test.
+/// An answer with the bridge off. It is equal to the host's answer in the test.
 Answer off() { return rig::answer_of(sixstep::control::BridgeCommand<double>{}); }
 
 template <class T>
@@ -30,7 +30,7 @@ bool heard() {
   return ::read(calls, &call, sizeof call) == sizeof call;
 }
 
-/// Answers three runs, each to its end, and then hangs or returns.
+/// Answers three runs, each to its end. Then it hangs or returns.
 int play_chip(bool means_other, bool hangs) {
   say(rig::ChipGreeting{.answer_bytes = means_other ? 8u : std::uint32_t{sizeof(rig::ChipAnswer)},
                         .clock_Hz = 16'000'000});

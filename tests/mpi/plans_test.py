@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""plans_test.py PROGRAM SOURCE: mpirun -n N sixstep run .., with a program built with MPI: the rows of one process to the bit, one
-voice, nobody's file but the first one's, and no kill of any rank takes what was finished. SIXSTEP_KILLS says how many kills."""
+"""plans_test.py PROGRAM SOURCE: mpirun -n N sixstep run .., with a program built with MPI. The rows have the same
+bits as with one process. Only the first rank prints messages and writes files. A kill of any rank destroys no
+finished run. SIXSTEP_KILLS is the number of kills."""
 import contextlib
 import os
 import pathlib
@@ -22,10 +23,10 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest  # noqa: E402
 
 KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
 SPREAD = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
-# Open MPI must run although a container's user is root and has fewer cores than ranks.
+# Open MPI must run although the user in a container is root and there are fewer cores than ranks.
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_btl": "self,vader,tcp",
                             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                            "HWLOC_HIDE_ERRORS": "2"}  # a machine without /sys gives messages of Open MPI, not of the program
+                            "HWLOC_HIDE_ERRORS": "2"}  # without /sys Open MPI itself would print messages
 
 
 def mpirun(ranks, *words):
@@ -34,7 +35,7 @@ def mpirun(ranks, *words):
 
 class Mpi(ProgramTest):
     def held(self, more=SPREAD, length="20e-3"):
-        """A held rotor: the current is U/R."""
+        """Writes a scenario with a held rotor: the current is U/R."""
         (self.path / "a.toml").write_text(SHORT.format(limit=20).replace("1e-4", length) + more)
         return "a.toml"
 
@@ -54,7 +55,7 @@ class Mpi(ProgramTest):
                 job.kill()
 
     def children(self, job, ranks, seconds=60):
-        """The processes that this mpirun started, in the order of their ranks."""
+        """The processes that mpirun started, in the order of their ranks."""
         deadline = time.monotonic() + seconds
         while job.poll() is None:
             found = {}
@@ -78,14 +79,15 @@ class Mpi(ProgramTest):
         return found
 
     def lives(self, pid):
-        """Not so who waits for a parent to hear of his end: in a container there may be none that listens."""
+        """False for a zombie process too. In a container there may be no parent that reads the status of an ended
+        process."""
         with contextlib.suppress(OSError):
             return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
         return False
 
     def ended(self, job, pids):
-        """Waits for the job. Whether Open MPI's mpirun hung, which 4.1 does now and then when a process is killed while others
-        start: none of them is left, and it waits for them all the same."""
+        """Waits for the end of the job. Returns whether mpirun hung: all ranks have ended, and mpirun still waits.
+        Open MPI 4.1 sometimes does this if a process is killed while others start."""
         try:
             job.communicate(timeout=10)
             return False
@@ -103,14 +105,14 @@ class Mpi(ProgramTest):
         return used.ru_utime + used.ru_stime
 
     def all_end(self, pids, seconds=20):
-        """mpirun does not wait for those that it has killed."""
+        """Waits until all processes have ended. mpirun does not wait for the processes that it has killed."""
         deadline = time.monotonic() + seconds
         while any(self.lives(pid) for pid in pids):
             self.assertLess(time.monotonic(), deadline, "a rank outlives its job")
             time.sleep(0.01)
 
     def numbers(self, store="s.sqlite"):
-        """Of the runs that a store has counted; none where its tables have not come yet."""
+        """The numbers of the runs in a store. The result is empty if the store has no tables yet."""
         if not (self.path / store).exists():
             return set()
         with contextlib.closing(sqlite3.connect(self.path / store)) as db:
@@ -121,10 +123,10 @@ class Mpi(ProgramTest):
                 return set()
 
     def table(self, file):
-        return (self.path / file).read_text().splitlines()[3:]  # after the lines with the command
+        return (self.path / file).read_text().splitlines()[3:]  # without the first lines, which contain the command
 
     def wait_for_runs(self, count, job, store="s.sqlite", seconds=60):
-        """Until the store's file has grown by so many rows: nobody may look into it while it is written."""
+        """Waits until the store's file has grown by `count` rows. The store must not be opened while it is written."""
         deadline = time.monotonic() + seconds
         wal = self.path / (store + "-wal")
         while not (wal.exists() and wal.stat().st_size > 100 * count):
@@ -133,7 +135,7 @@ class Mpi(ProgramTest):
             time.sleep(0.01)
 
     def test_every_cell_is_that_of_the_run_alone(self):
-        """A row that was made on another rank stands under the names that it was made with."""
+        """A row from another rank has the same names as a row of the first rank."""
         words = ["run", self.held(SPREAD + '[[spread]]\nkey = "supply.voltage_V"\nrelative = 0.05\n')]
         self.on_ranks(3, *words, "--runs", "12", "--store", "s.sqlite", "--csv", "t.csv", "--json", "t.json", code=None)
         tables = [cells.of_csv(self.path / "t.csv"), cells.of_store(self.path / "s.sqlite"), cells.of_json(self.path / "t.json")]
@@ -164,7 +166,7 @@ class Mpi(ProgramTest):
         self.assertEqual(self.names(), ["a.toml", "alone.csv", "alone.json", "mpi.csv", "mpi.json", "s.sqlite"])
 
     def test_only_the_first_rank_needs_the_files(self):
-        """The others stand in another folder, where there is none; what they name they are told."""
+        """The other ranks run in another folder without the files. The first rank sends them the content."""
         there = self.path / "there"
         there.mkdir()
         shutil.copy(SOURCE / "data/motors/maxon-251601.toml", there / "m.toml")
@@ -226,7 +228,8 @@ class Mpi(ProgramTest):
         self.assertEqual(self.table("mpi.csv"), self.table("whole.csv"))
 
     def test_waiting_burns_no_core(self):
-        """Two runs keep two ranks busy, and two others wait: all four together take little more than one process does alone."""
+        """Two runs occupy two ranks, and two other ranks wait. Together they take little more CPU time than one
+        process alone."""
         file = self.held("", length="5e3")
         words = ["run", file, "--vary", "supply.voltage_V=24,25", "--jobs", "1", "--quiet"]
 
@@ -239,13 +242,14 @@ class Mpi(ProgramTest):
         took = [sum(60 * float(m) + float(s) for m, s in re.findall(r"(\d+)m([\d.]+)s", (self.path / f"cpu.{rank}").read_text()))
                 for rank in range(4)]
         print(f"{alone:.2f} s of work; on four ranks {took}")
-        # A rank that waits busily takes as much time as one that works, and two of four wait.
+        # A rank that waits in a busy loop takes as much CPU time as a rank that works. Two of the four ranks wait.
         self.assertGreater(sum(took), 0.5 * alone)
         for waited in sorted(took)[:2]:
             self.assertLess(waited, 0.1 * alone + 0.3)
 
     def test_the_script_for_slurm_goes_on_until_all_is_there(self):
-        """With mpirun in srun's place: what is told to end puts itself into the queue again, and its next sitting finishes."""
+        """mpirun replaces srun. A job that is told to end puts itself into the queue again, and its second part
+        completes the plan."""
         tools = self.path / "bin"
         tools.mkdir()
         for name, text in (("srun", f'shift 2; shift; exec {" ".join(mpirun(2)[:-1])} {PROGRAM} "$@"'),
@@ -258,7 +262,7 @@ class Mpi(ProgramTest):
         slurm = ENVIRONMENT | {"PATH": f"{tools}:{os.environ['PATH']}", "SLURM_JOB_ID": "7", "SLURM_CPUS_PER_TASK": "2"}
         with subprocess.Popen(script, cwd=self.path, env=slurm, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as job:
             self.wait_for_runs(100, job, "p.sqlite")
-            for pid in self.ranks_below(job.pid):  # Slurm too ends each process, not the launcher
+            for pid in self.ranks_below(job.pid):  # Slurm too signals each process, and not the launcher
                 os.kill(pid, signal.SIGTERM)
             job.wait(timeout=60)
         self.assertEqual(job.returncode, 143)
@@ -272,8 +276,8 @@ class Mpi(ProgramTest):
         self.assertEqual((self.path / "scontrol.txt").read_text(), "requeue 7\n")
 
     def test_kills_take_nothing_that_was_finished(self):
-        """A rank killed at a random instant takes the job along; the store keeps what it counted, and whoever goes on with it, on any
-        number of ranks or without MPI, comes to the table of one sitting."""
+        """One rank is killed at a random instant, and the job ends. The store keeps the runs that it has counted. A
+        resumed job, with any number of ranks or without MPI, gives the table of a job without interruption."""
         seed = random.randrange(2**32)
         draw = random.Random(seed)
         file = self.held()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The audit relates the error of the energy balance to the energy that moved.
+// The audit divides the error of the energy balance by the energy that moved.
 #include "sixstep/plant/audit.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The fuzzer found this case: the load accelerates the shaft and brakes it to rest, so its energies sum to
-/// zero. The error of the balance was then divided by almost nothing.
+/// The fuzzer found this case: the load accelerates the shaft and brakes it to rest, so the load's energies
+/// sum to zero. The error of the balance was divided by a sum near zero.
 TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   Board b = Board::duty(0.0);
   b.drive.mode = control::Mode::off;
@@ -34,7 +34,8 @@ TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   laws.expect_all(1e-11);
 }
 
-/// The fuzzer found this case: pulses of 1e-22 s moved 1e-34 J, of which no digit is significant.
+/// The fuzzer found this case: pulses of 1e-22 s moved an energy of 1e-34 J. No digit of this energy is
+/// significant.
 TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;
@@ -46,9 +47,9 @@ TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   laws.expect_all(1e-11);
 }
 
-/// The fuzzer found this case: when a switch opens, the plant sets a diode's current below the noise, here
-/// 1e-12 A, to zero. A motor at a thousandth of its stall current lost the energy of this current in every
-/// period.
+/// The fuzzer found this case: when a switch opens, the plant sets a diode's current to zero if it is below
+/// the noise, 1e-12 A in this test. At a thousandth of its stall current, a motor lost the energy of this
+/// current in every period.
 TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   Board b = Board::duty(0.008, control::Chopping::complementary);
   b.board.modulator.dead_ticks = 90'000;
@@ -60,7 +61,8 @@ TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   laws.expect_all(1e-13);
 }
 
-/// Compares each segment's integrals with integrals of the whole products, with all terms up to degree 2 n.
+/// Compares the integrals of each segment with integrals of the complete products, which contain all terms up
+/// to degree 2 n.
 struct BesideProducts {
   struct Worst {
     double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
@@ -114,8 +116,8 @@ struct BesideProducts {
   }
 };
 
-/// On both sides, the rounding of values, products and sums is below 64 eps of the scale. The back-EMF is a
-/// trapezoid or a sine, the bus is stiff or has R and C, and the devices are real.
+/// The rounding of values, products and sums is below 64 eps of the scale in both calculations. The back-EMF
+/// is a trapezoid or a sine, the bus is stiff or has R and C, and the devices are real.
 TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   std::array<int, 4> connected{};
   for (int n = 0; n < 8; ++n) {
@@ -146,8 +148,8 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   EXPECT_GT(connected[3], 1000);
 }
 
-/// Kirchhoff's law applies to each order of the series of the three currents, not only to the audit's sums at
-/// both ends. A floating leg has no current in any order.
+/// Kirchhoff's law applies to each order of the series of the three currents. The audit's sums check it only
+/// at both ends of a segment. A floating leg has no current in any order.
 struct SumsOfSeries {
   double worst_A = 0, floating_A = 0;
   int of_legs[4] = {};
@@ -174,8 +176,8 @@ TEST(Audit, CurrentsSumToZeroOrderByOrder) {
   EXPECT_GT(sums.of_legs[3], 100);
 }
 
-/// After the instant at which a diode's current ends, its series continues with the wrong sign. The audit
-/// must report an error there; otherwise it would never report one.
+/// A diode's current is continued beyond the instant at which it ends, so it has the wrong sign. The audit
+/// must report an error for it; otherwise the audit would never report one.
 TEST(Audit, SeesADiodeThatConductsBackwards) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
@@ -183,8 +185,8 @@ TEST(Audit, SeesADiodeThatConductsBackwards) {
     setup.start.angle_rad = 0.02;
     Held<> bench(setup, a_to_b());
     ASSERT_EQ(bench.run_to(10e-6), sim::Stop::end);
-    // The current flows through one diode and one switch against the bus: into b's upper diode, or out of a's
-    // lower diode.
+    // The current flows through one diode and one switch against the bus voltage. It flows into the upper
+    // diode of b, or out of the lower diode of a.
     bench.plant().set_gates(high ? gates({}, {true, false, false}) : gates({false, true, false}, {}));
     const double i_0 = bench.state().i[0], length = bench.plant().expand(30e-6);
     const double exact =

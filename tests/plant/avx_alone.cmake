@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=.. -DOBJECTS=.. -P avx_alone.cmake: of what is compiled for AVX one function is seen from outside, and no weak one, which
-# a linker could give to others in place of their own.
+# cmake -DNM=.. -DOBJECTS=.. -P avx_alone.cmake: the object that is compiled for AVX may define only one external function.
+# A weak function there is an error: the linker could use it in other objects, which must also run without AVX.
 string(REPLACE "," ";" OBJECTS "${OBJECTS}")
 foreach(object IN LISTS OBJECTS)
   if(object MATCHES "audit_avx")

@@ -14,7 +14,8 @@ using plant::EmfPiece;
 constexpr double eps = 0x1p-52;
 constexpr std::uint32_t seed = 41;
 
-/// The definition of model.md 1: +1 for |theta - 60| <= w/2, ramps of 180 - w, odd half-wave symmetry.
+/// The definition of model.md 1, with the flat width w: +1 for |theta - 60| <= w/2, then ramps of 180 - w
+/// degrees. The negative half wave is the mirrored positive half wave.
 double trapezoid(double deg, double flat) {
   const double d = std::fabs(std::remainder(deg - 60.0, 360.0));
   if (d <= flat / 2) return 1.0;

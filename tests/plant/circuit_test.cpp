@@ -29,7 +29,7 @@ TEST(Circuit, PoleVoltagesFollowTheDevices) {
 }
 
 TEST(Circuit, CurrentsOfTheConnectedLegsKeepTheirSum) {
-  // With eq. 5, the sum of L di/dt = u_k - u_n - R i_k - e_k over the connected legs is zero.
+  // With equation 5, the sum of L di/dt = u_k - u_n - R i_k - e_k over the connected legs is zero.
   const PerLeg<double> i{3.0, -5.0, 2.0}, e{6.0, -4.0, 1.5};
   for (const Legs& legs :
        {Legs{high_switch, low_switch, low_diode}, Legs{high_diode, low_diode, high_switch}}) {
@@ -49,8 +49,9 @@ TEST(Circuit, FloatingTerminalShowsTheStarPointAndItsEmf) {
 }
 
 TEST(Circuit, FreeStarPointLiesSymmetrically) {
-  // Without a connected leg, conduction starts when max e - min e exceeds U_s + 2 V_f. The upper and the
-  // lower rail are then reached at the same time.
+  // Without a connected leg, a current starts when max e - min e exceeds U_s + 2 V_f (back-EMFs e, bus
+  // voltage U_s, diode drop V_f). At this instant, one terminal reaches the upper rail and another terminal
+  // reaches the lower rail.
   const PerLeg<double> e{20.0, -12.0, 3.0};
   const PerLeg<double> u =
       pole_voltages({floating, floating, floating}, pole_table<double>(real), 24.0, {}, e);

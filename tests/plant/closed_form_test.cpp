@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plant is compared with closed solutions: stall, coasting, braking, diode decay, bus.
+// The plant is compared with closed solutions for stall, coasting, braking, the decay of a diode's current,
+// and the bus.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,8 +56,8 @@ TEST(CoastDown, SpeedFallsExponentiallyWithViscousFriction) {
   EXPECT_EQ(laws.highest_current_A(), 0.0);
 }
 
-/// Largest error, rad, of the angle in snapshots within a segment. The plant's state is still the state at
-/// the segment's beginning.
+/// Largest error, in rad, of the angle in snapshots within a segment. Meanwhile, the plant's state is still
+/// the state at the beginning of the segment.
 struct Between {
   double worst = 0.0;
   void segment(const Held<>& bench, double s) {
@@ -103,7 +104,8 @@ struct Decay {
   double i_0;
 };
 
-/// The rotor is locked. A current flows from a to b (to b and c) for 0.3 ms, then all gates are off.
+/// The rotor is locked. A current flows from a to b, or from a to b and c, for 0.3 ms. Then all gates are
+/// off.
 Decay start_decay(const plant::Devices& devices, const plant::Gates& first) {
   Drivetrain setup;
   setup.shaft.locked = true;
@@ -121,10 +123,10 @@ void expect_zero_at(Decay& d, double R, double L, double U) {
   LawChecker<> laws;
   ASSERT_EQ(d.bench.run_to(1e-3, laws), Stop::end);
   ASSERT_EQ(d.bench.events.size(), 1u) << "all currents vanish in one event";
-  // U + R i + L di/dt = 0 from i_0: i reaches 0 at (L/R) ln(1 + i_0 R/U).
+  // The current starts at i_0 and follows U + R i + L di/dt = 0. It reaches 0 at (L/R) ln(1 + i_0 R/U).
   const double exact = L / R * std::log1p(d.i_0 * R / U);
   const double found = sim::seconds_between(sim::to_instant(0.3e-3), d.bench.events[0].at);
-  // The error of the current is a few eps of its scale. At zero, the current falls by U/L per second.
+  // The error of the current is a few eps of its scale. Near zero, the current falls by U/L per second.
   EXPECT_NEAR(found, exact, 8 * eps * (d.i_0 + U / R) * L / U);
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(d.bench.state().i[k], 0.0);
@@ -150,8 +152,8 @@ TEST(DiodeDecay, ThreeCurrentsMayVanishTogether) {
 }
 
 TEST(DiodeDecay, FreewheelingInALoopNeverCrossesZero) {
-  // The rotor is locked and the lower switch of b stays on: the loop through a's lower diode has no voltage
-  // source.
+  // The rotor is locked, and the lower switch of b remains on. The loop through the lower diode of a contains
+  // no voltage source.
   Decay d = start_decay({}, a_to_b());
   d.bench.plant().set_gates(gates({}, {false, true, false}));
   ASSERT_EQ(d.bench.run_to(5e-3), Stop::end);
@@ -192,7 +194,7 @@ TEST(Bus, RegenerationLiftsABusThatCannotGiveBack) {
     ASSERT_EQ(bench.run_to(20e-3, laws), Stop::end);
     laws.expect_all();
     if (sinks) continue;
-    // Nothing discharges the capacitor: its energy is equal to the energy that the bridge returned.
+    // Nothing discharges the capacitor, so its energy rises by the energy that the bridge returned.
     const double U = bench.state().bus;
     EXPECT_GT(U, 25.0);
     const double gained = 0.5 * 1e-3 * (U * U - 24.0 * 24.0);

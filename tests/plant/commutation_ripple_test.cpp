@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torque during commutation is compared with Carlson's closed form (1992): flat tops, ideal devices, soft
-// chopping that stays off until the new phase carries the current. model.md 5 derives the closed form, which
-// shares no line with the kernels.
+// The torque during a commutation is compared with Carlson's closed form (1992). The form assumes flat tops,
+// ideal devices, and soft chopping that remains off until the new phase carries the current. model.md 5
+// derives the closed form, which uses no code of the kernels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Flat tops of 150 degrees: all three back-EMFs are constant for 15 degrees on either side of the edge at
-/// 120 degrees.
+/// Flat tops of 150 degrees: for 15 degrees on either side of the edge at 120 degrees, all three back-EMFs
+/// are constant.
 constexpr double K_e = 0x1p-6, speed = 256.0, E = K_e * speed, L = 0.286e-3, charging_V = 40.0;
 
 plant::Gates pair(int high, int low) {
@@ -45,7 +45,8 @@ HeldGeneral bench<HeldGeneral>(double R_ohm) {
   return HeldGeneral(s, pair(0, 2));
 }
 
-/// Phase a carries the current I to c. Then b replaces a, and the bus has the voltage `ratio` E.
+/// Phase a carries the current I to phase c. Then phase b replaces phase a. The bus voltage is `ratio` times
+/// E, the back-EMF of a phase.
 template <class Bench>
 struct Commutation {
   Bench held;
@@ -70,14 +71,15 @@ struct Commutation {
     return plant.at(0).torque;
   }
   double current(int k) const { return held.plant().state().i[static_cast<std::size_t>(k)]; }
-  /// The time at which a's current reaches zero: i_a = I + (I + A) expm1(-t R/L).
+  /// The time at which the current of a reaches zero: i_a = I + (I + A) expm1(-t R/L), with A = (U + 2 E)/(3
+  /// R).
   double gone_s() const { return L / R * std::log1p(3 * R * I / (U + 2 * E)); }
-  /// The time at which b carries I: i_b = -D expm1(-t R/L).
+  /// The time at which b carries the current I: i_b = -D expm1(-t R/L), with D = 2 (U - E)/(3 R).
   double risen_s() const { return -L / R * std::log1p(-1.5 * R * I / (U - E)); }
 };
 
-/// The torque's relative change at the end of the part of the commutation that depends only on the bus
-/// voltage.
+/// The relative change of the torque during the first part of the commutation, until b carries I or the
+/// current of a is zero. This change depends only on the bus voltage.
 double exact_change(double U, double I, double R) {
   const double left = U - 4 * E - 3 * R * I;
   return left >= 0 ? left / (2 * (U - E)) : left / (U + 2 * E + 3 * R * I);
@@ -85,7 +87,7 @@ double exact_change(double U, double I, double R) {
 double carlsons_change(double ratio) {
   return ratio >= 4 ? (ratio - 4) / (2 * (ratio - 1)) : (ratio - 4) / (ratio + 2);
 }
-/// Bound of the relative error caused by currents that the kernels treat as zero.
+/// Bound of the relative error that is caused by currents which the kernels treat as zero.
 double noise(double R, double U, double I) { return 1e-11 + 64 * eps * std::fmax(U, charging_V) / R / I; }
 
 template <class Bench>
@@ -134,8 +136,8 @@ TYPED_TEST(CarlsonsRipple, AtTwiceTheBackEmfTheNewCurrentNeverRisesAgain) {
   }
 }
 
-/// From the instant at which the new phase carries I, chopping keeps its current constant. The torque then
-/// falls with the old phase's current.
+/// When the new phase carries I, chopping starts to keep its current constant. From this instant on, the
+/// torque falls with the current of the old phase.
 TYPED_TEST(CarlsonsRipple, IsAtItsPeakWhenChoppingBegins) {
   Commutation<TypeParam> c(8.0, 1e-4);
   c.run_until(c.begin.plus_seconds(c.risen_s()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diodes start to conduct at the rails, with a free star, and at sector edges with two events at once.
+// Diodes start to conduct in three cases: at the rails, with a free star point, and at sector edges at which
+// two events coincide.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +21,8 @@ double first_s(const Held<>& bench, int from, int to) {
   return -1.0;
 }
 
-/// The rotor turns freely from 270 degrees with a's lower switch on. e_a is the lowest back-EMF until 300
-/// degrees, where b's flat bottom begins and a's ends.
+/// The rotor turns freely from 270 degrees, with the lower switch of a on. The back-EMF e_a is the lowest
+/// until 300 degrees. At this angle, the flat bottom of a ends and the flat bottom of b begins.
 Drivetrain towards_300_deg() {
   Drivetrain setup;
   setup.shaft.B_Nm_s = 0.0;
@@ -36,7 +37,7 @@ TEST(Rail, IdealDiodeConductsFromTheSectorEdgeOn) {
   LawChecker<> laws;
   ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
   laws.expect_all();
-  // Two events occur at one instant: rounding decides which is first.
+  // Two events occur at one instant, and rounding decides which event is first.
   const double edge_s = at_electrical_deg(30.0) / 400.0, bound = 16 * eps * at_electrical_deg(300.0) / 400.0;
   EXPECT_NEAR(first_s(bench, plant::guard::edge_ahead, plant::guard::low_rail), edge_s, bound);
   EXPECT_NEAR(first_s(bench, plant::guard::low_rail, plant::guard::breakaway_forward), edge_s, bound);
@@ -51,16 +52,18 @@ TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
   LawChecker<> laws;
   ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
   laws.expect_all();
-  // On the ramp, e_a - e_b = K_e w (theta - 300)/30. The diode conducts when this is equal to V_f.
+  // On the ramp, e_a - e_b = K_e w (theta - 300 degrees)/30 degrees (back-EMF constant K_e, speed w). The
+  // diode conducts when this difference is equal to the drop V_f.
   const double behind_edge = 30.0 * 0.7 / (setup.machine.K_e_V_s * 400.0);
   const double exact = at_electrical_deg(30.0 + behind_edge) / 400.0;
-  // The relative error of angles of 270 degrees is eps each. The ramp's slope adds the error of its terms.
+  // Angles near 270 degrees have a relative error of eps. The slope of the ramp adds the error of its terms.
   EXPECT_NEAR(first_s(bench, plant::guard::low_rail, plant::guard::breakaway_forward), exact,
               32 * eps * at_electrical_deg(330.0) / 400.0);
 }
 
-/// a's lower switch connects a, whose EMF is the lowest, while b's EMF is at its top: b's terminal voltage is
-/// 2 K_e w. The bus falls to this constant voltage: U_s = V_0 + (U_s(0) - V_0) exp(-t/(R_b C)).
+/// The lower switch of a connects a, whose back-EMF is the lowest. The back-EMF of b is at its top, so the
+/// terminal voltage of b is 2 K_e w. The bus falls to this constant voltage: U_s = V_0 + (U_s(0) - V_0)
+/// exp(-t/(R_b C)).
 TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
   Drivetrain setup;
   setup.shaft = {.J_kg_m2 = 1e9};
@@ -77,14 +80,14 @@ TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
               2 * noise_V * RC / left_V + 16 * eps * exact);
 }
 
-/// The third terminal is beyond the rail by half of the diode's voltage drop. The leg floats from the start,
-/// without an event.
+/// The voltage of the third terminal exceeds the rail by half of the diode's drop. The leg floats from the
+/// start, without an event.
 TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
     setup.devices.V_f_V = 0.7;
-    // The terminal of c, whose EMF is at its top, is 1.5 K_e w beyond the rail; a's EMF is at its bottom, and
-    // b's is zero. In the second case, all three are mirrored.
+    // The terminal of c exceeds the rail by 1.5 K_e w. The back-EMF of c is at its top, of a at its bottom,
+    // and of b it is zero. In the second case, all three are mirrored.
     setup.start = {.speed_rad_s = 0.35 / (1.5 * setup.machine.K_e_V_s),
                    .angle_rad = at_electrical_deg(high ? 270.0 : 90.0),
                    .bus_V = 24.0};
@@ -98,7 +101,7 @@ TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
 }
 
 TEST(FloatingStar, ConductsOnlyAboveTheBus) {
-  // 2 K_e w is below and above U_s + 2 V_f by a relative 1e-9.
+  // The voltage 2 K_e w is below or above U_s + 2 V_f by the relative difference 1e-9.
   for (const double V_f : {0.0, 0.7}) {
     for (const double side : {-1e-9, 1e-9}) {
       Drivetrain setup;
@@ -131,7 +134,8 @@ TEST(Rectifier, BrakesTheRotorToTheSpeedOfTheBusAndFeedsIt) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(bench.state().i[k], 0.0);
 }
 
-/// Counts the legs that had no current in one segment and have a conducting diode in the next segment.
+/// Counts the starts of conduction: a leg had no current in one segment, and its diode conducts in the next
+/// segment.
 struct Starts {
   plant::Legs before{};
   int low = 0, high = 0;
@@ -162,14 +166,15 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
   setup.start.speed_rad_s = 900.0;
   setup.start.angle_rad = at_electrical_deg(17.0);
   Held<> ahead(setup, all_off());
-  // theta -> 300 degrees - theta, w -> -w, and b and c exchanged give the same circuit.
+  // The circuit is the same after a mirroring: theta becomes 300 degrees - theta, w becomes -w, and b and c
+  // are exchanged.
   setup.start.speed_rad_s = -900.0;
   setup.start.angle_rad = at_electrical_deg(283.0);
   Held<> back(setup, all_off());
   ASSERT_EQ(ahead.run_to(20e-3), Stop::end);
   ASSERT_EQ(back.run_to(20e-3), Stop::end);
-  // The two trajectories start with angles that differ by eps. The solver's accuracy bounds their difference
-  // later.
+  // The initial angles of the two trajectories differ by eps. The later difference is within the accuracy of
+  // the solver.
   EXPECT_NEAR(back.state().w, -ahead.state().w, 1e-12 * 900.0);
   EXPECT_NEAR(back.state().i[0], ahead.state().i[0], 1e-10 * 10.0);
   EXPECT_NEAR(back.state().i[1], ahead.state().i[2], 1e-10 * 10.0);
@@ -178,9 +183,9 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
 }
 
 TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
-  // The devices are ideal and the rotor is at rest. A free terminal has exactly the star point's voltage: the
-  // rail of the one driven leg, or a voltage between the rails. If the voltage is equal to a rail's, the leg
-  // floats.
+  // The devices are ideal, and the rotor is at rest. The voltage of a free terminal is exactly the star
+  // point's voltage. This is the rail of the single driven leg, or a voltage between the rails. If it is
+  // equal to a rail's voltage, the leg floats.
   Drivetrain setup;
   for (const plant::Gates& g :
        {gates({}, {true, false, false}), gates({true, false, false}, {}), all_off()}) {
@@ -194,7 +199,7 @@ TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
 
 TEST(Pitfall03_RestartOnABoundary, RotorStartingOnASectorEdgeLeavesOnce) {
   for (int sector = 0; sector < 6; ++sector) {
-    // The gates are those of the positive pair of the sector that the rotor enters, so the rotor leaves the
+    // The gates drive the positive pair of the sector that the rotor enters. The rotor therefore leaves the
     // edge as theta ~ t^3.
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
     plant::Gates g;

@@ -42,7 +42,7 @@ TEST(Encoder, CountsQuarterLinesOverAllTurns) {
 }
 
 TEST(Encoder, CountsEveryEdgeThatFallsOnASectorExactly) {
-  // With 3 p lines, each sector has exactly two quarter lines, after any number of turns.
+  // With 3 p lines, each sector has exactly two quarter lines. This is true after any number of turns.
   for (std::int64_t sector = -1000; sector < 1000; ++sector)
     EXPECT_EQ(plant::parts_of_turn(Angle{sector, 0.0, 8}, 4 * 24), 2 * sector);
 }
@@ -65,7 +65,7 @@ TEST(AbsoluteEncoder, NeighboursDifferInOneBit) {
     const std::int64_t parts = std::int64_t{1} << bits;
     std::uint32_t before = 0;
     for (std::int64_t n = 0; n <= parts; ++n) {
-      // The middle of part n, in sectors of one pole pair.
+      // The middle of part n of the turn, in sectors of one pole pair.
       const double sectors = 6 * (static_cast<double>(n % parts) + 0.5) / static_cast<double>(parts);
       const Angle at{static_cast<std::int64_t>(sectors), (sectors - std::floor(sectors)) * base::sector_rad,
                      1};
@@ -98,7 +98,7 @@ TEST(Resolver, AgreesWithItsEquation) {
         two_pi_l * static_cast<long double>(r.excitation_Hz) * static_cast<long double>(t_ps) * 1e-12L;
     const long double angle = two_pi_l * turns(at) * r.pole_pairs;
     const auto [v1, v2] = plant::resolver_V(r, at, t_ps);
-    // The rounding of a carrier angle of up to 16 000 turns is 16 000 x 2^-53 turns: 1e-11 rad.
+    // A carrier angle of up to 16 000 turns is rounded by 16 000 x 2^-53 turns, which is 1e-11 rad.
     EXPECT_NEAR(v1, static_cast<double>(2 * sinl(carrier + r.phase_1_rad) * cosl(angle)), 4e-11)
         << "draw " << n;
     EXPECT_NEAR(v2,

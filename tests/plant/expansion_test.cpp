@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A series ends when its terms are negligible, not at a single zero term. It has the same bits with every
-// instruction set.
+// A power series ends when its terms are negligible, not at a single zero term. Its bits are the same with
+// every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,11 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The resistance is almost zero. At the first edge, where b's bottom begins and a's ends, the pair has no
-/// torque. The load accelerates the rotor: x ~ t^2 and i ~ t, so i and w have only terms of the orders 1, 4,
-/// 7, 10. A series that ended at the zero terms between them would have an error of 3e-7 in the speed. In
-/// slices of 1 us, all slices but the first begin with a current and have no such zeros.
+/// The resistance is almost zero. At the first edge, the flat bottom of b begins and the flat bottom of a
+/// ends, and the pair has no torque. The load accelerates the rotor: x ~ t^2 and i ~ t, so i and w have only
+/// terms of the orders 1, 4, 7, 10. If the series ended at the zero terms between them, the error of the
+/// speed would be 3e-7. In slices of 1 us, only the first slice has such zeros, because all others begin with
+/// a current.
 TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   Drivetrain setup;
   setup.machine = {.R_ohm = 1e-9, .L_H = 1e-3, .K_e_V_s = 0.01, .pole_pairs = 1};
@@ -36,7 +37,7 @@ TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   laws.expect_all();
 }
 
-/// With a locked rotor, i ~ 1 - exp(-t/tau), over a time longer than one series can cover.
+/// The rotor is locked, so i ~ 1 - exp(-t/tau). One series cannot cover the whole time.
 TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   Drivetrain setup;
   setup.shaft.locked = true;
@@ -51,7 +52,7 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
     plant::Expansion<double> y{};
     plant::expand(c, rotor.state(), mode, taus * setup.tau(), y);
     // The next term, for both legs together, is below 2^-53 of the natural scale. Each term of this
-    // exponential is h/(n tau) times the previous term.
+    // exponential is the previous term times h/(n tau) (length h, order n).
     const auto size = [&](int n) { return 2 * std::fabs(y.i[0][n]) * c.amp_limit; };
     EXPECT_LE(size(y.degree) * y.h / setup.tau() / (y.degree + 1), 1.0) << taus;
     if (y.h == taus * setup.tau()) continue;
@@ -63,7 +64,7 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   EXPECT_GT(halved, 0);
 }
 
-/// A shaft with every kind of torque, so that neither method can omit a term.
+/// A shaft with every kind of torque, so that an omitted term in either method is detected.
 plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
   std::uniform_real_distribution<double> part(0.1, 1);
   Drivetrain setup;
@@ -76,7 +77,7 @@ plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
   return out;
 }
 
-/// A bound of the rounding of an order: the same recurrence with all terms positive.
+/// A bound of the rounding error of an order. It is computed by the same recurrence with all terms positive.
 struct Majorant {
   series::Coefficients<double> i{}, w{}, bus{};
   Majorant(const plant::Constants<double>& c, const plant::LegsLaw<double>& law, double emf, bool turns,
@@ -96,8 +97,8 @@ struct Majorant {
   }
 };
 
-/// FlatPair multiplies out the equations of winding and shaft, two orders at a time; the plain recurrence
-/// does not. In both, an order has less than a dozen roundings.
+/// FlatPair multiplies out the equations of winding and shaft, two orders at a time. The plain recurrence
+/// does not. In both methods, an order has less than a dozen roundings.
 TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
   std::mt19937_64 random{20261122};
   std::uniform_real_distribution<double> any(-1, 1);
@@ -105,7 +106,7 @@ TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
     const plant::Plant<double> rotor = braked(random, n % 2 == 0);
     const plant::Constants<double>& c = rotor.constants();
     plant::Mode mode{.motion = static_cast<plant::Motion>(random() % 5)};
-    // In sector 0, a and b are at their flat tops, and c is on a ramp.
+    // In sector 0, the back-EMFs of a and b are at their flat tops, and the back-EMF of c is on a ramp.
     for (unsigned k = 0; k < 2; ++k) mode.legs[k] = static_cast<plant::Connection>(1 + random() % 4);
     const plant::EmfPiece<double>& piece = c.emf[0].piece[0];
     ASSERT_EQ(piece.beta[0], piece.beta[1]);
@@ -157,7 +158,7 @@ void expect_same_bits(const plant::Constants<double>& c, const plant::Mode& mode
       << "state " << n;
 }
 
-/// The test covers all connections, both shapes, and a stiff and a varying bus.
+/// The cases are all connections, both shapes, and a stiff and a varying bus.
 TEST(Series, BothBuildsGiveTheSameBits) {
   if (!__builtin_cpu_supports("avx")) GTEST_SKIP() << "this processor runs one of them only";
   std::mt19937_64 random{20261122};

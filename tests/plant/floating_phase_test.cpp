@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An effect that is often left out (model.md 12): with soft chopping, the free phase starts to conduct.
+// Simulators often omit this effect (model.md 12): with soft chopping, the free phase starts to conduct.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,8 @@ struct Differences {
   double current = 0, speed = 0, peak_current = 0, top_speed = 0;
 };
 
-/// Compares the engine on a grid with the textbook simulator, which omits the effect, at half duty from rest.
+/// Runs at half duty from rest. The engine's values on a grid are compared with the textbook simulator, which
+/// omits the effect.
 Differences against_naive(double step_s) {
   const Board board = Board::duty(0.5);
   auto engine = board.rig();
@@ -44,7 +45,7 @@ Differences against_naive(double step_s) {
 
 TEST(SoftChopping, FloatingPhaseStartsToConductAndLeavingItOutCostsTenPercentOfPeakCurrent) {
   const Differences d = against_naive(1e-6);
-  // According to model.md 12: 10.6 % and 0.4 %, to the printed digits.
+  // model.md 12 states 10.6 % and 0.4 %; the tolerance is half of the last printed digit.
   EXPECT_NEAR(d.current / d.peak_current, 0.106, 0.0005);
   EXPECT_NEAR(d.speed / d.top_speed, 0.004, 0.0005);
 }
@@ -55,7 +56,8 @@ TEST(SoftChopping, TheDifferenceIsNotTheNaiveSimulatorsStep) {
   EXPECT_NEAR(coarse.speed, fine.speed, 1e-3 * fine.speed);
 }
 
-/// Counts the legs that had no current in one segment and have a conducting diode in the next segment.
+/// Counts the starts of conduction: a leg had no current in one segment, and its diode conducts in the next
+/// segment.
 struct Starts {
   plant::Legs before{};
   int count = 0;
@@ -76,14 +78,14 @@ TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
   auto again = board.rig();
   Starts starts;
   ASSERT_EQ(run_to(again, length_s, starts), sim::Stop::end);
-  // The counts of the reference trajectory R3.
+  // The numbers of events in the reference trajectory R3.
   EXPECT_EQ(rig.event_count(rig::EventKind::sector_edge), 224);
   EXPECT_EQ(rig.event_count(rig::EventKind::diode_off), 2034);
   EXPECT_EQ(starts.count, 1600);
 }
 
-/// The largest current of the free phase: of a leg that is not in the driven pair and whose current has been
-/// zero before.
+/// The largest current of the free phase. The free phase is a leg outside the driven pair whose current has
+/// already been zero.
 struct FreePhase {
   double worst_A = 0;
   std::array<bool, 3> was_free{};
@@ -102,9 +104,9 @@ struct FreePhase {
 };
 
 /// With PWM-ON-PWM, the star point is at the lower rail in the off-times of one half of the sector, and at
-/// the upper rail in those of the other half. The free phase's back-EMF e then drives a current through the
-/// diodes only in the off-time in which e changes its sign. e changes by 2 K_e w in a sector, and L di/dt =
-/// -2/3 e. With every other pattern, this current flows throughout half a sector.
+/// the upper rail in the off-times of the other half. The free phase's back-EMF e therefore drives a current
+/// through the diodes only in the off-time in which e changes its sign. In a sector, e changes by 2 K_e w,
+/// and L di/dt = -2/3 e. With every other pattern, this current flows during half of each sector.
 TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
   using control::PwmPattern;
   constexpr double T = 30e-6;
@@ -122,7 +124,7 @@ TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
     Starts starts;
     ASSERT_EQ(run_to(again, length_s, free), sim::Stop::end);
     ASSERT_EQ(run_to(third, length_s, starts), sim::Stop::end);
-    // Counts and currents of docs/reference/commutation.md.
+    // Counts and currents that docs/reference/commutation.md states.
     static constexpr struct {
       int starts;
       double worst_mA;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dry friction (model.md 1, 4b): sticking, breakaway in the direction of the larger torque, and a final stop.
+// Dry friction (model.md 1, 4b): the rotor sticks, breaks away in the direction of the larger torque, and
+// finally stops.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +40,7 @@ TEST(Pitfall08_Sticking, BreaksAwayInTheDirectionOfTheExcess) {
     bench.plant().set_load(load);
     LawChecker<> laws;
     ASSERT_EQ(bench.run_to(1e-3, laws), Stop::end);
-    // T_load > 0 also acts in the negative direction at rest.
+    // At rest, T_load > 0 also acts in the negative direction.
     const double exact = (load > 0 ? -0.01 : 0.01) / setup.shaft.J_kg_m2 * 1e-3;
     EXPECT_NEAR(bench.state().w, exact, 16 * eps * 0.06 / 0.01 * std::fabs(exact));
     laws.expect_all();
@@ -53,7 +54,7 @@ TEST(Pitfall08_Sticking, BreakawayInstantIsInClosedForm) {
     LawChecker<> laws;
     ASSERT_EQ(bench.run_to(0.4e-3, laws), Stop::end);
     laws.expect_all();
-    // 2 K_e i(t) = T: t = -tau ln(1 - T R_tt/(2 K_e U)).
+    // The rotor breaks away when 2 K_e i(t) = T (friction torque T), at t = -tau ln(1 - T R_tt/(2 K_e U)).
     const double T = std::max(0.1, breakaway), K_t = 2 * setup.machine.K_e_V_s;
     const double exact = -setup.tau() * std::log1p(-T * setup.R_tt() / (K_t * 24.0));
     ASSERT_GE(bench.events.size(), 1u);
@@ -63,8 +64,8 @@ TEST(Pitfall08_Sticking, BreakawayInstantIsInClosedForm) {
   }
 }
 
-/// At rest with all legs on switches, only the motion is undecided. A load above the friction moves the rotor
-/// at once, without a breakaway event.
+/// At rest with all legs on switches, only the motion is undecided. If the load exceeds the friction, the
+/// rotor moves at once, without a breakaway event.
 TEST(Pitfall08_Sticking, ALoadBeyondItIsNoEvent) {
   for (const double load : {0.05, -0.05}) {
     Held<> bench(dry(0.005), all_low());
@@ -110,8 +111,8 @@ TEST(Friction, RotorStopsAtTheClosedFormInstantAndStays) {
       if (e.id == plant::guard::standstill) stopped = e.at.seconds(), ++stops;
     EXPECT_EQ(stops, 1);
     const double exact = 50.0 * setup.shaft.J_kg_m2 / 0.005;
-    // The error of w is the guard's noise, 64 eps of the speed scale. The error of the time is the error of
-    // w, divided by T_c/J.
+    // The error of the speed w is the guard's noise, 64 eps of the speed scale. The error of the time is the
+    // error of w divided by T_c/J (friction torque T_c, inertia J).
     EXPECT_NEAR(stopped, exact, 64 * eps * 766.4 * setup.shaft.J_kg_m2 / 0.005);
     const double way = 50.0 * exact / 2;
     EXPECT_NEAR(bench.angle() - 0.02, w > 0 ? way : -way, 1e-12 * way);
@@ -141,9 +142,9 @@ TEST(Friction, LockedRotorNeedsNone) {
   EXPECT_TRUE(bench.events.empty());
 }
 
-/// The fuzzer found this case: if a load accelerates a rotor for a picosecond, its EMF is a few rounding
-/// errors. The plant found the conducting leg only with a larger noise limit, and this limit also set the
-/// speed to zero: the rotor neither turned nor was at rest.
+/// The fuzzer found this case: a load accelerates a rotor for a picosecond, and the rotor's back-EMF is a few
+/// rounding errors. To find the conducting leg, the plant used a larger noise limit. This limit also set the
+/// speed to zero, so the rotor neither turned nor was at rest.
 TEST(Pitfall05_SnapFirst, ARotorThatHardlyTurnsStillTurns) {
   for (int decade = -130; decade <= -60; ++decade)
     for (const double sign : {1.0, -1.0})

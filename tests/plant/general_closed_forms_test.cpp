@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general kernel is compared with closed forms (model.md 7 to 9). None of these formulas is used in the
-// kernel.
+// The general kernel is compared with closed forms (model.md 7 to 9). The kernel uses none of these formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +15,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// A rotor without gates, friction or load.
+/// A rotor with all gates off, without friction and load.
 GeneralSetup free_rotor(double speed_rad_s) {
   GeneralSetup s;
   s.shaft.B_Nm_s = 0;
@@ -58,7 +57,8 @@ TEST(GeneralClosedForms, TheLoopCurrentOfADeltaIsAnRLCircuitOnTheThirdHarmonic) 
                .shape = {.harmonics = {{1, 1.0}, {3, c3}}}};
   s.shaft.J_kg_m2 = 1e12;  // the speed is constant
   HeldGeneral held(s);
-  // 0 = R S + (L + 2 M) dS/dt + 3 c3 K w cos(3 (theta + 30 - 60 deg)), which is 3 c3 K w sin 3 theta, from S = 0.
+  // The sum S of the three currents starts at 0 and follows 0 = R S + (L + 2 M) dS/dt + 3 c3 K w cos(3 (theta
+  // + 30 - 60 deg)). The last term is 3 c3 K w sin 3 theta.
   const double rate = 3 * 8 * w, X = (L + 2 * M) * rate, e = 3 * c3 * K * w, Z2 = R * R + X * X;
   for (const double t : {1e-4, 1e-3, 7e-3, 20e-3}) {
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
@@ -167,7 +167,7 @@ TEST(GeneralClosedForms, ASalientRotorShowsItsAxisInTheSlopeOfTheCurrent) {
     s.machine.L_q_H = 0.34e-3;
     s.start.angle_rad = at_electrical_deg(electrical_deg);
     HeldGeneral held(s, a_to_b());
-    // (7) with i_a = -i_b: lambda_a - lambda_b = 2 (L_S - L_D cos(2 theta_d - 120 deg)) i.
+    // With i_a = -i_b, equation (7) gives lambda_a - lambda_b = 2 (L_S - L_D cos(2 theta_d - 120 deg)) i.
     const double turned = (2 * (electrical_deg - 150) - 120) * base::pi / 180;
     const double L = 2 * (0.29e-3 + 0.05e-3 * std::cos(turned)), R = 1.03, t = 3e-4;
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
@@ -208,8 +208,8 @@ TEST(GeneralClosedForms, AWireThatBreaksWhileItCarriesCurrentOpensAtTheNextZero)
   for (int k = 0; k < 3; ++k) EXPECT_EQ(held.plant().state().i[k], 0);
 }
 
-// A terminal behind a broken wire has no rails. The other two terminals are symmetric about the middle of
-// their rails, and the EMFs of the windings determine the voltage of the third.
+// A terminal with a broken wire is connected to no rail. The other two terminals are symmetric about the
+// middle of their rails. The voltage of the third terminal then follows from the back-EMFs of the windings.
 TEST(GeneralClosedForms, AStarBehindABrokenWireHangsMidwayBetweenTheOthersRails) {
   for (unsigned broken = 0; broken < 3; ++broken) {
     HeldGeneral held(free_rotor(300));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The temperatures of winding and housing (model.md (11)) and of the switches' junctions are compared with a
-// separate integration and with closed forms.
+// separate integration, and with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ general::HeatGiven warm_motor() {
 TEST(GeneralHeat, TwoBodiesUnderSteadyPowersAreSolvedExactlyInStepsOfAnyLength) {
   const auto given = warm_motor();
   const double copper_W = 8, w = 300, friction_W = 1e-5 * w * w + 2e-3 * w;
-  // The reference integrates (11) with the classical fourth-order method in small steps.
+  // The reference integrates equation (11) by the classical fourth-order method in small steps.
   double T_w = 40, T_h = 30;
   const double C_w = 17.7 / 4.5, C_h = 212 / 4.25, dt = 0.01;
   const auto slope = [&](double tw, double th) {
@@ -93,7 +93,8 @@ TEST(GeneralHeat, AJunctionIsAsWarmAsItsOwnSwitchLoses) {
       plant_.set_gates(a_to_b());
     }
   } hot(s, {.devices = true, .sink_degC = 40, .junction_K_W = 3, .on_per_K = 0.006});
-  // R_on = 0.05 (1 + 0.006 (T - 25)), T = 40 + 3 R_on I^2, I = U/(1.03 + 2 R_on), in steps of a millisecond.
+  // In steps of a millisecond, R_on = 0.05 (1 + 0.006 (T - 25)), T = 40 + 3 R_on I^2 and I = U/(1.03 + 2
+  // R_on) (on-resistance R_on, junction temperature T).
   for (int ms = 1; ms <= 60; ++ms) {
     ASSERT_EQ(run_to(hot, ms * 1e-3), sim::Stop::end);
     hot.plant().take_thermal_step();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both kernels give the same trajectory for all drives that the lean kernel supports. They share no
-// recurrence, no mode search and no guard of a leg.
+// Both kernels give the same trajectory for all drives that the lean kernel supports. They have no common
+// recurrence, mode search or guard of a leg.
 #include <gtest/gtest.h>
 
 #include <cmath>

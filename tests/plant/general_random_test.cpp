@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random machines, shafts, bridges and supplies run on the general kernel with random duties. The run reaches
-// its end, its energy balance closes, no diode conducts backwards, and no floating leg carries a current. A
-// failed test prints its seed; SIXSTEP_DRAWS sets the number of draws.
+// its end and its energy balances. No diode conducts backwards, and no floating leg carries a current. A
+// failed test prints its seed. SIXSTEP_DRAWS sets the number of random cases.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The general kernel is compared with trajectories that an independent brute-force solver has computed in
-// float128 (tests/reference/G*). The lean kernel does not support their machines, shafts, bridges and
-// supplies. If not stated otherwise, the duty is one half with soft chopping. The largest difference of a
-// column, divided by its largest value, is at most 1e-10; for speed and angle 1e-12.
+// float128 (tests/reference/G*). The lean kernel does not support these machines, shafts, bridges and
+// supplies. If a test states nothing else, the duty is one half with soft chopping. The largest difference of
+// a column, divided by the column's largest value, is at most 1e-10; for speed and angle, it is at most
+// 1e-12.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +38,7 @@ Columns trajectory(const std::string& name) {
   return all;
 }
 
-/// The rig's value for the trajectory's column of this name.
+/// The rig's value of the quantity in the trajectory's column `column`.
 double value_of(const std::string& column, const GeneralRig& rig) {
   const auto& plant = rig.plant();
   const auto& s = plant.state();

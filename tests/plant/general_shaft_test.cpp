@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads and gears of the general kernel are compared with closed forms (model.md 7). None of these formulas
-// is used in a kernel.
+// Loads and gears of the general kernel are compared with closed forms (model.md 7). The kernels use none of
+// these formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,8 @@ TEST(GeneralShaft, ATorqueOverTheSpeedIsALineBetweenItsPoints) {
   GeneralSetup s = free_rotor(50);
   s.shaft.load.over_speed = {{-10, -1e-4}, {10, 1e-4}, {30, 5e-4}};
   HeldGeneral held(s);
-  // The load is constant above 30 rad/s. From 30 to 10 rad/s, its slope is 2e-5; through zero, it is 1e-5.
+  // Above 30 rad/s, the load is constant. Its slope is 2e-5 N m s from 30 to 10 rad/s, and 1e-5 N m s through
+  // zero.
   const double level = 20 * J / 5e-4, sloped = J / 2e-5 * std::log(5e-4 / 1e-4);
   for (const double t : {level / 2, level, level + sloped / 3, level + sloped}) {
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
@@ -56,7 +57,8 @@ TEST(GeneralShaft, AGearWithLossesTakesMoreFromTheSideThatDrives) {
   s.shaft.load_J_kg_m2 = J2;
   s.shaft.load.torque_Nm = load;
   HeldGeneral held(s);
-  // The inertia of the load drives the shaft until standstill. Then the load torque drives it backwards.
+  // The inertia of the load drives the shaft until standstill. Then the torque of the load drives the shaft
+  // backwards.
   const double slows = load / n / eta / (J + J2 / (n * n) / eta), stands = 12 / slows;
   ASSERT_EQ(run_to(held, stands / 2), sim::Stop::end);
   EXPECT_NEAR(held.plant().state().w, 6, 1e-9);
@@ -79,9 +81,9 @@ TEST(GeneralShaft, AGearWithLossesHoldsALoadThatCannotDriveIt) {
   EXPECT_NEAR(held.plant().state().w, -(4e-3 / 5 * 0.5 - 3e-4) / J * 0.1, 1e-9);
 }
 
-/// An almost zero load drives the shaft for picoseconds, then the motor does. In an earlier version, the
-/// trial state of a rotor at rest had another sign of the gear's loss than the turning rotor, so both states
-/// alternated at one instant without end.
+/// An almost zero load drives the shaft for picoseconds, then the motor drives it. In an earlier version, the
+/// trial state of a rotor at rest and the turning rotor had different signs of the gear's loss. Both states
+/// therefore alternated at one instant without end.
 TEST(GeneralShaft, ALossyGearStartsAgainstNextToNoLoad) {
   for (const double load : {-1e-6, -1e-8, -1e-10, 1e-8}) {
     GeneralSetup s;
@@ -134,8 +136,8 @@ TEST(GeneralShaft, ADynamometerSaysTheSpeedAndTheTorqueIsWhatIsLeft) {
   EXPECT_NEAR(plant.state().w, 2 * 20, 1e-11);
   const double angle = (static_cast<double>(plant.state().sector) * base::sector_rad + plant.state().x) / 8;
   EXPECT_NEAR(angle, 2 * (-10 * 0.075 + 200 * 0.075 * 0.075), 1e-12);
-  // There is no current: inertia, viscous friction and dry friction act on the dynamometer, on its side of
-  // the gear.
+  // No current flows. Inertia, viscous friction and dry friction act on the dynamometer, on its side of the
+  // gear.
   const double at_start = plant.expansion().w[0];
   EXPECT_NEAR(plant.series().load[0], -2 * ((J + 1e-5) * 800 + 7.3e-6 * at_start + 2e-3), 1e-12);
 }

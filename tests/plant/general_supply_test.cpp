@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Supplies of the general kernel are compared with closed forms (model.md 9). None of these formulas is used
-// in the kernel.
+// Supplies of the general kernel are compared with closed forms (model.md 9). The kernel uses none of these
+// formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// The rotor is locked; the bus supplies a resistor that is always on.
+/// The rotor is locked. The bus supplies a resistor that is always on.
 GeneralSetup loaded(const general::Supply& supply, double bus_V, double load_ohm) {
   GeneralSetup s;
   s.shaft.locked = true;
@@ -53,7 +53,7 @@ TEST(GeneralSupply, ASourceTakesBackNoMoreThanItsLimit) {
     s.supply = {.V_0_V = 24, .R_b_ohm = 0.5, .C_F = 1e-3, .R_C_ohm = R_C, .sinks = false, .sink_A = 4};
     s.start.bus_V = 30;
     HeldGeneral held(s);
-    // The current is 4 A until U_s = 24 + 0.5 * 4, then it decays exponentially.
+    // The current is 4 A until the bus voltage U_s is 24 + 0.5 * 4. Then the current decays exponentially.
     const double U_C = 26 + R_C * 4, level = (30 - U_C) * 1e-3 / 4, tau = (0.5 + R_C) * 1e-3;
     ASSERT_EQ(run_to(held, level / 2), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, 30 - 4 * level / 2 / 1e-3 - R_C * 4, digits * 30);
@@ -63,7 +63,7 @@ TEST(GeneralSupply, ASourceTakesBackNoMoreThanItsLimit) {
   }
 }
 
-/// exp(A t) y for a battery's three states, by scaling and squaring of the series.
+/// exp(A t) y for the three states y of a battery, computed by scaling and squaring of the series.
 using Three = std::array<double, 3>;
 using Matrix = std::array<Three, 3>;
 Three after(const Matrix& A, const Three& y, double t) {
@@ -97,7 +97,8 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   const double R_b = 0.1, C = 1e-3, load = 2, OCV = 18 + 8 * 0.9;
   HeldGeneral held(
       loaded({.R_b_ohm = R_b, .C_F = C, .source = general::Source::battery, .battery = battery}, OCV, load));
-  // States: OCV (linear in the charge), v_1, U_s; i = (OCV - v_1 - U_s)/R_b.
+  // The states are OCV (the open-circuit voltage, linear in the charge), v_1 and U_s. The current is i = (OCV
+  // - v_1 - U_s)/R_b.
   const double per_Q = 8 / 0.4;
   const Matrix A{{{-per_Q / R_b, per_Q / R_b, per_Q / R_b},
                   {1 / (R_b * 5e-3), -1 / (R_b * 5e-3) - 1 / (0.2 * 5e-3), -1 / (R_b * 5e-3)},
@@ -112,8 +113,8 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   EXPECT_LT(held.plant().more().charge.value, 0.5) << "the middle point was passed";
 }
 
-/// U_s while a rectifier conducts, from `t_on` on. The rectifier is fed by a sine of amplitude V, minus
-/// `drop`. U_s is the response of the RC circuit to this sine.
+/// The bus voltage U_s while a rectifier conducts, from the time `t_on` on. The rectifier's source is a sine
+/// of amplitude V minus `drop`. U_s is the response of the RC circuit to this sine.
 struct Conducting {
   double V, w, drop, R_b, R, C;
   double steady(double t) const {
@@ -138,7 +139,7 @@ TEST(GeneralSupply, ARectifierChargesAtTheTopsAndLeavesTheRestToTheCapacitor) {
     for (int n = 0; n < 200; ++n) (f((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
     return low;
   };
-  // whole microseconds are whole ps of the run's clock
+  // whole microseconds are also whole picoseconds of the run's clock
   const auto whole_us = [](double t) { return std::round(t * 1e6) / 1e6; };
   const auto open = [&](double t) { return V * std::fabs(std::sin(w * t)) - drop; };
   double t_on = root(0, 5e-3, [&](double t) { return 10 * std::exp(-t / (R * C)) - open(t); });
@@ -153,8 +154,8 @@ TEST(GeneralSupply, ARectifierChargesAtTheTopsAndLeavesTheRestToTheCapacitor) {
     const double U_off = law.at(t_off - shift, t_on - shift, U);
     t_on = root(t_off + 1e-5, shift + 15e-3,
                 [&](double t) { return U_off * std::exp(-(t - t_off) / (R * C)) - open(t); });
-    // Between two pulses, the open-circuit voltage is below the bus voltage. The root above is the instant at
-    // which the rectifier conducts again.
+    // Between two pulses of current, the open-circuit voltage is below the bus voltage. The root computed
+    // above is the instant at which the rectifier conducts again.
     ASSERT_EQ(run_to(held, t_after), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, U_off * std::exp(-(t_after - t_off) / (R * C)), 1e-10) << pulse;
     U = U_off * std::exp(-(t_on - t_off) / (R * C));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saturation, warm copper and failing switches of the general kernel (model.md 7 and 8) are compared with
-// closed forms, or with runs that reach the same state in another way.
+// closed forms. Where there is none, they are compared with runs that reach the same state in another way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,16 +26,17 @@ GeneralSetup saturating(double electrical_deg, double I_sat) {
   return s;
 }
 
-/// A pulse along the magnet's axis from a to b: i_d = (2/sqrt 3) i, and sqrt 3 lambda_d + 2 R (integral of i)
-/// = U t, so t(i) has a closed form. `sign` is 1 for a pulse in the magnet's direction and -1 for the
-/// opposite direction.
+/// A pulse from a to b along the magnet's axis: i_d = (2/sqrt 3) i, and sqrt 3 lambda_d + 2 R (integral of i)
+/// = U t (symbols of model.md). Therefore t(i) has a closed form. `sign` is 1 for a pulse in the magnet's
+/// direction, and -1 for the opposite direction.
 TEST(GeneralWinding, APulseAlongTheMagnetTellsNorthFromSouth) {
   const double R = 0.515, L = 0.24e-3, U = 24, I_sat = 40;
   const auto time_of = [&](double i, double sign) {
     const double a = sign * 2 / std::sqrt(3.0) / I_sat, log = std::log(1 - 2 * R * i / U);
     return 2 * L * (-log / (2 * R) + a * (i / (2 * R) + U * log / (4 * R * R)));
   };
-  // For theta_e = 120 deg, the direction theta_d = theta_e - 150 deg is along the pair's axis, at -30 deg.
+  // For theta_e = 120 degrees, the magnet's direction theta_d = theta_e - 150 degrees is the axis of the
+  // pair, -30 degrees.
   double reached[2] = {};
   for (const double sign : {1.0, -1.0}) {
     HeldGeneral held(saturating(sign > 0 ? 120 : 300, I_sat), a_to_b());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pitfalls of the event-exact plant that no other test in this folder covers: the tangential start, the order
-// of events that set a state to zero, and guards that are built from the polynomials of the state.
+// Pitfalls of the event-exact plant that no other test in this folder covers. They are the tangential start,
+// the order of events that set a state to zero, and guards that are computed from the polynomials of the
+// state.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,8 +16,9 @@ using namespace sixstep;
 using namespace sixstep::testing;
 namespace guard = plant::guard;
 
-/// a's lower switch is on, and b's EMF pulls its terminal below the rail. b's diode starts with i = di/dt =
-/// 0. w is constant, so L_tt di/dt + R_tt i = E' t from this instant on, which has a closed form.
+/// The lower switch of a is on, and the back-EMF of b lowers the terminal of b below the rail. The diode of b
+/// starts with i = di/dt = 0. The speed w is constant, so L_tt di/dt + R_tt i = E' t from this instant on,
+/// with the slope E' of the back-EMF. This equation has a closed form.
 TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter) {
   for (const double V_f : {0.0, 0.7}) {
     Drivetrain setup;
@@ -33,8 +35,8 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
       const long double tau_part =
           setup.tau() * x * x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6))));
       const double exact = static_cast<double>(emf_rate / setup.R_tt() * tau_part);
-      // The instant is a whole picosecond, and the start is exact to the rounding of an angle of 300 degrees.
-      // The driving voltage is zero to the noise of the guards.
+      // The instant is rounded to a picosecond. The start is exact within the rounding of an angle of 300
+      // degrees. The driving voltage is zero within the noise of the guards.
       const double late_s = 0.5e-12 + 32 * eps * at_electrical_deg(300.0) / 400.0;
       const double noise_V = plant::noise_of(bench.plant().constants().volt_scale, 1.0);
       const double bound = (emf_rate * after_s * late_s + noise_V * after_s) / setup.L_tt();
@@ -53,7 +55,7 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
 }
 
 /// A six-step drive that follows the sectors without delay. On either side of the edge, it drives the rotor
-/// back to the other side.
+/// back towards the edge.
 struct TornAtAnEdge : Held<> {
   explicit TornAtAnEdge(const Drivetrain& setup) : Held<>(setup, all_off()) { drive(); }
   void apply(int id) {
@@ -67,8 +69,8 @@ struct TornAtAnEdge : Held<> {
   }
 };
 
-/// At rest, the torque is zero on both sides of the edge, and the third derivative of the angle is towards
-/// the edge from either side. Without friction, the rotor cannot leave the edge, but time must advance.
+/// At rest, the torque is zero on both sides of the edge. From either side, the third derivative of the angle
+/// points towards the edge. Without friction, the rotor cannot leave the edge, but the time must advance.
 TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoesOnInTime) {
   for (const double C_F : {0.0, 1e-3}) {
     Drivetrain setup;
@@ -87,7 +89,8 @@ TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoe
   }
 }
 
-/// The order in which a mode's guards are evaluated: at one instant, the first guard is the event.
+/// The order in which the guards of a mode are evaluated. If several guards trigger at one instant, the first
+/// guard is the event.
 struct Order {
   bool snap_after_another = false;
   int standstill_with_rail = 0, current_with_rail = 0;  ///< segments that have both guards
@@ -138,7 +141,8 @@ TEST(Pitfall05_SnapFirst, ASpeedWithinNoiseIsRestWhereFrictionHolds) {
   }
 }
 
-/// The quantity that a guard watches, computed from the state that the expansion gives at the fraction s.
+/// The quantity that a guard watches. It is computed from the state that the expansion gives at the fraction
+/// s of the segment.
 double watched(const plant::Plant<double>& p, int id, double s) {
   const plant::Snapshot<double> now = p.at(s);
   const double V_f = p.constants().devices.V_f_V;
@@ -191,7 +195,7 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
       ASSERT_EQ(bench.run_to(5e-3, same), sim::Stop::end);
     }
   }
-  // The noise is 64 eps of the natural scale. Both sides are sums of a few dozen products of this scale.
+  // The noise is 64 eps of the natural scale. Both quantities are sums of a few dozen products of this scale.
   EXPECT_LT(same.worst, 1.0);
   for (const int id : {0, 1, 2, guard::standstill, guard::edge_ahead, 6, 7, 8, 9, 10, 11,
                        guard::floating_star + 1, guard::breakaway_forward, guard::breakaway_backward})

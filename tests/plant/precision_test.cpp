@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar type is a template parameter: the results in double are compared with those in long double.
+// The scalar type is a template parameter. The results in double are compared with the results in long
+// double.
 #include <gtest/gtest.h>
 
 #include <cmath>

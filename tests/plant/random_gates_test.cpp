@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gates switch at random, which no modulator does. The plant must still find a consistent mode, and all
-// laws must hold.
+// The gates switch at random, which no modulator does. The plant must still find a consistent mode, and every
+// law must be obeyed.
 #include <gtest/gtest.h>
 
 #include <random>

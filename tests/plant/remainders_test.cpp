@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values below the last bit of a double: the remainders of compensated sums, and states so small that the
-// plant could treat them as noise.
+// Tests values below the last bit of a double: the remainders of compensated sums, and states so small that
+// the plant could treat them as noise.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,8 @@ Drivetrain rectifying() {
   return setup;
 }
 
-/// The sum of the three currents' remainders (i_low): how far it exceeds its rounding error.
+/// The sum of the remainders (i_low) of the three currents. `beyond_rounding` is the part that exceeds the
+/// rounding error.
 struct Sums {
   double beyond_rounding = 0, largest = 0;
   int with_three = 0;
@@ -41,7 +42,7 @@ TEST(Remainders, OfTheCurrentsSumToZeroAsTheCurrentsDo) {
   EXPECT_LE(sums.beyond_rounding, 0.0);
 }
 
-/// Checks that the angle is zero after each edge that the rotor passed.
+/// Checks that the angle is zero after the rotor has passed an edge.
 struct Edges {
   int passed = 0;
   std::size_t seen = 0;
@@ -63,8 +64,8 @@ TEST(Remainders, AnEdgeSetsTheAngleAndLeavesNone) {
   EXPECT_GT(edges.passed, 10);
 }
 
-/// A current through switches may be arbitrarily small: the plant sets a current below the noise to zero only
-/// where a diode could carry it.
+/// A current through switches may be arbitrarily small. The plant sets a current below the noise to zero only
+/// if a diode could carry it.
 TEST(Remainders, ACurrentThroughSwitchesIsNeverTakenForNone) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;

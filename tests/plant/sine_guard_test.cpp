@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rail guards of a sine machine are as exact without current as with current. Only currents, speed and
-// bus set the length of the power series; without current it would end at order 3 and truncate cos x.
+// The rail guards of a sine machine are equally exact with and without current. Only currents, speed and bus
+// determine the length of the power series. Without a current, the series would end at order 3 and truncate
+// cos x.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,9 +13,9 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The rotor turns freely from 290 degrees with a's lower switch on. The instant at which e_a - e_b = K_e w
-/// sqrt 3 sin(theta - 300 deg) reaches the diode drop V_f has a closed form. No current flows before it, so
-/// that w is constant without friction.
+/// The rotor turns freely from 290 degrees, with the lower switch of a on. The diode conducts when e_a - e_b
+/// = K_e w sqrt 3 sin(theta - 300 deg) reaches the drop V_f. This instant has a closed form, because no
+/// current flows before it and w is constant without friction.
 TEST(SineGuards, DiodeConductsWhereTheEmfReachesItsDropWithoutCurrentToo) {
   for (const double V_f : {0.35, 0.7, 1.4, 2.8}) {
     Drivetrain d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sector and angle in which a run starts.
+// Tests the sector and the angle with which a run starts.
 #include <gtest/gtest.h>
 
 #include "tests/support/maxon.hpp"
@@ -9,9 +9,9 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The fuzzer found this case: the conversions from degrees to radians and from electrical to mechanical
-/// angle moved a start off its edge by a rounding error. From rest the angle grows as t^3, so that 2e-16 rad
-/// delayed the commutation by nanoseconds.
+/// The fuzzer found this case: two conversions, from degrees to radians and from electrical to mechanical
+/// angle, changed a start on an edge by a rounding error. From rest, the angle increases as t^3, so an error
+/// of 2e-16 rad delayed the commutation by nanoseconds.
 TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
   for (int pole_pairs = 1; pole_pairs <= 21; ++pole_pairs)
     for (int edge = -14; edge <= 14; ++edge) {
@@ -25,8 +25,8 @@ TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
     }
 }
 
-/// A turning rotor has just passed the edge, forwards or backwards. At rest on an edge, the sector is the one
-/// that the rotor will enter (model.md 4b).
+/// A turning rotor on an edge has just passed the edge, forwards or backwards. A rotor at rest on an edge is
+/// in the sector that it will enter (model.md 4b).
 TEST(Start, OnASectorEdgeTheRotorIsInTheSectorItTurnsInto) {
   for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three pieces
     for (int edge = -7; edge <= 7; ++edge)

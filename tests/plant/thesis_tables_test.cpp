@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All 54 rows of the thesis's tables 4 and 5 follow from the circuit law (model.md 2), except one misprint,
-// which the test finds.
+// All 54 rows of the thesis's tables 4 and 5 follow from the circuit law (model.md 2), except one misprint.
+// The test finds this misprint.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::plant;
 
-/// Coefficients of (U_s, e_a, e_b, e_c).
+/// Coefficients of the four voltages U_s, e_a, e_b, e_c.
 using Terms = std::array<double, 4>;
 
 struct TableRow {
@@ -46,7 +46,7 @@ std::vector<TableRow> printed_rows() {
   return rows;
 }
 
-/// The driven pair by sector (model.md 3): source, sink; legs 0, 1, 2 for a, b, c.
+/// The driven pair of each sector (model.md 3): source and sink. The numbers 0, 1, 2 are the legs a, b, c.
 struct DrivenPair {
   std::size_t source, sink;
 };
@@ -54,8 +54,8 @@ constexpr std::array<DrivenPair, 6> pairs{{{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0
 
 Connection free_leg(char sign) { return connection_of(false, false, sign == '+' ? 1 : sign == '-' ? -1 : 0); }
 
-/// In table 4 both driven switches conduct. In table 5 only the sink's lower switch conducts; the source and
-/// the third leg are free.
+/// In table 4, both driven switches conduct. In table 5, only the lower switch of the sink conducts, and the
+/// two other legs are free.
 Legs legs_of(const TableRow& row) {
   const DrivenPair pair = pairs[static_cast<std::size_t>(row.sector)];
   Legs legs{};
@@ -69,8 +69,8 @@ struct Derived {
   Terms ab{}, bc{};
 };
 
-/// For ideal devices the law is linear in (U_s, e_a, e_b, e_c): its coefficients are its values at the unit
-/// vectors.
+/// For ideal devices, the law is linear in (U_s, e_a, e_b, e_c). Its coefficients are therefore its values at
+/// the unit vectors.
 Derived derived(const Legs& legs) {
   Derived d;
   for (std::size_t n = 0; n < 4; ++n) {
@@ -93,8 +93,8 @@ TEST(ThesisTables, FollowFromTheCircuitLawButForOneMisprint) {
     if (law.ab != row.ab || law.bc != row.bc) misprints.push_back(row.text);
   }
   ASSERT_EQ(misprints.size(), 1u);
-  // model.md 13: table 5, 240-300 degrees, i_b < 0, i_c = 0. The table has (-U_s - e_a + e_b)/2; correct is
-  // (U_s + e_a - e_b)/2.
+  // The misprint (model.md 13) is in table 5, 240-300 degrees, i_b < 0, i_c = 0. The table states (-U_s - e_a
+  // + e_b)/2; the correct value is (U_s + e_a - e_b)/2.
   EXPECT_EQ(misprints[0], "5,4,*,-,0,-1,-1,1,0,-0.5,-0.5,0.5,0");
   const Derived right = derived({Connection::low_switch, Connection::high_diode, Connection::floating});
   EXPECT_EQ(right.ab, (Terms{-1, -1, 1, 0}));

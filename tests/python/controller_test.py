@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Controllers in Python: called once a period with what is measured, and their exception is the caller's."""
+"""Controllers in Python. They are called once per period with the measured values. The caller receives their
+exceptions."""
 import math
 import os
 import re
@@ -15,7 +16,7 @@ class Controllers(unittest.TestCase):
         return sixstep.Scenario({"motor": "maxon-251601", "duration_s": 5e-3, "control": {"mode": "duty"}, "reference": {"value": 0.4}, **more})
 
     def test_a_constant_duty_is_that_of_the_library(self):
-        """The drive of the library with the same duty: the same trajectory, but for the ways that reports go."""
+        """The library's drive with the same duty has the same trajectory."""
         library = sixstep.run(self.duty())
         own = sixstep.run(self.duty(), lambda m, setpoint: setpoint)
         np.testing.assert_array_equal(own.speed, library.speed)
@@ -46,7 +47,7 @@ class Controllers(unittest.TestCase):
             legs = True
 
             def step(self, m, setpoint):
-                """Voltage a quarter turn ahead of the magnet: forward torque."""
+                """A voltage a quarter of an electrical turn ahead of the magnet gives a forward torque."""
                 angle = math.atan2(m.magnet_sin, m.magnet_cos) + math.pi / 2
                 return [0.5 + 0.3 * math.cos(angle - k * 2 * math.pi / 3) for k in range(3)]
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every public name has a docstring with an example, which is executed; the declared types hold under mypy --strict."""
+"""Every public name has a docstring with an example, and the test executes the example. The declared types pass mypy
+--strict."""
 import doctest
 import importlib
 import inspect
@@ -14,7 +15,8 @@ import sixstep
 from package import SOURCE
 
 FACE = SOURCE / "faces" / "python" / "sixstep"
-# Names without a short example: errors, a measurement that only a controller gets, and studies of many seconds (run_test.py has them).
+# Names without a short example: errors, a measurement that only a controller receives, and studies of many seconds (run_test.py
+# tests these).
 WITHOUT = {"Interrupted", "Measured", "ProgramError", "__version__", "compare", "wiring"}
 
 

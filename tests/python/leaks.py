@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""leaks.py (ctest --preset long): a hundred runs, sessions, controllers and environments under valgrind lose no memory of the extension
-and touch none that is not theirs."""
+"""leaks.py (ctest --preset long): a hundred runs, sessions, controllers and environments under valgrind. The
+extension loses no memory and accesses no memory of others."""
 import os
 import re
 import subprocess
@@ -33,7 +33,7 @@ with tempfile.NamedTemporaryFile("r") as log:
     words = ["valgrind", "--leak-check=full", "--show-leak-kinds=definite", "--num-callers=40", f"--log-file={log.name}", sys.executable, "-c", WORK]
     subprocess.run(words, check=True, env={**os.environ, "PYTHONMALLOC": "malloc"})
     told = re.sub(r"(?m)^==\d+== ?", "", log.read())
-# Python's own memory gives false reports of valgrind: only those through the extension count.
+# valgrind reports false errors for Python's own memory. Only reports with a function of the extension count.
 blocks = [block for block in told.split("\n\n") if "_core." in block and re.search("definitely lost|Invalid (read|write)|uninitialised", block)]
 for block in blocks:
     print(block, "\n")

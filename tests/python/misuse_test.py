@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Uses that went wrong silently, hung, or were answered by words that did not help."""
+"""Wrong uses that once failed silently, hung, or had an unclear message."""
 import math
 import os
 import pathlib

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a notebook shows: a chart that is read at the pointer and zoomed, in Chromium, and nothing that a title could smuggle in."""
+"""The chart of a notebook in Chromium: it shows the values at the pointer and can be zoomed. A title cannot inject
+markup."""
 import contextlib
 import html
 import io
@@ -127,7 +128,7 @@ class Bridge(unittest.TestCase):
             for k, phase in enumerate("abc"):
                 i, u = float(r[f"i_{phase}_A"][n]), float(r[f"u_{phase}_V"][n])
                 way = conducting(float(r[f"gate_T{2 * k + 1}"][n]), float(r[f"gate_T{2 * k + 2}"][n]), i)
-                if abs(i) > 0.05:  # a conducting leg is at the rail of its switch or diode
+                if abs(i) > 0.05:  # the terminal of a conducting leg is at the supply rail of its switch or diode
                     self.assertAlmostEqual(u, 24 if way.startswith("upper") else 0, delta=1.0, msg=f"{way} at {at_s}")
 
     def test_an_instant_outside_the_run_is_told(self):

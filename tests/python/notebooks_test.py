@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The notebooks: each is that of its text, runs from top to bottom, and shows what it says it shows."""
+"""Each notebook agrees with its text source, runs from top to bottom, and has the outputs that it shows."""
 import importlib.util
 import json
 import math
@@ -16,7 +16,7 @@ spec.loader.exec_module(make)
 
 class Notebooks(unittest.TestCase):
     def ran(self, number):
-        """Names of the notebook after its run, and all that it printed. Its cells are those of the committed file."""
+        """Runs a notebook. Returns its names and its printed text. The cells must be equal to the committed file."""
         file = next(NOTEBOOKS.glob(f"{number}-*.py"))
         told, names = make.notebook(file.read_text())
         committed = json.loads(file.with_suffix(".ipynb").read_text())
@@ -37,7 +37,8 @@ class Notebooks(unittest.TestCase):
     def test_your_motor(self):
         names, _ = self.ran(2)
         self.assertTrue(names["design"].ok)
-        # The poles are for 1 ms and a damping of 0.9, on the plant of a pair with R = 0.6 ohm, L = 0.45 mH and a hold of 30 us.
+        # The plant is a pair with R = 0.6 ohm and L = 0.45 mH, and the hold lasts 30 us. The poles are for a settling time of 1
+        # ms and a damping of 0.9.
         R, L, T, xi = 0.60, 0.450e-3, 30e-6, 0.9
         a0, b0, w0 = -math.exp(-R * T / L), (1 - math.exp(-R * T / L)) / R, 4.6 / (xi * 1e-3)
         c1 = -2 * math.exp(-xi * w0 * T) * math.cos(w0 * math.sqrt(1 - xi**2) * T)

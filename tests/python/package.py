@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shared by the tests of the Python package: scenarios, and the program beside which results are held."""
+"""Functions for the tests of the Python package: scenarios, and the program with which the results are compared."""
 import json
 import pathlib
 import subprocess
@@ -17,7 +17,7 @@ def current(**more):
 
 
 def program_summary(file, *words):
-    """What `sixstep run` says of the scenario."""
+    """The summary that `sixstep run` writes for the scenario."""
     made = subprocess.run([sixstep.program(), "run", str(file), *words, "--quiet", "--json", "-"], capture_output=True, text=True, check=False)
     assert made.returncode in (0, 1, 3), made.stderr
     return json.loads(made.stdout)

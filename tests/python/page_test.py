@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The code of docs/howto/use-from-python.md, executed from top to bottom, and its results judged."""
+"""The code of docs/howto/use-from-python.md runs from top to bottom, and its results are checked."""
 import contextlib
 import io
 import os
@@ -35,7 +35,7 @@ class Page(unittest.TestCase):
         self.assertTrue(names["result"].complete)
         self.assertAlmostEqual(float(names["r"].speed[-1]), 200, delta=20)
         self.assertEqual(names["total"].shape, (64,))
-        # The reward is minus the distance: a larger gain follows better, until the current's limit bounds it.
+        # The reward is the negative distance. A larger gain gives a smaller distance, until the current limit acts.
         self.assertGreater(names["total"].argmax(), 5)
         self.assertTrue(np.isfinite(names["total"]).all())
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs in Python have the bits of the program's runs, and their columns keep the laws of the circuit."""
+"""Runs in Python have the same bits as the program's runs. Their columns satisfy the laws of the circuit."""
 import gc
 import os
 import pathlib
@@ -30,8 +30,8 @@ def drawn_values(draw):
 
 class Bits(unittest.TestCase):
     def test_program_run_and_session_have_one_digest(self):
-        """30 drawn scenarios: those that ship with drawn values of keys that all of them have. The program, a run in Python, and a session
-        in drawn steps."""
+        """30 random scenarios: shipped scenarios with random values of keys that every scenario has. The program, a
+        run in Python, and a session with random steps have the same digest."""
         seed = int(os.environ.get("SIXSTEP_SEED", "38"))
         draw, compared = random.Random(seed), 0
         for n in range(400):
@@ -42,7 +42,7 @@ class Bits(unittest.TestCase):
             try:
                 scenario.update(values)
             except sixstep.ScenarioError:
-                continue  # a window or a change is after the end of this short run, or the board cannot do it
+                continue  # a window or a change is after the end of this short run, or the board does not support it
             with self.subTest(f"SIXSTEP_SEED={seed}: number {n}, {file.stem}, {values}"):
                 told = program_summary(file, *(word for key, value in values.items() for word in ("--set", f"{key}={value!r}")))
                 self.assertEqual(sixstep.run(scenario).digest, told["digest"])
@@ -98,7 +98,7 @@ class Columns(unittest.TestCase):
         self.assertTrue((np.diff(t) >= 0).all())
         self.assertTrue((np.diff(t) == 0).any())
         i = np.interp(r.time, t, r.events["i_a_A"])
-        self.assertLess(np.abs(i - r.i_a).max(), 0.2)  # currents are curves between events, but lines here
+        self.assertLess(np.abs(i - r.i_a).max(), 0.2)  # between events the currents are curves, and the columns are lines
 
     def test_verdicts_are_those_of_the_figures(self):
         r = sixstep.run(current(require=[{"metric": "max", "signal": "i_a", "max": 100}, {"metric": "max", "signal": "i_a", "max": 0.001}]))

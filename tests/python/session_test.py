@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sessions and environments: copies, changes and threads, and no bit that depends on steps or workers."""
+"""Sessions and environments: copies, changes and threads. The bits are independent of steps and workers."""
 import math
 import threading
 import time
@@ -96,7 +96,8 @@ class Environments(unittest.TestCase):
         self.assertGreater(np.ptp(one[-1, :, 3]), 0)
 
     def test_a_constant_action_is_a_constant_duty(self):
-        """The speed of the environment's drive is that of a run with the same duty from its second tick on."""
+        """In the environment the duty acts from the second tick on. The final speed is equal to that of a run with
+        the same duty."""
         env = sixstep.Env(self.scenario(), action="duty")
         env.reset()
         for _ in range(400):
@@ -106,7 +107,8 @@ class Environments(unittest.TestCase):
         self.assertAlmostEqual(seen[0, 3], float(np.interp(399 * 30e-6, run.time, run.speed)), delta=0.01 * seen[0, 3])
 
     def test_a_current_action_is_the_setpoint_of_the_drives_own_loop(self):
-        """From rest with no current asked for, then 2 A: what the drive itself does one control tick after its own step to 2 A."""
+        """The current reference is 0 at first, and then 2 A. The environment does the same as the drive one control
+        tick after its own step to 2 A."""
         period, begin, count = 30e-6, 4, 200
         env = sixstep.Env(self.scenario(), action="current")
         env.reset()
@@ -143,7 +145,7 @@ class Environments(unittest.TestCase):
         self.assertFalse(over.any())
 
     def test_a_fault_terminates_at_its_step_and_a_drive_begins_anew(self):
-        """From 5 ms on the Hall code is one that no rotor gives: ten periods of 30 us are a step, so the 17th step sees it."""
+        """From 5 ms on the Hall code is invalid. A step is ten periods of 30 us, so the 17th step detects the fault."""
         broken = self.scenario(duration_s=20e-3, control={"mode": "speed"}, reference={"value": 100}, load={"locked": True},
                                at=[{"time_s": 5e-3, "sensors": {"hall_lines": "same", "hall_break": {"line": n}}} for n in (1, 2, 3)])
         env = sixstep.Env(broken, 2, action="current", hold=10)

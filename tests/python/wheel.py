@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""wheel.py SOURCE (ctest --preset long): the wheel of a copy of the sources has the right tag, holds its licences, data and the libraries
-that not every Linux has, and runs in an environment of its own."""
+"""wheel.py SOURCE (ctest --preset long): builds a wheel from a copy of the sources. The wheel has the right tag, and
+contains its licences, data and the libraries that some Linux systems lack. It runs in its own environment."""
 import os
 import pathlib
 import platform

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writer of chart data and the JSON library write the same bytes.
+// The writer of chart data writes the same bytes as the JSON library.
 #include "report/chart_json.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost card of a run: its counts are compared with the modulator's counts, and its loss with the figure
-// of the same name.
+// Tests the cost card of a run. Its counts are compared with the modulator's counts, and its loss is compared
+// with the figure of the same name.
 #include "report/cost_card.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using sixstep::testing::measure;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A held rotor at a constant duty: the drive uses one pair all the time.
+/// The rotor is locked at a constant duty, so the drive uses one pair all the time.
 study::Scenario held_at(double duty, double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::duty, duty);
   s.duration_s = duration_s;

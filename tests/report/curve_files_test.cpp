@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve's table, columns, JSON and page have the same numbers.
+// The table, the columns, the JSON and the page of a curve have the same numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -128,8 +128,8 @@ TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {
       << "some room above ten seconds";
   for (const char* region : {"\"continuous\"", "\"short-time\""})
     EXPECT_NE(page().find(region), std::string::npos) << region;
-  // Without thermal data the nominal torque sets the page's range. Without thermal data and nominal torque,
-  // the page shows the whole curve.
+  // Without thermal data, the nominal torque determines the page's range. If the nominal torque is also
+  // missing, the page shows the whole curve.
   m.curve.thermal.reset();
   m.curve.thermal_missing = {{.where = "lines", .limit = "are missing"}};
   EXPECT_NE(page().find("\"corner\":2"), std::string::npos);

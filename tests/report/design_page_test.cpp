@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a design is complete HTML, escapes all names, has every part of the design, and has the same
-// bytes for the same input.
+// The page of a design is complete HTML, escapes all names, and has every part of the design. The same input
+// gives the same bytes.
 #include "report/design_page.hpp"
 
 #include <gmock/gmock.h>
@@ -75,8 +75,8 @@ TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
   EXPECT_THAT(page, HasSubstr("<span class=\"unit\">dB</span>"));
 }
 
-/// The page has the text report's lines on the speed sensor and on sensorless drives, folded with the other
-/// steps.
+/// The page has the lines of the text report about the speed sensor and about sensorless drives. These lines
+/// are folded together with the other steps.
 TEST(DesignPage, TellsHowTheSpeedIsKnown) {
   analysis::DesignStudy s = studied(Mode::speed);
   s.design.sensing = {{"w_min", "slowest speed that does not read as 0", 12.5, "rad/s"}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The balance's residuals on the page and in the JSON equal the differences of its rows.
+// The residuals of the energy balance, on the page and in the JSON, are equal to the differences of the
+// balance's rows.
 #include "report/energy_balance.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,7 @@ using sixstep::testing::maxon_scenario;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A turning flywheel stores much more energy than the run moves.
+/// A turning flywheel stores much more energy than the energy that moves in the run.
 study::Scenario flywheel(double inertia_kg_m2) {
   study::Scenario s = maxon_scenario(control::Mode::duty, 0.3);
   s.load.inertia_kg_m2 = inertia_kg_m2;
@@ -43,7 +44,8 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
     const double electrical = of("supplied") - of("copper") - of("devices") - of("air_gap") - of("magnetic");
     const double mechanical = of("air_gap") - of("friction") - of("load") - of("kinetic");
     const auto expect = [&](double joule, const char* residual) {
-      // The residual was divided by the scale and is multiplied by it again: two roundings.
+      // The residual was divided by the scale, and the test multiplies it by the scale again. This causes two
+      // roundings.
       EXPECT_NEAR(e[residual].get<double>() * of("scale"), joule, std::abs(joule) * 5e-16) << inertia;
     };
     expect(electrical, "electrical_residual");
@@ -61,8 +63,8 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
   }
 }
 
-/// All gates are off: no terminal has a current. The copper loss is the loss of three branches, each with a
-/// third of the loop current's sum.
+/// All gates are off, so no terminal has a current. The copper loss is the loss of the three branches of the
+/// delta. Each branch carries a third of the sum of the branch currents.
 TEST(Ledger, the_copper_of_a_delta_is_that_of_its_branches) {
   const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/delta-loop.toml");
   ASSERT_TRUE(s);
@@ -83,8 +85,8 @@ TEST(Ledger, the_copper_of_a_delta_is_that_of_its_branches) {
   EXPECT_NE(std::ranges::find(groups.charts, "loop-current", &report::Group::id), groups.charts.end());
 }
 
-/// The junction warms because the current rises at the start: its mean temperature is below its final one.
-/// The mean rise is 40 K/W times the mean power.
+/// The current rises at the start, so the junction becomes warmer. Its mean temperature is therefore below
+/// its final temperature. The mean temperature rise is 40 K/W times the mean power.
 TEST(Ledger, the_table_of_switches_has_the_mean_of_the_junction) {
   const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/losses-20-khz.toml");
   ASSERT_TRUE(s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step and the current that a report shows for simulated runs.
+// Tests the step and the current that a report shows for simulated runs.
 #include "report/held_current.hpp"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ Ran ran(const study::Scenario& s) {
   return {*outcome, kept.trace()};
 }
 
-/// The drive aligns the rotor and ramps it up; the handover is at some 0.3 s.
+/// The drive aligns the rotor and accelerates it by the ramp. The hand-over is at about 0.3 s.
 study::Scenario sensorless(double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   s.duration_s = duration_s;
@@ -83,7 +83,7 @@ TEST(HeldCurrent, of_a_sensorless_drive_is_the_largest_of_the_phases) {
              &m = *find_column(run.trace, "i_m_A");
   std::size_t apart = 0;
   for (std::size_t n = 0; n < largest->size(); ++n) {
-    // The three currents sum to zero: the largest magnitude is half the sum of the magnitudes.
+    // The three currents sum to zero, so the largest magnitude is half the sum of the magnitudes.
     ASSERT_NEAR((*largest)[n], (std::abs(a[n]) + std::abs(b[n]) + std::abs(c[n])) / 2, 1e-12) << t[n];
     ASSERT_GE((*largest)[n] + 1e-12, std::abs(m[n])) << t[n];
     apart += (*largest)[n] > 1.5 * std::abs(m[n]) + 0.1;
@@ -94,7 +94,7 @@ TEST(HeldCurrent, of_a_sensorless_drive_is_the_largest_of_the_phases) {
   EXPECT_NEAR(*current->asked_A, 1.5 * 2.33, 1e-9) << "1.5 times the nominal current pull it";
 }
 
-/// The probes are connected to other pins, so that the board drives a pair that does not belong to the
+/// The probes are connected to other pins. The board therefore drives a pair that does not belong to the
 /// rotor's sector.
 TEST(HeldCurrent, of_a_drive_whose_probes_are_elsewhere_too) {
   study::Scenario s = maxon_scenario(control::Mode::duty, 1.0);
@@ -132,7 +132,7 @@ TEST(HeldCurrent, what_was_asked_for_has_the_sign_and_the_time_of_the_peak) {
               HasSubstr("(reference then: " + computed(*current->asked_A, "A") + ")"));
 }
 
-/// The report's mean after the step equals the metric `mean` from the same time on.
+/// The mean that the report shows after the step is equal to the metric `mean` from the same time on.
 TEST(HeldCurrent, the_mean_behind_a_step_is_from_the_moment_told_on) {
   study::Scenario s = maxon_scenario(control::Mode::current, 2.0);
   s.control.current.settle_s = 1e-3;
@@ -153,7 +153,7 @@ TEST(HeldCurrent, the_mean_behind_a_step_is_from_the_moment_told_on) {
               HasSubstr("From then until the end: " + computed(*current->then_mean_A, "A") + " on average"));
 }
 
-/// A current of 1e-25 A is the rounding error of a sum: the report prints 0.
+/// A current of 1e-25 A is the rounding error of a sum, so the report prints 0.
 TEST(HeldCurrent, what_only_rounding_left_is_none) {
   study::Scenario s = maxon_scenario(control::Mode::current, 2.0);
   s.control.current.settle_s = 1e-3;
@@ -170,7 +170,7 @@ TEST(HeldCurrent, what_only_rounding_left_is_none) {
     EXPECT_EQ(ampere, 0.0);
 }
 
-/// At the instant of the step the current still has its old level, whose magnitude may be larger than that of
+/// At the instant of the step, the current still has its old level. The magnitude of the old level may exceed
 /// the new peak.
 TEST(HeldCurrent, the_peak_of_a_reversal_is_one_of_the_new_sign) {
   study::Scenario s = maxon_scenario(control::Mode::current, 5.0);
@@ -197,7 +197,8 @@ TEST(HeldCurrent, the_peak_of_a_reversal_is_one_of_the_new_sign) {
   EXPECT_GE(current->then_high_A, *current->then_mean_A);
 }
 
-/// Magnitudes of the phases: 5.4 A at the old level, 0 A at the zero crossing, 5.1 A at the new level.
+/// The magnitudes of the phase currents are 5.4 A at the old level, 0 A at the zero crossing, and 5.1 A at
+/// the new level.
 TEST(HeldCurrent, the_peak_of_magnitudes_lies_behind_the_crossing) {
   study::Trace trace;
   for (const char* name : {"t_s", "i_a_A", "i_b_A", "i_c_A"}) trace.columns.push_back({name, "", "", ""});
@@ -207,8 +208,8 @@ TEST(HeldCurrent, the_peak_of_magnitudes_lies_behind_the_crossing) {
   EXPECT_EQ(step_current(trace, step)->peak_A, 5.1);
 }
 
-/// The index is at 360 degrees of the shaft, and the drive counts from there: the drive's 90 degrees are 450
-/// degrees of the shaft.
+/// The index is at 360 degrees of the shaft, and the drive counts from this angle. The drive's 90 degrees are
+/// therefore 450 degrees of the shaft.
 TEST(HeldCurrent, an_encoders_step_ends_where_the_shaft_does) {
   const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/encoder.toml");
   ASSERT_TRUE(s);
@@ -221,7 +222,8 @@ TEST(HeldCurrent, an_encoders_step_ends_where_the_shaft_does) {
   EXPECT_THAT(glance_section(*s, run.outcome, run.trace), HasSubstr("to 450°, 90° from the encoder's index"));
 }
 
-/// The shaft already turns when the drive's speed loop starts: the step starts from the shaft's speed.
+/// The shaft already turns when the drive's speed loop starts. The step therefore starts from the shaft's
+/// speed.
 TEST(HeldCurrent, of_an_observers_drive_the_step_begins_at_the_speed_that_is_taken_over) {
   study::Scenario s;
   s.control.mode = control::Mode::speed;

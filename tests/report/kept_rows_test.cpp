@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A report keeps its rows in bounded memory. The kept rows contain every peak, the latest events and the
-// largest step. The report draws no conclusion from intervals of which only an envelope is kept.
+// A report stores its rows in bounded memory. The stored rows contain every peak, the latest events and the
+// largest step. If only an envelope of an interval is stored, the report draws no conclusion from this
+// interval.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,8 +29,8 @@ constexpr double gap_s = 1e-5;
 
 std::size_t place(ColumnId column) { return static_cast<std::size_t>(column); }
 
-/// One row of: a current that oscillates, a gate that switches in each row, one narrow peak, one narrow dip,
-/// and a step of the reference.
+/// One row with five signals: a current that oscillates, a gate that switches in each row, one narrow peak,
+/// one narrow dip, and a step of the reference.
 std::vector<double> row(std::size_t n, std::size_t step_at) {
   std::vector<double> out(column_count, 0.0);
   out[place(ColumnId::t)] = static_cast<double>(n) * gap_s;
@@ -58,7 +59,7 @@ KeptRows filled(const Scenario& s, std::size_t count, std::size_t step_at) {
   return kept;
 }
 
-/// Each kept row equals an added row, and no row is missing in the intervals marked whole.
+/// Each stored row is equal to an added row. In the intervals that are marked as whole, no row is missing.
 void expect_whole_where_it_says(const Trace& t, std::size_t count, std::size_t step_at) {
   std::size_t last = 0;
   for (std::size_t n = 0; n < t.values[0].size(); ++n) {
@@ -141,7 +142,7 @@ TEST(KeptRows, AreForetoldWhereTheirNumberCanBe) {
   EXPECT_EQ(rows_foretold(s), "");
   s.duration_s = 1000;
   EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps 160 MB"));
-  // From when on it has every event depends on the run: only the page knows it.
+  // The time from which every event is stored depends on the run, so only the page states it.
   const std::string longer = rows_foretold(s);
   s.pwm.period_s = 60e-6;
   s.duration_s = 2000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All outputs on a linear motor use the terms of linear motors.
+// All outputs about a linear motor use the terms of linear motors.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -39,7 +39,8 @@ using sixstep::testing::turning_words;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// The scripts serve every motor; the test therefore checks only the page and the data that the scripts draw.
+/// Removes the scripts. They serve every motor, so the test checks only the page and the data that the
+/// scripts draw.
 std::string without_scripts(std::string page) {
   for (std::size_t at = page.find("<script"); at != page.npos; at = page.find("<script", at + 1)) {
     if (page.substr(at, 60).find("json") != page.npos) continue;
@@ -50,7 +51,7 @@ std::string without_scripts(std::string page) {
   return page;
 }
 
-/// The sheet is read from a file, because a page shows a sheet's values under the keys of the file.
+/// The sheet is read from a file, because a page shows the values of a sheet under the keys of the file.
 design::Sheet linear_sheet(bool thermal = true) {
   std::string file = R"(name = "m"
 kind = "linear"

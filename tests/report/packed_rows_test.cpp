@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packed rows equal the original rows after the page script's unpacking: planes of differences from one zlib
-// stream.
+// After the unpacking by the page's script, packed rows are equal to the original rows. One zlib stream
+// contains planes of differences.
 #include "report/packed_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ std::string planes_of(const PackedRows& packed) {
   return planes;
 }
 
-/// The differences from the planes: one plane per byte of a difference, from the plane `first` on.
+/// Reads the differences from the planes. There is one plane for each byte of a difference, starting with the
+/// plane `first`.
 template <class Count>
 std::vector<Count> differences_of(const std::string& planes, std::size_t rows, std::size_t first) {
   std::vector<Count> out(rows);
@@ -39,7 +40,7 @@ std::vector<Count> differences_of(const std::string& planes, std::size_t rows, s
 struct Rows {
   std::vector<double> time, wave, noise;
 };
-/// The data exceed zlib's window, so that zlib's compression method changes between planes.
+/// The data exceed the window of zlib, so zlib changes its compression method between planes.
 Rows some_rows() {
   Rows out;
   std::uint32_t random = 1;
@@ -82,8 +83,8 @@ TEST(PackedRows, ComeBackWithinHalfAStep) {
   expect_back(*packed, rows);
 }
 
-/// Rows that are too large after quick compression are compressed thoroughly. The rows are omitted only if
-/// they are still too large.
+/// Rows that are too large after quick compression are compressed thoroughly. If they are still too large,
+/// they are omitted.
 TEST(PackedRows, AreLeftOutOnlyWhereNoWayIsSmallEnough) {
   const Rows rows = some_rows();
   const auto quick = packed_rows(rows.time, {&rows.wave, &rows.noise}, 1'000'000);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's page draws the rows' values, lists the runs with the smallest margins, and escapes all names. The
-// same plan gives the same bytes.
+// The page of a plan draws the values of the rows, lists the runs with the smallest margins, and escapes all
+// names. The same plan gives the same bytes.
 #include "report/plan_page.hpp"
 
 #include <gmock/gmock.h>
@@ -137,7 +137,7 @@ TEST(PlanPage, TheWorstRunsAreTheWorst) {
   ASSERT_EQ(worst.size(), 3u);
   EXPECT_TRUE(worst[2].empty()) << "it has no requirements";
   for (std::size_t f = 0; f < 2; ++f) {
-    // The worst runs are the first ones after a sort by margin.
+    // The worst runs are the first runs after a sort by margin.
     const auto& column = made.columns->figures[f];
     std::vector<std::pair<double, std::size_t>> sorted;
     for (const auto& row : made.rows) {
@@ -208,7 +208,8 @@ TEST(PlanPage, HoldsNamesAsText) {
   EXPECT_EQ(data_of(page)["plans"][0]["columns"][3]["name"], bad);
 }
 
-/// The card's values equal the terminal's, except that the terminal prints u for µ and a breaking space.
+/// The values on the card are equal to the values in the terminal. Only two characters differ: the terminal
+/// prints u for µ, and a space at which a line may break.
 TEST(PlanPage, values_of_an_axis_are_told_as_the_terminal_tells_them) {
   const std::vector<std::string> written{"2e-07", "1e-06", "0.0035", "12", "\"ideal\""};
   SyntheticPlan made =

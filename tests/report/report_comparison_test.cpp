@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One page shows several runs, or a run and a board's log.
+// One page shows several runs, or one run and the log of a board.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@ using sixstep_tests::synthetic_run;
 using sixstep_tests::SyntheticRun;
 using ::testing::HasSubstr;
 
-/// A run with three rows at events, whose current jumps in the middle, and with a grid of two rows.
+/// A run with three rows at events and a grid of two rows. Its current jumps in the middle.
 SyntheticRun ramp_run(double height) {
   SyntheticRun run = synthetic_run(0.001);
   run.trace.columns = {{"t_s", "s", "", ""}, {"i_m_A", "A", "", ""}};
@@ -142,7 +142,7 @@ sixstep::study::Scenario shipped(const std::string& name) {
   return s ? *s : sixstep::study::Scenario();
 }
 
-/// Doubles the n-th plain number of a scenario that is not 0; lists are not counted.
+/// Doubles the n-th single number of a scenario that is not 0. Numbers in lists are not counted.
 class Doubled final : public sixstep::base::Visitor {
  public:
   explicit Doubled(int n) : left_(n) {}
@@ -166,8 +166,8 @@ class Doubled final : public sixstep::base::Visitor {
   int left_;
 };
 
-/// Each number affects the run. Scenarios that differ in one number must therefore have different set-up
-/// sections.
+/// Each number of a scenario affects the run. If two scenarios differ in one number, their set-up sections
+/// must therefore differ.
 TEST(SetUp, states_each_number_of_a_scenario) {
   for (const char* name :
        {"thesis/7.5-position", "gallery/sensorless-noise", "gallery/resolver-skew", "gallery/battery-sag",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conclusions that a report draws from the rows of one run and of several.
+// Tests the conclusions that a report draws from the rows of one run or of several runs.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ using ::testing::HasSubstr;
 
 std::string page(const SyntheticRun& run) { return glance_section(run.scenario, run.outcome, run.trace); }
 
-/// A speed step with a current that rises, remains constant and falls. The rows' times are exact doubles.
+/// A step of the speed. The current rises, remains constant and falls. The times of the rows are exact
+/// doubles.
 SyntheticRun stepped_run() {
   SyntheticRun run = synthetic_run(0.001);
   run.scenario.control.mode = sixstep::control::Mode::speed;
@@ -69,16 +70,17 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   EXPECT_EQ(current->peak_A, 6.0);
   EXPECT_EQ(current->peak_after_s, 1.0);
   EXPECT_EQ(current->asked_A, 10.0);
-  // 0 to 6 A in 1 s, then 6 A for 0.5 s to the window's end: the integral of i^2 is 12 + 18 A^2 s.
+  // The current rises from 0 to 6 A in 1 s and is 6 A for 0.5 s, until the end of the window. The integral of
+  // i^2 is 12 + 18 A^2 s.
   EXPECT_DOUBLE_EQ(current->rms_A, std::sqrt(30.0 / 1.5));
-  // 6 A for 0.5 s, then 6 A to 0 in 5 s, then 0: 18 A s in 6.5 s.
+  // The current is 6 A for 0.5 s, falls to 0 in 5 s, and is then 0. Its integral is 18 A s in 6.5 s.
   EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
   EXPECT_EQ(current->then_low_A, 0.0);
   EXPECT_EQ(current->then_high_A, 6.0);
 }
 
-/// A current step ends at the first Hall edge after the current has come near its goal: a commutation causes
-/// any later peak.
+/// A current step ends at the first Hall edge after the current has come near its goal. Any later peak is
+/// caused by a commutation.
 TEST(Highlights, a_current_step_ends_where_commutations_of_a_steady_current_begin) {
   SyntheticRun run = stepped_run();
   run.scenario.control.mode = sixstep::control::Mode::current;
@@ -97,7 +99,7 @@ TEST(Highlights, a_current_step_ends_where_commutations_of_a_steady_current_begi
   ASSERT_TRUE(current);
   EXPECT_EQ(current->peak_A, 4.2);
   EXPECT_EQ(current->peak_after_s, 3.0);
-  // Without edges every deviation from the goal belongs to the step.
+  // Without Hall edges, every deviation from the goal belongs to the step.
   run.trace.values[3] = {4, 4, 4, 4, 4, 4, 4, 4};
   EXPECT_EQ(step_current(run.trace, *largest_step(run.trace, run.scenario))->peak_A, 5.0);
 }
@@ -127,7 +129,7 @@ TEST(Parameters, each_line_of_the_data_sheet_has_its_row) {
   EXPECT_EQ(rows, given.count);
 }
 
-/// In a field-oriented drive the report's current step is a step of i_q, the controlled current. The page
+/// In a field-oriented drive, the current step of a report is a step of i_q, the controlled current. The page
 /// shows i_q.
 TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   SyntheticRun run = stepped_run();
@@ -158,7 +160,7 @@ TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   EXPECT_EQ(std::ranges::find(others.charts, "rotor-currents", &Group::id), others.charts.end());
 }
 
-/// The page names each controller.
+/// The page names each controller that runs.
 TEST(Setup, names_the_controllers_that_run) {
   using namespace sixstep::study;
   const auto told = [](const Control& control) {
@@ -203,8 +205,8 @@ TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // T1 and T4 drive current from a to b. T1 switches off, and a's lower diode conducts until the current is
-  // zero. c's upper diode conducts last.
+  // T1 and T4 drive a current from a to b. T1 switches off, and the lower diode of a conducts until the
+  // current is zero. At the end, the upper diode of c conducts.
   trace.values = {{0, 1, 1, 2, 2, 3, 3, 4},  {0, 2, 2, 0, 0, 0, 0, 0}, {0, -2, -2, 0, 0, 0, 0, 1},
                   {0, 0, 0, 0, 0, 0, 0, -1}, {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
                   {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
@@ -220,8 +222,8 @@ TEST(Conduction, an_igbt_that_is_on_carries_one_direction_and_its_diode_the_othe
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // T1, T4 and T6 are on: current enters at a, returns at b through the transistor and at c through the lower
-  // diode; then it is zero.
+  // T1, T4 and T6 are on. The current enters at a. It returns at b through the transistor, and at c through
+  // the lower diode. Then it is zero.
   trace.values = {{0, 1, 1, 2}, {2, 2, 0, 0}, {-3, -3, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 1},
                   {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 1, 1},   {0, 0, 0, 0}, {1, 1, 1, 1}};
   EXPECT_THAT(conduction(trace, true).code, ::testing::ElementsAre(1 + 5 * 2 + 25 * 4, 0));
@@ -233,8 +235,9 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // No gate is on. Current enters phase a and returns from phase b. Legs a, b, c are connected to phases b,
-  // c, a: leg a carries b's current through its upper diode, leg c carries a's.
+  // No gate is on. The current enters phase a and returns from phase b. Legs a, b, c are connected to phases
+  // b, c, a. Therefore leg a carries the current of phase b through its upper diode, and leg c carries the
+  // current of phase a.
   trace.values = {{0, 1}, {2, 2}, {-2, -2}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   EXPECT_THAT(conduction(trace).code, ::testing::ElementsAre(4 + 5 * 3));
   EXPECT_THAT(conduction(trace, false, {1, 2, 0}).code, ::testing::ElementsAre(3 + 25 * 4));
@@ -257,7 +260,8 @@ TEST(Glance, answers_what_a_reader_asks_first) {
   EXPECT_THAT(page(run), HasSubstr("Not met</dt><dd>mean current from 2 ms to 5 ms"));
 }
 
-/// The zero of the Celsius scale is arbitrary: another one changes neither the room nor its words.
+/// The zero of the Celsius scale is arbitrary. With another zero, the margin to the limit and its text are
+/// the same.
 TEST(Glance, a_temperature_has_no_percentage) {
   const sixstep::study::Verdict upper{"housing", "degC", 46, {}, 85.0, true, 25.0},
       lower{"housing", "degC", 46, 30.0, {}, true, 25.0};
@@ -277,7 +281,7 @@ TEST(Glance, a_temperature_has_no_percentage) {
   EXPECT_EQ(deviation(46, 40, "degC"), deviation(46 + 273.15, 40 + 273.15, "degC"));
 }
 
-/// A controller without a PI is told by what it has.
+/// For a controller without a PI, the page shows the controller's own parameter, such as the band.
 TEST(Gains, of_a_hysteresis_are_its_band) {
   SyntheticRun run = synthetic_run(0.002);
   run.outcome.gains.clear();
@@ -293,7 +297,7 @@ TEST(Gains, of_a_hysteresis_are_its_band) {
   EXPECT_EQ(gains_section(run.scenario, run.outcome).find("hysteresis"), std::string::npos);
 }
 
-/// A current of rounding errors is none.
+/// A current of the size of rounding errors counts as no current.
 TEST(Glance, a_step_tells_no_rounding_errors) {
   SyntheticRun run = stepped_run();
   for (double& x : run.trace.values[1])
@@ -316,7 +320,7 @@ TEST(PackedRows, keep_the_range_in_65533_steps_with_zero_on_one_and_refuse_what_
   EXPECT_FALSE(packed_rows(time, {&held, &moving}, 10));
 }
 
-/// A sawtooth with `turns` teeth from -1 to 1 in one second; it has rows only at its jumps.
+/// A sawtooth with `turns` teeth from -1 to 1 in one second. It has rows only at its jumps.
 struct Saw {
   std::vector<double> time, values;
 };
@@ -331,8 +335,8 @@ Saw saw(int turns) {
 }
 
 TEST(Spectrum, of_a_saw_is_the_fourier_series) {
-  // 37 is no power of two, so that teeth and jumps do not align with the cells. The amplitude of harmonic n
-  // is 2/(pi n).
+  // 37 is not a power of two, so teeth and jumps do not align with the cells. The amplitude of harmonic n is
+  // 2/(pi n).
   constexpr int turns = 37, cells = 4096;
   const Saw s = saw(turns);
   const Lines lines = lines_of(s.time, s.values, {0, 1}, 1.0 / cells);
@@ -341,10 +345,10 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
   ASSERT_EQ(lines.amplitude.size(), cells / 8 + 1u);
   for (int n = 1; n * turns + 1 < cells / 8; ++n) {
     const auto k = static_cast<std::size_t>(n * turns);
-    // Sampling by cells aliases the harmonics at m cells -+ k, m = 1, 2, .., to line k. The mean over a cell
-    // multiplies each of them by k/(m cells -+ k), and the correction divides by the factor of line k. The
-    // aliased amplitudes are at most 2/pi turns/(m cells - k). Their sum is below 2/pi turns k/cells^2 times
-    // twice the sum of 1/(m - 1/8)^2, which is less than 4.
+    // Sampling by cells aliases the harmonics at m cells -+ k (m = 1, 2, ..) to line k. The mean over a cell
+    // multiplies each of these harmonics by k/(m cells -+ k), and the correction divides by the factor of
+    // line k. The aliased amplitudes are at most 2/pi turns/(m cells - k). Their sum is below 2/pi turns
+    // k/cells^2 times twice the sum of 1/(m - 1/8)^2, and this doubled sum is less than 4.
     const double folded = 4 * 2 / M_PI * turns * (n * turns) / (static_cast<double>(cells) * cells);
     EXPECT_NEAR(lines.amplitude[k], 2 / (M_PI * n), folded + 1e-12) << n;
     EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
@@ -355,8 +359,8 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
     EXPECT_NEAR(lines.tones[n].line, turns * (static_cast<double>(n) + 1), 1e-3);
 }
 
-/// The interval is no whole number of teeth: every harmonic is between two lines. The spectrum still shows
-/// the harmonic's frequency and amplitude.
+/// The interval does not contain a whole number of teeth, so every harmonic is between two lines. The
+/// spectrum still shows the frequency and the amplitude of the harmonic.
 TEST(Spectrum, a_tone_between_two_lines_has_its_own_amplitude_and_frequency) {
   const Saw s = saw(37);
   for (const double end : {0.9871, 0.9932, 0.9999}) {
@@ -422,7 +426,7 @@ TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
 }
 
 TEST(Spectrum, lines_are_called_by_what_they_come_from) {
-  // The stretch has 10 turns and 1000 PWM periods.
+  // The interval of the spectrum contains 10 electrical turns and 1000 PWM periods.
   EXPECT_EQ(origin_of(60, {10, 1000}).name, "6 × electrical");
   EXPECT_EQ(origin_of(1000, {10, 1000}).name, "PWM");
   EXPECT_EQ(origin_of(2000, {0, 1000}).name, "2 × PWM");
@@ -431,10 +435,12 @@ TEST(Spectrum, lines_are_called_by_what_they_come_from) {
   EXPECT_EQ(origin_of(65, {10, 1000}).name, "");
   EXPECT_EQ(origin_of(65, {0, 0}).name, "");
   EXPECT_EQ(origin_of(10, {10, 1000}).name, "electrical, the fundamental");
-  // With three turns, side lines are three lines away from the PWM's line: 2.5 lines away is no side line.
+  // With three turns, a side line is three lines away from the line of the PWM. A tone 2.5 lines away is not
+  // a side line.
   EXPECT_EQ(origin_of(1002.5, {3, 1000}).name, "");
   EXPECT_EQ(origin_of(1003.1, {3, 1000}).name, "PWM + electrical");
-  // A tone with a name has the line of its cause; another tone keeps the line that it was found at.
+  // A tone with a known cause is shown at the line of this cause. Any other tone is shown at the line at
+  // which it was found.
   EXPECT_EQ(origin_of(1003.1, {3, 1000}).line, 1003.0);
   EXPECT_EQ(origin_of(5.94, {6, 1000}).line, 6.0);
   EXPECT_EQ(origin_of(65.2, {10, 1000}).line, 65.2);

@@ -37,7 +37,7 @@ std::string page(const SyntheticRun& run, const std::string& text = "title = \"x
                  .scenario_text = text});
 }
 
-/// The data embedded in the page, as the page's script reads them.
+/// The data in the page, as the page's script reads them.
 nlohmann::json data_of(const std::string& html) {
   const std::string open = R"(<script type="application/json" id="data">)";
   const std::size_t begin = html.find(open) + open.size();
@@ -220,7 +220,7 @@ TEST(Thinning, every_bucket_keeps_its_extremes) {
   EXPECT_FALSE(result.complete);
   EXPECT_LE(result.rows.size(), 2000u);
   EXPECT_THAT(result.rows, ::testing::IsSupersetOf({0u, 7u, 31234u, 49999u}));
-  // In each bucket the largest value drawn equals the largest value.
+  // In each bucket, the largest drawn value is equal to the largest value of all rows.
   for (std::size_t from = 0; from + 1000 <= time.size(); from += 1000) {
     double high = -1.0, drawn = -1.0;
     for (std::size_t n = from; n < from + 1000; ++n) high = std::max(high, wave[n]);
@@ -271,7 +271,7 @@ TEST(Index, names_every_experiment_and_its_verdict) {
       {{"One & two", "a.html", &good.outcome}, {"Three", "b.html", &bad.outcome}}, "sixstep run", "0.1.0");
   EXPECT_THAT(html, HasSubstr("1 of 2 experiments pass"));
   EXPECT_THAT(html, HasSubstr("<a href=\"a.html\">One &amp; two</a>"));
-  // The overview is first, and each of its rows links to a section.
+  // The overview is at the top of the page, and each of its rows links to a section.
   const std::size_t overview = html.find("<table class=\"overview\">");
   ASSERT_NE(overview, html.npos);
   EXPECT_LT(overview, html.find("<section class=\"experiment"));
@@ -307,7 +307,8 @@ TEST(Figures, deviation_is_signed_and_absolute_where_the_reference_is_zero) {
   EXPECT_EQ(deviation(0.02, 0.0, "A"), "+20.00\u00a0mA");
 }
 
-/// Beside each other, numbers keep the order of their sizes, and those more than ten times the reference are a factor.
+/// Values of similar size side by side have one unit prefix, so that their digits can be compared. A value
+/// of more than ten times the reference is printed as a factor.
 TEST(Figures, side_by_side_have_one_prefix) {
   const auto texts = computed_alike({0.03983, 0.07235, 0.1426, std::nullopt, 0.0}, "Nm");
   EXPECT_THAT(texts, ::testing::ElementsAre("39.83\u00a0mNm", "72.35\u00a0mNm", "142.6\u00a0mNm", "",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The energy diagram of a run equals the run's energy balance: a band's width is its energy, and a node's
-// inflow equals its outflow.
+// The energy diagram of a run is equal to the run's energy balance. The width of a band is its energy, and
+// the inflow of a node is equal to its outflow.
 #include "report/sankey.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ double height(const std::string& svg) {
   return h;
 }
 
-/// A closed balance: the energies satisfy the law.
+/// A closed balance of random energies: the inputs are equal to the outputs and the stored energy.
 EnergyBook book(double copper, double devices, double magnetic, double friction, double load,
                 double kinetic) {
   EnergyBook b{.copper = copper,
@@ -58,8 +58,8 @@ EnergyBook book(double copper, double devices, double magnetic, double friction,
   return b;
 }
 
-/// Each node's bar is at x = 340 or 560 and is 10 wide. A band's width is rounded to 0.005 and is at least
-/// one pixel.
+/// The bar of each node is at x = 340 or 560 and is 10 wide. The width of a band is rounded to 0.005 and is
+/// at least one pixel.
 void expect_kirchhoff(const std::string& svg) {
   for (const double node : {340.0, 560.0}) {
     double in = 0.0, out = 0.0, slack = 1e-9;
@@ -104,8 +104,8 @@ TEST(Sankey, a_locked_rotor_has_no_air_gap_to_show) {
   EXPECT_THAT(svg, Not(HasSubstr("rotor and shaft")));
 }
 
-/// The signs are arbitrary. Sources are on the left, sinks on the right; bands end at their nodes; labels,
-/// which are 36 high, do not overlap.
+/// The signs of the energies are random. Sources are on the left, sinks are on the right, and bands end at
+/// their nodes. Labels have a height of 36 and do not overlap.
 TEST(Sankey, any_book_that_closes_is_drawn_whole) {
   for (std::uint64_t n = 0; n < 300; ++n) {
     std::uint64_t count = 0;

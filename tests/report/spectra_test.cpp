@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a spectrum where nothing oscillates.
+// Tests the text of a spectrum in which nothing oscillates.
 #include "report/spectra.hpp"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ using namespace report;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Both curves for one second, with rows at intervals of 1/1024 s.
+/// A run of one second with two curves. Its rows are 1/1024 s apart.
 sixstep::study::Trace trace_of(double (*current)(double), double (*torque)(double)) {
   sixstep::study::Trace trace;
   for (const char* name : {"t_s", "i_a_A", "torque_Nm"}) trace.columns.push_back({name, "", "", ""});
@@ -51,7 +51,7 @@ TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
   EXPECT_THAT(html, Not(HasSubstr("<table")));
 }
 
-/// The later half of the run has `turned` electrical turns of a rotor with two pole pairs. With one turn the
+/// The later half of the run has `turned` electrical turns of a rotor with two pole pairs. With one turn, the
 /// fundamental would be the first line, which the spectrum omits.
 TEST(Spectra, fewer_than_two_electrical_turns_are_told) {
   for (const double turned : {0.38, 0.0, 1.2, 2.4}) {
@@ -66,8 +66,8 @@ TEST(Spectra, fewer_than_two_electrical_turns_are_told) {
   }
 }
 
-/// The stretch contains whole turns: the fundamental is the number of turns divided by the stretch's
-/// duration, however strong a neighbouring tone is.
+/// The interval contains whole electrical turns. The fundamental is therefore the number of turns divided by
+/// the duration of the interval, even if a neighbouring tone is strong.
 TEST(Spectra, the_fundamental_is_the_number_of_turns_over_their_time) {
   sixstep::study::Trace trace = trace_of(
       [](double t) { return std::sin(2 * M_PI * 12 * t) + 0.3 * std::sin(2 * M_PI * 9.7 * t); }, rounding);
@@ -91,8 +91,8 @@ TEST(Spectra, the_steps_of_the_thermal_model_are_named) {
               HasSubstr("<td>step of the thermal model</td>"));
 }
 
-/// Two diodes in series conduct in each half of the mains' period: the bus voltage pulsates at twice 50 Hz
-/// and multiples of it.
+/// Two diodes in series conduct in each half of the mains period. The bus voltage therefore pulsates at twice
+/// 50 Hz and at multiples of this frequency.
 TEST(Spectra, multiples_of_twice_the_mains_are_named) {
   EXPECT_EQ(origin_of(100.1, {.mains = 50.0}).name, "2 × mains");
   EXPECT_EQ(origin_of(100.1, {.mains = 50.0}).line, 100.0);
@@ -101,8 +101,9 @@ TEST(Spectra, multiples_of_twice_the_mains_are_named) {
   EXPECT_EQ(origin_of(100.0, {}).name, "");
 }
 
-/// A current between the lines of a band rises and falls with other slopes, 40 and 60 % of 50.3 ms^-1. Its comparators'
-/// duty gives the frequency, and each multiple is called by it.
+/// A current between the two levels of a hysteresis band rises and falls with different slopes: its rise
+/// takes 40 % of the period, its fall 60 %. The frequency is 50.3 Hz. The comparators' duty determines the
+/// frequency, and each multiple is named after the comparators.
 TEST(Spectra, lines_of_comparators_are_named_by_their_own_frequency) {
   constexpr double hertz = 50.3;
   sixstep::study::Trace trace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan with synthetic rows: many kinds of columns, values and ends, and any number of runs.
+// A plan with synthetic rows. It has many kinds of columns, values and ends, and any number of runs.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct SyntheticPlan {
               for (const sixstep::analysis::RunRecord& row : rows) visit(row);
             }};
   }
-  /// Keeps the values and changes all names.
+  /// Replaces all names and keeps the values.
   void rename(sixstep::analysis::PlanColumns names, const std::string& problem) {
     columns = std::make_shared<const sixstep::analysis::PlanColumns>(std::move(names));
     for (sixstep::analysis::RunRecord& row : rows) {
@@ -41,8 +41,8 @@ struct SyntheticPlan {
   }
 };
 
-/// A plan over two numeric axes and perhaps a word axis. A shorter settling time needs a higher current; the
-/// word adds some current.
+/// A plan over two numeric axes and optionally an axis of words. A shorter settling time needs a higher
+/// current, and each word adds some current.
 inline SyntheticPlan synthetic_plan(sixstep::analysis::Plan plan, double shift = 0.0) {
   using sixstep::analysis::RunEnd;
   SyntheticPlan made{.plan = std::move(plan)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A synthetic run without the engine: a coarse fixed-step six-step drive with a current PI, for tests of
-// outputs. No test relies on its physics.
+// A synthetic run that does not use the engine: a coarse six-step drive with a fixed step and a current PI.
+// It serves tests of outputs, and no test relies on its physics.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,7 +21,8 @@ struct SyntheticRun {
   sixstep::study::Trace trace;
 };
 
-/// State and equations of the drive; a row is recorded whenever a gate, a diode or a Hall bit changes.
+/// State and equations of the synthetic drive. It records a row whenever a gate, a diode or a Hall bit
+/// changes.
 class SyntheticDrive {
  public:
   SyntheticDrive(sixstep::study::Trace& trace, double duration_s, double speed_rad_s)

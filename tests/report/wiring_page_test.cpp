@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drawing and the page of a motor's wirings are complete HTML, escape all names, and have the same bytes
-// for the same study.
+// The drawing and the page of a motor's wirings are complete HTML and escape all names. The same study gives
+// the same bytes.
 #include "report/wiring_page.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An analogue path and its converter are compared with their equation.
+// An analogue path with its converter is compared with its equation.
 #include "sixstep/rig/adc.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ TEST(Adc, NoiseHasItsRootMeanSquareAndIsDrawnByPlace) {
     sum += x;
     squares += x * x;
   }
-  // The bounds are five standard deviations: of the mean, rms/sqrt(n); of the rms, rms/sqrt(2 n).
+  // The bounds are five standard deviations. The standard deviation of the mean is rms/sqrt(n), and the
+  // standard deviation of the rms is rms/sqrt(2 n).
   EXPECT_NEAR(sum / n, 0.0, 5 * 100.0 / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), 100.0, 5 * 100.0 / std::sqrt(2.0 * n));
   EXPECT_EQ(converted(path, 0.0, first), converted(path, 0.0, first));

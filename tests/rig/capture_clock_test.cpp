@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The counter that captures Hall edges is compared with floor(ticks f/1e12) in integers.
+// The counter that captures Hall edges is compared with floor(ticks f/1e12), computed in integers (f:
+// frequency in Hz).
 #include <gtest/gtest.h>
 
 #include <random>
@@ -12,8 +13,8 @@ using namespace sixstep;
 using rig::CaptureClock;
 using sim::Instant;
 
-/// Count n begins at the time n 1e12/f ticks, f in Hz. If that is an integer, the count begins exactly at
-/// that tick and not one tick before.
+/// Count n begins at the time n 1e12/f, in ticks of a picosecond (f: frequency in Hz). If this time is a
+/// whole number of ticks, the count begins exactly at this tick, not one tick before.
 TEST(CaptureClock, ReachesACountAtItsVeryTick) {
   for (const std::int64_t Hz : {1'000'000, 500'000, 8'000'000, 50'000'000, 1'000'000'000}) {
     const CaptureClock clock{static_cast<double>(Hz)};
@@ -25,8 +26,8 @@ TEST(CaptureClock, ReachesACountAtItsVeryTick) {
   }
 }
 
-/// 48 MHz: three counts are 62500 ticks. The floating-point product t f is one count low at a twelfth of
-/// these ticks.
+/// At 48 MHz, three counts are 62500 ticks. At one in twelve of these times, the floating-point product t f
+/// is one count too low.
 TEST(CaptureClock, IsNotOneCountLowWhereFloatingPointIs) {
   const CaptureClock clock{48e6};
   int low = 0;
@@ -45,7 +46,7 @@ TEST(CaptureClock, CountsAtAnyFrequencyOverDays) {
   std::uniform_real_distribution<double> decade(0, 9);
   for (int n = 0; n < 20'000; ++n) {
     const bool whole = n % 2 == 0;
-    // In sixteenths of a hertz the frequency is an integer, so that integer arithmetic is exact.
+    // In sixteenths of a hertz, the frequency is an integer, so integer arithmetic is exact.
     const auto sixteenths = static_cast<std::int64_t>(std::pow(10.0, decade(random)) * (whole ? 1 : 16));
     const double Hz = static_cast<double>(sixteenths) / (whole ? 1 : 16);
     const auto ticks = static_cast<std::int64_t>(random() >> 1);
@@ -54,7 +55,7 @@ TEST(CaptureClock, CountsAtAnyFrequencyOverDays) {
   }
 }
 
-/// At 3 Hz the first count begins a third of a tick after tick 333 333 333 333.
+/// At 3 Hz, the first count begins a third of a tick after the tick 333 333 333 333.
 TEST(CaptureClock, ACountMayComeWithinATick) {
   const CaptureClock clock{3.0};
   EXPECT_EQ(clock.counts({333'333'333'333, 0.0}), 0u);

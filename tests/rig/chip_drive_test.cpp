@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A synthetic chip with known gates runs with its own clock on the board (rig/chip_drive.hpp). Its result
-// equals that of the board's timer with the same pulses. The chip receives its samples and pins at the right
-// instants.
+// A synthetic chip with known gates runs on the board with its own clock (rig/chip_drive.hpp). Its result is
+// equal to the result of the board's timer with the same pulses. The chip receives its samples and pins at
+// the right instants.
 #include "sixstep/rig/chip_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ constexpr std::uint32_t clock_Hz = 16'000'000;
 constexpr std::uint64_t period = 1600;  // cycles: 100 us
 constexpr double range_A = 50.0, setpoint_range = 2.0;
 
-/// The chip drives the pair of the Hall pins with a centred pulse of half a period. It samples channel 0 at
-/// the beginning of each period.
+/// The chip drives the pair of the Hall pins with a centred pulse of half a period. At the beginning of each
+/// period, it samples channel 0.
 struct PlayedChip {
   std::uint64_t cycle = 0, bad_from = ~std::uint64_t{0}, silent_from = bad_from,
                 samples_again_from = bad_from;
@@ -164,8 +164,8 @@ TEST(ChipDrive, OneThatSamplesNoLongerHasStalled) {
   EXPECT_NEAR(chip.now().seconds(), 0.9e-3 + 30e-3, 0.1e-3);
 }
 
-/// An AVR's shortest watchdog time is 16 ms, and its oscillator may be 10 % slow. After the reset the chip
-/// restarts: here it is silent for 20 ms.
+/// The shortest watchdog time of an AVR is 16 ms, and its oscillator may be 10 % slow. After the reset, the
+/// chip restarts. In this test, it is silent for 20 ms.
 TEST(ChipDrive, OneThatAWatchdogResetGoesOn) {
   OnChip on;
   on.chip.silent_from = 16000;

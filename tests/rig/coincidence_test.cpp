@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each test has two events at one instant; there is one test per pair of scenario step, control tick, PWM
-// edge, comparator, sector edge and current zero. Each of the two events must take effect once, in the order
-// of model.md 4b (pitfall 1: no energy balance detects a lost tick). This file has the pairs with a scenario
-// step or a control tick. The event counts show whether an edge was executed before the tick that should have
-// replaced it.
+// Each test has two events at one instant. There is one test for each pair of scenario step, control tick,
+// PWM edge, comparator, sector edge and current zero. Each of the two events must take effect once, in the
+// order of model.md 4b (pitfall 1: no energy balance detects a lost tick). This file contains the pairs with
+// a scenario step or a control tick. The counts of events show whether an edge was executed before the tick
+// that should have replaced it.
 #include <gtest/gtest.h>
 
 #include "tests/support/coinciding.hpp"
@@ -53,7 +53,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndPwmEdge) {
 
 TEST(Pitfall01_CoincidentInstants, StepAndComparator) {
   Board b = locked(Board::hysteresis(10.0, 0.25, Chopping::soft));
-  // The new level is below the present current: the comparator trips at the instant of the step.
+  // The new level is below the present current, so the comparator trips at the instant of the step.
   b.setpoint(123'456'789, 1.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 123.456788 * us), sim::Stop::end);
@@ -99,9 +99,9 @@ TEST(Pitfall01_CoincidentInstants, StepAndCurrentZero) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
-  // The PWM is centre-aligned at half duty with a dead time of a quarter period: the lower switch's turn-on
-  // falls on the tick. The edges are at 7.5 us (end of the first dead time, and turn-on command), 15 us, 22.5
-  // us (turn-off command) and 30 us (end of the dead time after it).
+  // The PWM is centre-aligned at half duty with a dead time of a quarter period, so the lower switch turns on
+  // exactly at the tick. The edges are at 7.5 us (the first dead time ends, and the upper switch turns on),
+  // 15 us, 22.5 us (a turn-off command) and 30 us (its dead time ends).
   for (const double next : {0.5, 1.0}) {
     Board b = locked(Board::duty(0.5, Chopping::complementary));
     b.board.modulator.centre_aligned = true;
@@ -114,8 +114,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
     ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, next);
-    // At full duty the tick comes first and commands the upper switch on: a new dead time replaces the dead
-    // time that would have ended at 30 us.
+    // At full duty, the tick is executed first and commands the upper switch on. A new dead time replaces the
+    // dead time that would have ended at 30 us.
     EXPECT_EQ(rig.event_count(EventKind::pwm_edge), next < 1.0 ? 4 : 3);
     EXPECT_EQ(rig.plant().gates().low[0], next < 1.0);
     EXPECT_FALSE(rig.plant().gates().high[0]);
@@ -123,8 +123,9 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeTheTickComesFirst) {
-  // The dead time is half a period: at each tick one dead time would end and the next begins. The tick must
-  // replace the edge at the end of the first dead time. An edge executed before the tick would be counted.
+  // The dead time is half a period, so at each tick one dead time would end and the next begins. The tick
+  // must replace the edge at the end of the first dead time. If this edge were executed before the tick, it
+  // would be counted.
   Board b = locked(Board::duty(0.5, Chopping::complementary));
   b.board.modulator.dead_ticks = 15e6;
   auto rig = b.rig();
@@ -177,8 +178,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, 0.25);
     EXPECT_EQ(rig.plant().sector(), 1);
-    // With commutation at the sample, rounding may put the edge just after this sample; the next sample then
-    // commutates.
+    // With commutation at the sample, rounding may shift the edge to just after this sample. The next sample
+    // then commutates.
     ASSERT_EQ(run_to(rig, at_sample ? 60 * us : 31 * us), sim::Stop::end);
     EXPECT_EQ(source_leg(rig), 0);
     EXPECT_EQ(sink_leg(rig), 2);
@@ -186,8 +187,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndSectorEdgeAtTheStartBackwards) {
-  // The rotor starts on the edge and turns backwards, so that the tick of t = 0 falls exactly on the edge.
-  // The tick comes after the edge: the run begins in the sector that the rotor enters.
+  // The rotor starts on the edge and turns backwards, so the tick of t = 0 is exactly on the edge. The edge
+  // is executed before the tick: the run begins in the sector that the rotor enters.
   Board b = turning(Board::duty(0.5), 30 * us);
   b.start.angle_rad = 0.0;
   b.start.speed_rad_s = -100.0;
@@ -209,7 +210,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndCurrentZero) {
   ASSERT_EQ(run_to(rig, 30 * us + ns, laws), sim::Stop::end);
   EXPECT_EQ(rig.event_count(EventKind::tick), 2);
   EXPECT_TRUE(rig.plant().gates().high[0]);
-  // At the tick the current was zero within rounding: the second period equals the first.
+  // At the tick, the current was zero within rounding. The second period is therefore equal to the first
+  // period.
   const double exact = 24.0 * ns / b.L_tt();
   EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
   ASSERT_EQ(run_to(rig, 60 * us + ns, laws), sim::Stop::end);

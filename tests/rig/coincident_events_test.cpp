@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each test has two events at one instant; there is one test per pair of scenario step, control tick, PWM
-// edge, comparator, sector edge and current zero. Each of the two events must take effect once, in the order
-// of model.md 4b (pitfall 1: no energy balance detects a lost tick). This file has the pairs of PWM edge,
-// comparator, sector edge and current zero.
+// Each test has two events at one instant. There is one test for each pair of scenario step, control tick,
+// PWM edge, comparator, sector edge and current zero. Each of the two events must take effect once, in the
+// order of model.md 4b (pitfall 1: no energy balance detects a lost tick). This file contains the pairs of
+// PWM edge, comparator, sector edge and current zero.
 #include <gtest/gtest.h>
 
 #include "tests/support/coinciding.hpp"
@@ -17,7 +17,8 @@ using rig::EventKind;
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndComparator) {
   // The chopping is complementary with a dead time of 1 us. A setpoint step turns the upper switch off at 500
-  // us. The dead time after this turn-off ends exactly when the next setpoint step turns the switch on again.
+  // us. The dead time after this turn-off ends exactly when the next setpoint step turns the upper switch on
+  // again.
   Board b = locked(Board::hysteresis(20.0, 0.25, Chopping::complementary));
   b.board.modulator.dead_ticks = 1e6;
   b.setpoint(500'000'000, 1.0);
@@ -52,8 +53,8 @@ TEST(Pitfall01_CoincidentInstants, PwmEdgeAndSectorEdge) {
 }
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndCurrentZero) {
-  // The PWM is centre-aligned: the off edge and the next on edge are one off-time apart (the period less the
-  // on-time).
+  // The PWM is centre-aligned. The off edge and the next on edge are therefore one off-time apart, which is
+  // the period minus the on-time.
   Board b = locked(Board::duty(0.0, Chopping::hard));
   b.board.modulator.centre_aligned = true;
   b.timeline.clear();
@@ -77,8 +78,8 @@ struct UntilDiodeStops {
   }
 };
 
-/// Runs to `at_s` with a comparator level above any current, and returns the current that the comparator
-/// measures at `at_s`.
+/// Runs to `at_s` with a comparator level above any current. Returns the current that the comparator measures
+/// at `at_s`.
 double current_at(Board b, double at_s) {
   b.timeline[0].value = 1e3;
   auto rig = b.rig();
@@ -88,8 +89,9 @@ double current_at(Board b, double at_s) {
   return w[0] * i[0] + w[1] * i[1] + w[2] * i[2];
 }
 
-/// Runs the check with levels of up to four last bits on either side of `level`: its result must not depend
-/// on which event rounding puts first. The setpoint is 0.25 A, the hysteresis, below the level.
+/// Runs the check with levels that differ from `level` by up to four units of the last bit, in both
+/// directions. The result must not depend on which event rounding puts first. The setpoint is 0.25 A below
+/// the level, which is the hysteresis.
 template <class Check>
 void at_levels_around(double level, Board b, Check&& check) {
   for (int bits = -4; bits <= 4; ++bits) {
@@ -101,8 +103,8 @@ void at_levels_around(double level, Board b, Check&& check) {
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
-  // The comparator measures the phase: a is the source before and after the edge, so that the measured
-  // current does not jump. The comparator trips at the edge, once, in either order of the two events.
+  // The comparator measures a phase current. Phase a is the source before and after the edge, so this current
+  // does not jump. The comparator trips once, at the edge, in either order of the two events.
   const double edge_s = 70 * us;
   Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::soft), edge_s);
   b.drive.hysteresis.watch = control::Watch::phase;
@@ -115,7 +117,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
     EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), gates({}, {false, false, true}));
-    // Rounding may keep the switch on longer, by 64 eps of the stall current, which is the guard's noise.
+    // Rounding may change the time at which the switch turns off. The current may then differ by 64 eps of
+    // the stall current, the noise of the guard.
     if (first == 0.0) first = rig.plant().state().i[0];
     EXPECT_NEAR(rig.plant().state().i[0], first, 2 * 64 * eps * rig.plant().constants().amp_scale);
     laws.expect_all();
@@ -123,9 +126,9 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCauseAway) {
-  // The comparator measures the motor current i_m. At the edge i_m changes to the mean of another pair, which
-  // is half as large. If the edge is first, the comparator does not trip. If rounding puts the comparator
-  // first, it is evaluated again just after the edge and turns the switch on again.
+  // The comparator measures the motor current i_m. At the edge, i_m changes to the mean of another pair,
+  // which is half as large. If the edge is first, the comparator does not trip. If rounding puts the
+  // comparator first, the comparator is evaluated again just after the edge and turns the switch on again.
   const double edge_s = 70 * us;
   const Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::soft), edge_s);
   const double level = current_at(b, edge_s - 1e-12) / (1 - 1e-12 / edge_s);
@@ -140,8 +143,9 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCa
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
-  // After a Hall edge the old sink's current decays in a diode while the source's current rises. The
-  // comparator's level is the source's current at the instant when the old sink's current reaches zero.
+  // After a Hall edge, the current of the old sink decays in a diode while the current of the source rises.
+  // The old sink's current reaches zero at some instant. The comparator's level is the source's current at
+  // this instant.
   const Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::hard), 70 * us);
   Board free = b;
   free.timeline[0].value = 1e3;
@@ -156,8 +160,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
     EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), all_off());
-    // The old sink's current remains zero. It reaches zero by its own event or, if the comparator is first,
-    // within rounding of that instant.
+    // The current of the old sink remains zero. It reaches zero by its own event. If the comparator is first,
+    // it is zero within rounding at that instant.
     EXPECT_LE(rig.event_count(EventKind::diode_off), 1);
     EXPECT_EQ(rig.plant().state().i[1], 0.0);
     EXPECT_TRUE(plant::is_floating(rig.plant().mode().legs[1]));
@@ -197,8 +201,8 @@ TEST(Pitfall01_CoincidentInstants, SectorEdgeAndCurrentZero) {
   laws.expect_all();
 }
 
-/// A comparator is evaluated again whenever its current jumps: no segment begins beyond the comparator's
-/// level.
+/// A comparator is evaluated again whenever its current jumps. No segment may begin with a current beyond the
+/// comparator's level.
 struct NeverBeyond {
   int beyond = 0, segments_of_edges = 0, last_sector = 0;
   void segment(const rig::LeanRig<double>& rig, double s) {
@@ -214,8 +218,7 @@ struct NeverBeyond {
 };
 
 TEST(Pitfall08_Sticking, TheComparatorIsJudgedAgainAfterASectorEdge) {
-  // At an edge the motor current changes to the mean of another pair: it jumps, and the comparator must react
-  // at once.
+  // At an edge, the motor current jumps to the mean of another pair. The comparator must react at once.
   Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
   auto rig = b.rig();
   NeverBeyond watch;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning on the virtual board finds the values of three motors of the motor library.
+// Commissioning on the virtual board finds the parameters of three motors of the motor library.
 #include "tests/support/commissioning.hpp"
 #include "tests/support/in_part.hpp"
 
@@ -19,7 +19,7 @@ control::Commissioned<double> in_si(const CommissioningBench& bench,
   return control::commissioned<double>(control::commissioning_scale<double>(bench.facts), found);
 }
 
-/// The relative errors that the converters' rounding allows (level_steps.hpp, flux_turn.hpp).
+/// The relative errors that the rounding of the converters allows (level_steps.hpp, flux_turn.hpp).
 struct Allowed {
   double R, L, flux;
 
@@ -27,10 +27,11 @@ struct Allowed {
     const double apart = (found.winding.higher - found.winding.lower) / 24.0;
     const double bus = 0.5 * bench.facts.V_per_count / bench.at.bus_V;
     R = 4.0 / 3.0 / apart + bus;
-    // A period's ripple hides at most (T/tau)^2/4 of the current's step.
+    // The ripple within a period T hides at most (T/tau)^2/4 of the current's step, with the time constant
+    // tau.
     const double x = 65536.0 / found.winding.tau;
     L = R + std::log(2 * apart) / apart + x * x / 4;
-    // R i is at most the applied voltage v.
+    // The voltage drop R i is at most the applied voltage v.
     const double v_over_e = static_cast<double>(found.magnet.applied) / found.magnet.emf;
     const double i_A = found.v * bench.at.bus_V / control::whole_bus / bench.machine.R_ohm[0];
     flux = v_over_e * (R + bus) + bench.machine.L_H * i_A / bench.flux_linkage() * L;
@@ -53,7 +54,7 @@ void expect_found(const CommissioningBench& bench, const control::CommissioningS
   EXPECT_LT(std::fabs(of_flux), allowed.flux) << name;
 }
 
-/// The test prints the errors that rounding allows in brackets.
+/// The test prints, in brackets, the errors that rounding allows.
 TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)
@@ -62,8 +63,8 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
       CommissioningBench bench(motor);
       double R = bench.machine.R_ohm[0];
       if (!ideal) {
-        // The amplifiers have an offset of 12 counts and one count of noise. The channels' resistance is a
-        // tenth of the phase resistance. Diodes and dead time are present.
+        // The amplifiers have an offset of 12 counts and a noise of one count. The resistance of the switches
+        // is a tenth of the phase resistance. There are diodes and a dead time.
         const double dead_s = 0.5e-6, in_diode = 2 * dead_s / bench.facts.period_s;
         bench.board.sensors.current.offset = 12.3 * bench.facts.A_per_count;
         bench.board.sensors.current.noise = 1.0 * bench.facts.A_per_count;
@@ -76,8 +77,9 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
     }
 }
 
-/// Error in degrees from the trapezoidal back-EMF. It is 1.12 at rest (hall_survey.hpp) and grows as the
-/// frequency of the shape's ripple approaches the frequency of the rotor's swing.
+/// Error, in degrees, that the trapezoidal back-EMF causes. It is 1.12 at rest (hall_survey.hpp). It
+/// increases as the frequency of the shape's ripple approaches the natural frequency of the rotor in the
+/// field.
 double of_shape_deg(const CommissioningBench& bench) {
   const double p = bench.machine.pole_pairs;
   const double swing =
@@ -86,9 +88,10 @@ double of_shape_deg(const CommissioningBench& bench) {
   return 1.12 / (1 - ripple * ripple / (swing * swing));
 }
 
-/// Each edge has its own angle and a hysteresis; friction is a tenth of the test current's torque. With a
-/// sinusoidal back-EMF the error consists of the swing and of the capture timer's count in both directions.
-/// With a trapezoid it is the shape's error plus a twentieth, because friction affects the swing.
+/// Each edge has its own angle and a hysteresis. Friction is a tenth of the test current's torque. With a
+/// sinusoidal back-EMF, the error has two parts: the oscillation of the rotor, and the counts of the capture
+/// timer in both directions. With a trapezoid, the error is the error of the shape plus a twentieth, because
+/// friction affects the oscillation.
 TEST(Commissioning, FindsWhereEachHallEdgeStands) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)
@@ -119,14 +122,14 @@ TEST(Commissioning, FindsWhereEachHallEdgeStands) {
 constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
                                 WireOrder::acb, WireOrder::cba, WireOrder::bac};
 
-/// The mean of a phase's trapezoid of 120 degrees (model.md 1) over a sector.
+/// The mean over a sector of a phase's trapezoid with a flat top of 120 degrees (model.md 1).
 double in_sector(int sector, std::size_t phase) {
   constexpr double of_a[6] = {1, 1, 0, -1, -1, 0};
   return of_a[(sector + 6 - 2 * static_cast<int>(phase)) % 6];
 }
 
-/// In each sector of the rotor, the table's pair gives the largest torque. With an odd permutation of the
-/// motor wires the pair is reversed, because the board's forward is then the motor's backward.
+/// In each sector of the rotor, the pair of the table gives the largest torque. With an odd permutation of
+/// the motor wires, the board's forward direction is the motor's backward direction, so the pair is reversed.
 void expect_right_table(const CommissioningBench& bench, const control::HallLines& lines) {
   for (int sector = 0; sector < 6; ++sector) {
     const std::uint8_t probes =
@@ -140,8 +143,8 @@ void expect_right_table(const CommissioningBench& bench, const control::HallLine
   }
 }
 
-/// The test covers all 36 orders of both plugs, the eight inversions of lines in turn, and both spacings of
-/// the probes.
+/// The cases are all 36 orders of both plugs, the eight inversions of lines in turn, and both spacings of the
+/// probes.
 TEST(Commissioning, FindsEveryWiring) {
   InPart some;
   int plain = 0;
@@ -173,8 +176,8 @@ TEST(Commissioning, FindsEveryWiring) {
   EXPECT_LT(plain, 36);
 }
 
-/// With the found table the drive runs in the board's forward direction. Its speed is the duty's no-load
-/// speed, reduced by friction.
+/// With the found table, the drive turns in the board's forward direction. Its speed is the no-load speed of
+/// the duty, reduced by friction.
 TEST(Commissioning, DrivesByTheTableThatItFound) {
   for (const rig::Wiring& wires : {rig::Wiring{}, rig::Wiring{WireOrder::bca, WireOrder::acb, 5},
                                    rig::Wiring{WireOrder::cba, WireOrder::cab, 2}})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's event comparators (model.md 4) trip only beyond a level, not at it, and keep their state
-// between the levels. A board has one comparator, or one per phase.
+// The board's event comparators (model.md 4) trip only if the current exceeds a level, not if it is equal to
+// the level. Between the levels they keep their state. A board has one comparator, or one comparator per
+// phase.
 #include <gtest/gtest.h>
 
 #include "tests/support/modulating.hpp"

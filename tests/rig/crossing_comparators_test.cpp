@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparators at the filtered terminals of a rotor at constant speed: the lag tau delays a sine's zero
-// crossings by atan(w tau)/w, and offset and hysteresis shift the crossings by an arc sine.
+// The terminals of a rotor at constant speed are filtered and compared. The filter's lag tau delays the zero
+// crossings of a sine by atan(w tau)/w. The comparator's offset and hysteresis shift the crossings by an arc
+// sine.
 #include "sixstep/rig/crossing_comparators.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ using CapturingRig = rig::Rig<double, Capturing>;
 
 constexpr double tau = 50e-6, w = 250.0, w_e = 8 * w;
 
-/// A flywheel without friction: it keeps 250 rad/s.
+/// A flywheel without friction, which keeps the speed of 250 rad/s.
 Board flywheel(const rig::CrossingComparators& comparators) {
   Board board = Board::duty(0.4);
   board.machine.back_emf = plant::BackEmf::sine;
@@ -50,7 +51,7 @@ std::vector<Edge> edges_of(const Board& board, double end_s) {
 
 double amplitude() { return 0.01675 * w / std::hypot(1, w_e * tau); }
 
-/// Each edge after 2 ms, when the start transient has decayed (40 time constants), is at its closed-form
+/// After 2 ms (40 time constants), the initial transient has decayed. Each later edge is at its closed-form
 /// angle. Line a rises `rises_late_rad` after the lagged crossing of e_a at -30 degrees. Each further line
 /// rises a third of a turn later.
 void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double falls_late_rad) {
@@ -66,7 +67,7 @@ void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double 
     const double lag = std::atan(w_e * tau) + (rises ? rises_late_rad : falls_late_rad);
     const double at = base::pi / 180 * (-30 + 120 * leg + (rises ? 0 : 180)) + lag;
     const double off = std::remainder(w_e * edge.at_s - at, 2 * base::pi);
-    // The bound in radians is the rounding error of a voltage of 24 V, divided by the slope `amplitude`.
+    // The bound, in radians, is the rounding error of a voltage of 24 V divided by the slope `amplitude`.
     EXPECT_LT(std::fabs(off), 1e-12 * 24 / amplitude()) << leg << rises << " " << edge.at_s;
     ++seen;
   }
@@ -86,8 +87,8 @@ TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
   expect_edges(edges_of(board, 20e-3), rise, -fall);
 }
 
-/// The mean of the three terminals cancels the star point's voltage, also with chopping. A floating leg shows
-/// e_k less the mean of the three back-EMFs, which is zero for sines.
+/// The mean of the three terminals cancels the star point's voltage, even with chopping. A floating leg then
+/// shows e_k minus the mean of the three back-EMFs, which is zero for sines.
 TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   Board board = flywheel({.lag_s = tau, .hysteresis_V = 0.1});
   board.start.speed_rad_s = 0;
@@ -95,8 +96,8 @@ TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, one edge per leg
 }
 
-/// Half the bus as reference does not cancel the star point's voltage. The terminal of a floating leg then
-/// has the mean d U/2 (d duty, U bus voltage) and a ripple about it.
+/// Half the bus voltage as reference does not cancel the star point's voltage. The terminal of a floating leg
+/// then has the mean d U/2 (duty d, bus voltage U), and a ripple around this mean.
 TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
   Board board = flywheel({.lag_s = tau, .against = rig::CrossingReference::half_bus});
   board.shaft.locked = true;
@@ -105,8 +106,8 @@ TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) 
   board.timeline.clear();
   board.setpoint(0, 0.5);
   const std::vector<Edge> edges = edges_of(board, 3e-3);
-  // The steady state of terminal a, chopped at d = 1/2, is U/2 +- (U/2) tanh(T/(4 tau)): it crosses U/2 once
-  // in each half of the period.
+  // In the steady state, terminal a at the duty d = 1/2 varies between U/2 +- (U/2) tanh(T/(4 tau)) (bus
+  // voltage U, period T). It crosses U/2 once in each half of the period.
   double on = 0, off = 0;
   std::uint8_t before = 0;
   for (const Edge& edge : edges) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dead time is kept over whole runs: reversals, full duty, Hall edges, every kind of bridge command.
+// The bridge keeps the dead time in whole runs with reversals, full duty, Hall edges, and every kind of
+// bridge command.
 #include <gtest/gtest.h>
 
 #include "sixstep/rig/lean_rig.hpp"
@@ -19,7 +20,7 @@ struct GatesWatch {
   void segment(const rig::LeanRig<double>& rig, double) { watch.look(rig.plant().gates(), rig.now()); }
 };
 
-/// Steps of +-5 A during the run-up, with a reversal at full voltage in between.
+/// Steps of +-5 A during the acceleration, and one reversal at full voltage between them.
 Board reversing(Board b) {
   for (int n = 1; n < 6; ++n) b.setpoint(n * 3'000'000'000LL, n == 3 ? -40.0 : n % 2 == 0 ? 5.0 : -5.0);
   b.start.speed_rad_s = 400.0;
@@ -52,8 +53,8 @@ TEST(DeadTime, HoldsInEveryLegOverWholeRuns) {
         }
 }
 
-/// A commutation has two turn-ons: in the leg through which the current enters the motor, and in the leg
-/// through which it leaves.
+/// At a commutation, switches turn on in two legs: in the leg through which the current enters the motor, and
+/// in the leg through which it leaves.
 TEST(DeadTime, AtCommutationDelaysSourceAndSinkAlsoAtTheSampleAndOnlyWhereItIsAskedFor) {
   for (const bool at_sample : {false, true})
     for (const bool asked : {false, true}) {

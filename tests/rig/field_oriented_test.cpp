@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field-oriented current controller on three legs is compared with the trajectory of an independent
-// brute-force solver in float128 (tests/reference/G15.csv). Sine machine from rest, i_q* = +-4 A, PWM and
-// control period 50 us, centred pulses, space vector, one period of delay.
+// brute-force solver in float128 (tests/reference/G15.csv). A sine machine starts from rest with i_q* = +-4
+// A. The PWM and control period is 50 us, with centred pulses, space vector modulation and one period of
+// delay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +22,8 @@ constexpr double T = 50e-6, bus_V = 24.0;
 
 control::Direction<double> direction(double rad) { return {base::cos(rad), base::sin(rad)}; }
 
-/// A PI controller in velocity form: v[n] = v[n-1] + 1.2 e[n] - 1.1 e[n-1], v in V and e in A. v is clamped
-/// to +-12 V, and the clamped value is kept.
+/// A PI controller in velocity form: v[n] = v[n-1] + 1.2 e[n] - 1.1 e[n-1], with the voltage v in V and the
+/// error e in A. v is limited to +-12 V, and the limited value is stored.
 struct VelocityPi {
   double v = 0.0, e = 0.0;
   double step(double error) {
@@ -43,7 +44,7 @@ struct FieldOriented {
     const control::Dq<double> i =
         park(control::clarke(control::Abc<double>{s.i[0], s.i[1], s.i[2]}), direction(theta_d));
     const control::Dq<double> v{d.step(-i.d), q.step(i_q - i.q)};
-    // The middle of the interval in which the voltage acts is a period and a half after the sample.
+    // The voltage acts in an interval whose middle is a period and a half after the sample.
     return space_vector(inverse_clarke(inverse_park(v, direction(theta_d + 1.5 * T * w_e))), bus_V);
   }
 };
@@ -81,8 +82,8 @@ TEST(FieldOriented, FollowsTheReferenceTrajectory) {
     }
   }
   EXPECT_EQ(rows, 401);
-  // The reference's accuracy gives the bounds: 1e-10 of the peak of a current, 1e-12 of the peak of the other
-  // columns.
+  // The accuracy of the reference determines the bounds: 1e-10 of the peak for currents, 1e-12 of the peak
+  // for the other columns.
   for (std::size_t k = 0; k < 5; ++k)
     EXPECT_LE(worst[k], (k < 3 ? 1e-10 : 1e-12) * peak[k]) << "column " << k + 1;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first instant of a run: dead time, the sector of a rotor on an edge, a slew-limited setpoint.
+// Tests the first instant of a run: the dead time, the sector of a rotor on an edge, and a setpoint with a
+// limited slew rate.
 #include <gtest/gtest.h>
 
 #include "sixstep/control/commutation.hpp"
@@ -32,13 +33,13 @@ TEST(FirstInstant, TheFirstTurnOnWaitsTheDeadTimeWithDutyPiAndHysteresis) {
       EXPECT_EQ(rig.plant().state().i[0], 0.0);
       ASSERT_EQ(run_to(rig, 2.5 * us), sim::Stop::end);
       EXPECT_EQ(rig.plant().gates(), a_to_b());
-      // The current is 24 V 0.5 us/0.572 mH; the resistance reduces it by less than 1e-3.
+      // The current is 24 V 0.5 us/0.572 mH. The resistance reduces this current by less than 1e-3.
       EXPECT_NEAR(rig.plant().state().i[0], 24.0 * 0.5 * us / b.L_tt(), 1e-3 * 24.0 * 0.5 * us / b.L_tt());
     }
 }
 
-/// The first samples show the sector that the rotor enters: backwards from 0 deg this is sector 5, with the
-/// pair c to b.
+/// The first samples show the sector that the rotor enters. Backwards from 0 degrees, this is sector 5 with
+/// the pair c to b.
 TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsEntered) {
   for (int edge = 0; edge < 6; ++edge)
     for (const double speed : {300.0, -300.0}) {
@@ -58,8 +59,8 @@ TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsE
     }
 }
 
-/// The setpoint slews at 2000 A/s, 0.06 A per tick, from the measured current, also after a jump between two
-/// ticks.
+/// The setpoint slews at 2000 A/s, 0.06 A per tick. It starts at the measured current, even if the setpoint
+/// jumps between two ticks.
 TEST(FirstInstant, ASetpointOfAnEventHysteresisSlewsOncePerTick) {
   Board b = locked(Board::hysteresis(4.0, 0.02, Chopping::soft));
   b.drive.extras.on = b.drive.extras.slews_setpoint = true;

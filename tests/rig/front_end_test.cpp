@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's analogue front end in whole runs. With a held motor the outputs are compared with closed forms
-// of a first-order lag of exponentials. With a turning motor, which freewheels and has a floating leg, the
-// outputs are compared with the lag's integral by quadrature of the plant's values. Both kernels, crossed
-// wires and delays are tested.
+// Tests the board's analogue front end in whole runs. With a locked motor, the outputs are compared with
+// closed forms: first-order lags of exponentials. With a turning motor, which freewheels and has a floating
+// leg, the outputs are compared with the integral of the lag, by quadrature of the plant's values. The cases
+// include both kernels, crossed wires and delays.
 #include "sixstep/rig/front_end.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// A drive with converters; it stores the terminal voltages that it receives.
+/// A drive with converters. It stores the terminal voltages that it receives.
 struct Looking : rig::SensedDrive<double> {
   using SensedDrive::SensedDrive;
   plant::PerLeg<double> terminal_V{};
@@ -42,7 +42,8 @@ LookingRig rig_of(const Board& board) {
   return LookingRig(board.plant(), board.drive, board.board, board.timeline);
 }
 
-/// Output at time t of a lag tau that starts at x, for the input a + b exp(-t/T).
+/// Output at the time t of a first-order lag with the time constant tau. The output starts at x, and the
+/// input is a + b exp(-t/T).
 double lagged(double x, double a, double b, double T, double tau, double t) {
   const double particular = b / (1 - tau / T);
   return a + particular * std::exp(-t / T) + (x - a - particular) * std::exp(-t / tau);
@@ -109,7 +110,7 @@ TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   LookingRig rig = rig_of(held(duty, {.divider_s = tau}));
   const double on = std::exp(-duty * period_s / tau), off = std::exp(-(1 - duty) * period_s / tau);
   ASSERT_EQ(run_to(rig, period_s), sim::Stop::end);
-  // Before the run all three legs float at half the bus.
+  // Before the run, all three legs float at half the bus voltage.
   EXPECT_NEAR(rig.front_end().reading().terminal_V[0], (24 + (12.0 - 24) * on) * off, volt);
   EXPECT_NEAR(rig.front_end().reading().terminal_V[1], 12 * on * off, volt);
   ASSERT_EQ(run_to(rig, 200 * period_s), sim::Stop::end);  // 60 time constants later
@@ -119,14 +120,15 @@ TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   EXPECT_NEAR(seen.terminal_V[1], 0, volt);
   EXPECT_NEAR(seen.terminal_V[2], low / 2, volt);  // c floats at the mean of a and b
   EXPECT_EQ(seen.bus_V, 24);
-  // The drive received the same value at its tick.
+  // At its tick, the drive received the same value.
   ASSERT_EQ(run_to(rig, 200 * period_s + 1e-6), sim::Stop::end);
   EXPECT_NEAR(rig.firmware().terminal_V[2], low / 2, volt);
 }
 
-/// The lag's integral over whole segments: x exp(-z) + z int exp(-z (1 - r)) u(r) dr, z is the segment's
-/// duration divided by tau, r the elapsed part of the segment. u comes from plant.at(); there are ten pieces
-/// of five Gauss points. For z < 1, as here, the quadrature's error is below rounding.
+/// The integral of the lag over whole segments: x exp(-z) + z int exp(-z (1 - r)) u(r) dr. z is the duration
+/// of the segment divided by tau, r is the elapsed part of the segment, x is the initial output, and the
+/// input u comes from plant.at(). The quadrature has ten pieces of five Gauss points. For z < 1, which is
+/// true in these tests, its error is below rounding.
 struct Quadrature {
   double tau;
   plant::PerLeg<double> x{}, i{};
@@ -245,7 +247,7 @@ TEST(FrontEnd, BelongsToTheBoardsLegs) {
   EXPECT_NEAR(seen.terminal_V[1], 0, volt);
 }
 
-/// A board without lags gives the drive the true values, bit for bit.
+/// If the board has no lags, the drive receives the true values, equal to the last bit.
 TEST(FrontEnd, WithoutAnyItIsNotThere) {
   LookingRig rig = rig_of(held(0.5, {}));
   ASSERT_EQ(run_to(rig, 1e-3), sim::Stop::end);

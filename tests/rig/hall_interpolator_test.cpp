@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, position and sector from the angle between Hall edges are compared with the closed-form motion of
-// rotor and probes.
+// The interpolator computes speed, position and sector from the angle between Hall edges. These values are
+// compared with the closed-form motion of rotor and probes.
 #include "sixstep/rig/hall_interpolator.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ rig::SensorsConfig reading(HallAngleFrom from, int edges) {
   return config;
 }
 
-/// Errors of the probes' mounting, their hysteresis and the delay of their lines.
+/// Whether the probes have mounting errors, the hysteresis of the probes, and the delay of their lines.
 struct Probes {
   bool stray = true;
   double hysteresis_deg = 0, delay_s = 0;
@@ -42,13 +42,14 @@ struct Errors {
   int samples = 0, wrong_sectors = 0;
 };
 
-/// theta(t) in electrical degrees, monotonic in `direction`. The test compares the samples from `from_s` on.
+/// A bench whose rotor moves by a given function theta(t), in electrical degrees, monotonic in `direction`.
+/// The samples from `from_s` on are compared.
 struct Bench {
   std::function<double(double)> theta_deg, w_rad_s;
   Probes probes{};
   int direction = 1;
 
-  /// The time, s, at which the rotor passes an angle, by bisection.
+  /// The time, in s, at which the rotor passes an angle. Bisection finds this time.
   double passes_s(double angle_deg, double end_s) const {
     double low = 0, high = end_s;
     for (int n = 0; n < 60; ++n) {
@@ -92,12 +93,12 @@ rig::HallInterpolator<double> interpolator(const rig::SensorsConfig& config) {
   return {config, {}, {.pole_pairs = p, .sector = 0}};
 }
 
-/// Electrical degrees that the rotor turns in one count of the timer.
+/// Electrical degrees by which the rotor turns in one count of the timer.
 double tick_deg(double w) { return p * std::fabs(w) * 180 / base::pi / capture_Hz; }
 
-// Errors in counts of the timer. The angle of an edge has one at either end of the turn over which it was
-// learned; the time since an edge has one. The speed is measured over a sector: each of its two ends has one
-// count of time and two of angle.
+// The errors are counts of the timer. The angle of an edge has an error of one count at either end of the
+// turn in which it was learned. The time since an edge has an error of one count. The speed is measured over
+// a sector, and each end of the sector has an error of one count of time and two counts of angle.
 TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   for (const double w : {100.0, -100.0, 300.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::learned_edges, 6);
@@ -109,8 +110,8 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
     EXPECT_LT(learned.speed_rad_s, std::fabs(w) * 2 * (1 + 2) * tick_deg(w) / 55) << w;
     EXPECT_LE(learned.wrong_sectors, learned.samples * ticks * tick_deg(w) / 60) << w;
 
-    // The interpolator assumes evenly spaced edges: the angle has the probes' mounting errors, and the
-    // measured speed is 60/55 or 60/66 of the true speed.
+    // This interpolator assumes evenly spaced edges. Its angle therefore has the mounting errors of the
+    // probes, and its speed is 60/55 or 60/66 of the true speed.
     auto trusting = interpolator(reading(HallAngleFrom::angle, 1));
     const Errors trusted = steady(w).drive(trusting, 0.1, 0.2);
     EXPECT_GT(trusted.position_deg, 3.9 / p);
@@ -118,13 +119,14 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   }
 }
 
-// Six edges are one electrical turn, over which the mounting errors cancel.
+// Six edges are one electrical turn. Over a turn, the mounting errors cancel.
 TEST(HallInterpolator, SpeedOverSixEdgesNeedsNoPlaces) {
   auto six = interpolator(reading(HallAngleFrom::angle, 6));
   EXPECT_LT(steady(100).drive(six, 0.1, 0.2).speed_rad_s, 100 * 2 * tick_deg(100) / 360 + 100 * 0.1);
 }
 
-// The interpolator adds the angle for the data sheet's hysteresis and delay: its angle leads the lines.
+// Hysteresis and delay make the lines late. The interpolator adds the angle for the values of the data sheet,
+// so its angle is ahead of the lines.
 TEST(HallInterpolator, TakesOffHysteresisAndDelay) {
   for (const double w : {200.0, -200.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::angle, 1);
@@ -137,8 +139,8 @@ TEST(HallInterpolator, TakesOffHysteresisAndDelay) {
   }
 }
 
-// While the speed rises by 5 % per turn, the interpolator does not learn. At constant speed it learns from
-// the next eight turns.
+// While the speed rises by 5 % per turn, the interpolator does not learn the edges. At constant speed, it
+// learns them from the next eight turns.
 TEST(HallInterpolator, LearnsNothingOfARotorThatSpeedsUp) {
   const double a = 400, until = 0.25, top = 20 + a * until;
   Bench bench;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A long run in open loop on an exact time base: one simulated second by default, or SIXSTEP_SIMULATED_S
-// seconds (the long tests: 3600, one hour).
+// A long run in open loop tests the exact time base. It simulates one second by default, or
+// SIXSTEP_SIMULATED_S seconds (3600 in the long tests).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ std::int64_t seconds() {
 }
 constexpr std::int64_t second_ticks = 1'000'000'000'000;
 
-/// The shaft's angle, computed as the integral of its speed.
+/// The angle of the shaft, computed as the integral of the speed.
 class Way {
  public:
   template <class Rig>
@@ -45,8 +45,9 @@ struct WayAndEnergy {
   }
 };
 
-/// The angle from the sector count equals the integral of the speed. Each edge is located within 64 eps of a
-/// sector, the guard's noise. If all errors have the same sign, they add up to 64 eps of the angle.
+/// The angle from the count of sectors is equal to the integral of the speed. Each edge is located within 64
+/// eps of a sector, the noise of the guard. If all errors have the same sign, their sum is 64 eps of the
+/// angle.
 template <class Rig>
 void expect_angle(const Rig& rig, double way_rad) {
   const auto& s = rig.plant().state();
@@ -78,8 +79,8 @@ TEST(OneHour, OfChoppingCountsEveryPeriod) {
   const sim::Instant end{seconds() * second_ticks, 0.0};
   ASSERT_EQ(sim::run(rig, end, way).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), end);
-  // The actions due at the end are executed: a tick at that instant, and the off edge if the run ends in the
-  // second half of a period.
+  // The actions that are due at the end are executed: a tick at this instant, and the off edge if the run
+  // ends in the second half of a period.
   const std::int64_t whole = end.ticks / period_ticks, rest = end.ticks % period_ticks;
   EXPECT_EQ(rig.event_count(EventKind::tick), whole + 1);
   EXPECT_EQ(rig.event_count(EventKind::pwm_edge), whole + (rest >= period_ticks / 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In open loop with a steady bridge, the rig skips control ticks without changing the result.
+// In open loop with steady gates, the rig skips control ticks without changing the result.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Full voltage from a current loop that is always saturated: every tick is simulated.
+/// The current loop is always saturated, so it applies the full voltage. Every tick of this board is
+/// simulated.
 Board saturated() {
   Board b = Board::duty(0.0);
   b.timeline.clear();
@@ -33,8 +34,8 @@ TEST(IdleTicks, SkippingThemChangesRoundingOnly) {
   EXPECT_EQ(a.event_count(rig::EventKind::sector_edge), b.event_count(rig::EventKind::sector_edge));
 }
 
-/// The duty steps on a tick or between two ticks. It starts from full duty in one run, and from slightly less
-/// (never steady) in the other.
+/// The duty steps on a tick or between two ticks. In one run it starts from full duty. In the other run it
+/// starts from slightly less, so that no tick is skipped.
 void expect_steps_seen(std::int64_t at_ticks) {
   Board skipping = Board::duty(1.0), busy = Board::duty(1.0 - 1e-15);
   for (Board* b : {&skipping, &busy}) {
@@ -45,7 +46,7 @@ void expect_steps_seen(std::int64_t at_ticks) {
   ASSERT_EQ(run_to(a, 12e-3), sim::Stop::end);
   ASSERT_EQ(run_to(b, 12e-3), sim::Stop::end);
   EXPECT_EQ(a.modulator().command().duty, 0.25);
-  // The only difference is an off-time of 3e-8 ps per period.
+  // The only difference is an off-time of 3e-8 ps in each period.
   EXPECT_NEAR(a.plant().state().w, b.plant().state().w, 1e-12 * 700.0);
   EXPECT_NEAR(a.plant().state().i[0], b.plant().state().i[0], 1e-10 * 23.3);
 }

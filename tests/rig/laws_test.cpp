@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of model.md 5 hold over random drives with any back-EMF shape, devices, bus, friction, chopping
-// and steps.
+// Random drives with any back-EMF shape, devices, bus, friction, chopping and steps obey the laws of model.md
+// 5.
 #include "tests/support/laws.hpp"
 
 #include <gtest/gtest.h>

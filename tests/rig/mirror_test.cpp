@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mirrored runs give mirrored results: the symmetries of motor, bridge and commutation.
+// Tests the symmetries of motor, bridge and commutation: mirrored runs give mirrored results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,12 +12,12 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// The bound on the difference of two runs whose initial states differ by rounding is the solver's accuracy
-/// (model.md 12: 6.5e-12 of full scale for currents).
+/// The initial states of the two runs differ by rounding. The bound on their later difference is the accuracy
+/// of the solver (model.md 12: 6.5e-12 of full scale for currents).
 constexpr double current_part = 1e-11, speed_part = 1e-12;
 
-/// The mirrored run has theta -> 300 degrees - theta, w -> -w, d -> -d, T_load -> -T_load, and phases b and c
-/// exchanged; its currents are the same.
+/// The mirrored run replaces theta by 300 degrees - theta, w by -w, d by -d and T_load by -T_load, and
+/// exchanges phases b and c. Its currents are the same.
 Board mirrored(Board b) {
   b.start.angle_rad = at_electrical_deg(300.0) - b.start.angle_rad;
   b.start.speed_rad_s = -b.start.speed_rad_s;
@@ -25,7 +25,8 @@ Board mirrored(Board b) {
   return b;
 }
 
-/// The rotor starts a third of an electrical turn further: the phases rotate, a -> b -> c -> a.
+/// The rotor starts a third of an electrical turn further. The phases therefore exchange their roles: a to b,
+/// b to c, c to a.
 Board rotated(Board b) {
   b.start.angle_rad += at_electrical_deg(120.0);
   return b;
@@ -74,8 +75,8 @@ TEST(Mirror, EveryPhaseIsLikeTheOthers) {
 }
 
 TEST(Mirror, HardChoppingDoesNotKnowTheRails) {
-  // theta -> theta + 180 degrees reverses every current and back-EMF. Both switches of the pair chop
-  // together.
+  // An angle that is larger by 180 degrees reverses every current and back-EMF. With hard chopping, both
+  // switches of the pair switch together.
   const Board b = drive(Chopping::hard, false);
   Board half = b;
   half.start.angle_rad += at_electrical_deg(180.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dead times of six-step's switches, edge by edge, and the state of a leg that a commutation transfers to
-// another leg (model.md 3, 11). Ticks are picoseconds, the period is 30 us.
+// Tests the dead times of the six-step modulator edge by edge, and the state of a leg that a commutation
+// transfers to another leg (model.md 3, 11). Ticks are picoseconds, and the period is 30 us.
 #include <gtest/gtest.h>
 
 #include "tests/support/maxon.hpp"
@@ -37,7 +37,7 @@ TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
   EXPECT_EQ(on(m), "a-b-");
 }
 
-/// The first command of a run changes every leg's state (model.md 11), in duty control and in hysteresis
+/// The first command of a run changes the state of every leg (model.md 11), in duty control and in hysteresis
 /// control.
 TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
@@ -53,8 +53,8 @@ TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
       }
 }
 
-/// No dead time is needed: since the leg was last on, no other switch of the leg has received a turn-off
-/// command.
+/// No dead time is needed, because no other switch of the leg has received a turn-off command since the
+/// switch was last on.
 TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
     SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
@@ -80,8 +80,8 @@ TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
     }
 }
 
-/// In an off-time of 0.3 us the lower switch is commanded on and off and never turns on. Its turn-off command
-/// starts the dead time nevertheless.
+/// In an off-time of 0.3 us, the lower switch is commanded on and off, but never turns on. Its turn-off
+/// command still starts the dead time.
 TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) {
   SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.99, Chopping::complementary));
@@ -119,8 +119,8 @@ TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
   }
 }
 
-/// With complementary chopping the lower switch is on until the new command turns it off. Under the new soft
-/// chopping, the upper switch waits for the dead time.
+/// With complementary chopping, the lower switch is on until the new command turns it off. The new command
+/// has soft chopping, and the upper switch waits for the dead time.
 TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   for (const bool centred : {false, true}) {
     SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
@@ -135,7 +135,7 @@ TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   }
 }
 
-/// Leg a changes from source to sink: its command changes from the upper to the lower switch, and the lower
+/// Leg a changes from source to sink. Its command changes from the upper to the lower switch, and the lower
 /// switch waits for the dead time.
 TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
@@ -153,7 +153,8 @@ TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
     }
 }
 
-/// Both switches of the pair have been off since the middle of the period, longer than the dead time.
+/// Both switches of the pair have been off since the middle of the period, which is longer than the dead
+/// time.
 TEST(Modulator, AHardSignFlipDoesNotWaitWhereTheOtherSwitchIsLongOff) {
   SixStepModulator m{ModulatorConfig{.dead_ticks = 2e6}};
   m.start_period(at(0), command(0.5, Chopping::hard));
@@ -227,8 +228,8 @@ TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
   EXPECT_EQ(on(m), "b+c-");
 }
 
-/// With commutation = "sample" the pair changes with a period's command. Leg a transfers its state to leg b;
-/// leg c is unchanged.
+/// With commutation = "sample", the pair changes with the command of a period. Leg a transfers its state to
+/// leg b, and leg c is unchanged.
 TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0}) {
@@ -237,8 +238,8 @@ TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
       m.start_period(at(0), command(duty, chopping, {Leg::a, Leg::c}));
       while (m.next_edge() < at(period)) do_next(m);
       m.start_period(at(period), command(duty, chopping, {Leg::b, Leg::c}));
-      // If the state of leg a was low until now, as in any period of complementary chopping, the turn-on is a
-      // change within the transferred state and waits.
+      // In every period of complementary chopping, the state of leg a is low until now. The turn-on is then a
+      // change within the transferred state, so it waits for the dead time.
       const bool waits = chopping == Chopping::complementary && duty < 1.0;
       EXPECT_EQ(on(m), waits ? "c-" : "b+c-");
       if (waits) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Under hard chopping each driven phase has a comparator. Two conducting legs have i_p = -i_n, so that both
-// currents reach their level at the same instant. Rounding must not decide whether the second comparator also
+// With hard chopping, each driven phase has a comparator. If two legs conduct, i_p = -i_n, so both currents
+// reach their level at the same instant. Rounding must not decide whether the second comparator also
 // switches.
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// After both gates of the pair were on, counts the next state: both off, only the source's gate off, or only
-/// the sink's gate off.
+/// Counts the states that follow after both gates of the pair were on: both gates off, only the source's gate
+/// off, or only the sink's gate off.
 struct FirstStates {
   bool both_on = false;
   int both_off = 0, source_off = 0, sink_off = 0;

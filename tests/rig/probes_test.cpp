@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mounted Hall probes (model.md 10): at constant speed every edge appears at the instant of its equation plus
-// the delay, in both directions. Probes 60 degrees apart and glitches are tested too.
+// Mounted Hall probes (model.md 10) at constant speed: every edge appears at the instant of its equation plus
+// the delay, in both directions. The tests include probes 60 degrees apart, and glitches.
 #include "sixstep/rig/probes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using namespace sixstep::testing;
 constexpr double p = 8, w = 120.0;  // rad/s, mechanical
 constexpr double deg_s = p * w * 180 / base::pi;
 
-/// An external drive turns the rotor at w or -w; the bridge is off.
+/// An external drive turns the rotor with the speed w or -w, and the bridge is off.
 GeneralRig turned(const rig::ProbeGiven& probes, double sign, rig::Timeline timeline = {}) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;
@@ -38,8 +38,8 @@ struct Edge {
   int sector;  // 0..5, the sector after the edge
 };
 
-/// The edges that a rotor passes from angle 0, forward or backward, and the sectors after them, computed only
-/// from the definition.
+/// The edges that a rotor passes from angle 0, forward or backward, and the sector after each edge. The
+/// function uses only the definition of the probes.
 std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, double until_s) {
   std::vector<Edge> edges;
   const int count = placed.own_deg.empty() ? 1 : static_cast<int>(placed.own_deg.size());
@@ -50,8 +50,8 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
   for (int n = -2000; n <= 2000; ++n) {
     const double place = 60.0 * n + placed.offset_deg + own(n);
     const double met = place + sign * placed.hysteresis_deg / 2;
-    // Forward, the first edge is the first edge beyond 0, without the hysteresis. Backward, it is the last
-    // edge at or below 0.
+    // Without the hysteresis, the first edge of a forward rotation is the first edge beyond 0. The first edge
+    // of a backward rotation is the last edge at or below 0.
     if (sign > 0 ? place <= 0 : place > 0) continue;
     const double at_s = sign * met / deg_s;
     if (at_s < until_s) edges.push_back({at_s, (((sign > 0 ? n : n - 1) % 6) + 6) % 6});
@@ -63,7 +63,7 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
 constexpr std::uint8_t codes_120[6] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
 constexpr std::uint8_t codes_60[6] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};
 
-/// The pins change within 2e-12 s of each edge, and at no other time.
+/// Expects that the pins change within 2e-12 s of each edge, and at no other time.
 void expect_edges(const rig::ProbeGiven& given, double sign) {
   GeneralRig rig = turned(given, sign);
   const double delay_s = static_cast<double>(given.delay_ticks) * 1e-12;
@@ -97,7 +97,8 @@ TEST(Probes, AreLateByTheirDelay) {
     expect_edges({.placement = {2.0, 1.0, {}}, .delay_ticks = 37'000'000}, sign);
 }
 
-// At 5600 rad/s electrical a sector lasts 187 us: during a delay of 200 us, two edges are pending at once.
+// At 5600 electrical rad/s, a sector lasts 187 us. During a delay of 200 us, two edges are therefore pending
+// at once.
 TEST(Probes, KeepEdgesThatAreOnTheirWay) {
   rig::MountedProbes<double> probes({.delay_ticks = 200}, {});
   ASSERT_TRUE(probes.mounted());
@@ -141,8 +142,8 @@ TEST(Probes, GlitchesTurnOneLineOver) {
   }
 }
 
-// The rotor oscillates across an edge: in either direction the line changes h/2 after the edge, h the
-// hysteresis, and only once.
+// The rotor oscillates across an edge. In either direction, the line changes only once, half the hysteresis
+// after the edge.
 TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;
@@ -150,7 +151,7 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
   setup.probes.placement.hysteresis_deg = 20;
   Board board = Board::duty(0.0);
   board.drive.mode = control::Mode::off;
-  // The rotor turns forward 75 degrees, back 30, forward 30, back 75.
+  // The rotor turns forward by 75 degrees, back by 30, forward by 30, and back by 75.
   double t = 0, sign = 1;
   for (const double way : {75.0, 30.0, 30.0, 75.0}) {
     t += way / deg_s;
@@ -164,8 +165,8 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
     const int sector = control::sector_of_hall(rig.pins());
     if (sectors.empty() || sectors.back() != sector) sectors.push_back(sector);
   }
-  // The line changes at 70 degrees on the way from 0 to 75, at 50 on the way back to 45, at 70 on the way to
-  // 75, and at 50 on the way back to 0. The rotor does not reach the edge at -10.
+  // The line changes four times: at 70 degrees on the way from 0 to 75, at 50 on the way back to 45, at 70 on
+  // the way to 75, and at 50 on the way back to 0. The rotor does not reach the edge at -10 degrees.
   EXPECT_EQ(sectors, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulses that detect the rotor's angle, on the virtual board, with two motors. The wheel hub motor has two
-// inductances in its sheet and iron that saturates. The motor 251601 has a rotor that pulses cannot detect.
+// Pulses find the rotor's angle on the virtual board, with two motors. The wheel hub motor has two
+// inductances in its sheet, and iron that saturates. The motor 251601 has a rotor whose angle pulses cannot
+// find.
 #include <cstdio>
 #include <random>
 
@@ -31,7 +32,7 @@ struct PulseBench {
     machine.shape.flat_deg = m.flat_deg;
     if (m.back_emf == plant::BackEmf::sine) machine.shape.harmonics = {{1, 1.0}};
   }
-  /// Sets theta_e at rest, in degrees.
+  /// Sets the angle theta_e of the rotor at rest, in electrical degrees.
   void stand_at(double electrical_deg) {
     base.at.angle_rad = electrical_deg * base::pi / 180 / machine.pole_pairs;
   }
@@ -61,7 +62,7 @@ PulseBench hub() {
   return bench;
 }
 
-/// Runs until the pulses have ended.
+/// Runs until the pulses have ended. Returns their result.
 PulsePositionReading found(PulsedRig& rig) {
   bool began = false;
   const double t = run_until_true(rig, 2.0, 0.25e-3, [&] {
@@ -76,10 +77,10 @@ double off_deg(const PulsePositionReading& reading, double electrical_deg) {
   return std::remainder(reading.electrical * (360.0 / 4294967296.0) - electrical_deg, 360.0);
 }
 
-/// The error of the finer angle has two parts, noise and saturation. The second harmonic in 2 x has two
-/// components with equal noise: the noise of 2 x is 1/(signal to noise) rad, and that of x is half of it.
-/// With m = L_d I/(2 I_sat L_S), saturation adds m/4 of the current times 3 m/8, divided by L_D/L_S. The
-/// bound contains five times the noise, because it applies to a hundred angles.
+/// The error of the finer angle x has two parts, noise and saturation. The second harmonic depends on 2 x,
+/// and its two components have equal noise. The noise of 2 x is 1/(signal to noise) rad, and the noise of x
+/// is half of this. With m = L_d I/(2 I_sat L_S), saturation contributes m/4 times 3 m/8, divided by L_D/L_S.
+/// The bound contains five times the noise, because it applies to a hundred angles.
 TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
   const unsigned seed = 20'261'123;
   std::mt19937 draw(seed);
@@ -101,7 +102,7 @@ TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
     const double m = 520e-6 * I_A * 2 / std::sqrt(3.0) / (2 * 40.0 * 585e-6), saliency = 65.0 / 585.0;
     const double allowed_deg = (5 * 16.0 / reading.axis_16 + m * m * 3 / 32 / saliency) / 2 * 180 / base::pi;
     EXPECT_LT(std::fabs(off), allowed_deg) << deg;
-    // The sector is right if the rotor's distance from an edge exceeds the error.
+    // The sector is right if the rotor's distance from the nearest edge exceeds the error.
     const double into = std::fmod(deg, 60.0);
     if (reading.sector == static_cast<int>(deg / 60)) continue;
     ++beyond_edges;
@@ -112,7 +113,7 @@ TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
       beyond_edges, worst);
 }
 
-/// After the pulses the drive starts without an alignment, in both directions.
+/// After the pulses, the drive starts without an alignment, in both directions.
 TEST(PulseStart, StartsFromTheSectorThatItSaw) {
   for (const double sign : {1.0, -1.0})
     for (const double deg : {5.0, 83.0, 160.0, 239.0, 301.0}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's timing (model.md 3, 4): delay, commutation at the sample, Hall edges, statistics, faults.
+// Tests the timing of the board (model.md 3, 4): delay, commutation at the sample, Hall edges, statistics and
+// faults.
 #include "sixstep/rig/lean_rig.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +35,8 @@ TEST(Rig, DelayedCommandTakesEffectOnePeriodAfterItsSample) {
 }
 
 TEST(Rig, ADelayedHysteresisWaitsForItsSampleToo) {
-  // With a delay, the sample at 60 us detects a step at 45 us, and the step takes effect at 90 us. Without a
-  // delay it takes effect at once.
+  // With a delay, the sample at 60 us detects the step at 45 us, and the step takes effect at 90 us. Without
+  // a delay, the step takes effect at once.
   for (const bool delayed : {true, false}) {
     Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
     b.board.delayed = delayed;
@@ -63,7 +64,7 @@ TEST(Rig, ThePositionCountsDegreesOfTheShaftOverTurns) {
   }
 }
 
-/// A drive at constant speed, whose first sector edge is at 40 us, between two ticks.
+/// A drive at constant speed. Its first sector edge is at 40 us, between two ticks.
 Board edge_between_ticks() {
   Board b = Board::duty(0.9);
   b.shaft.J_kg_m2 = 1e9;
@@ -92,7 +93,8 @@ TEST(Rig, OrAtTheNextSample) {
 }
 
 TEST(Rig, AHallEdgeKeepsTheSignInEffectWhileAReversalWaits) {
-  // A reversal sampled at 30 us takes effect at 60 us. The edge at 40 us still uses the old sign.
+  // The reversal that is sampled at 30 us takes effect at 60 us. The edge at 40 us therefore still uses the
+  // old sign.
   Board b = edge_between_ticks();
   b.board.delayed = true;
   b.setpoint(15'000'000, -0.9);
@@ -104,8 +106,8 @@ TEST(Rig, AHallEdgeKeepsTheSignInEffectWhileAReversalWaits) {
 }
 
 TEST(Rig, DutyIsFeltAsTheMeanVoltage) {
-  // Locked rotor, soft chopping, continuous current: the steady state has the mean current d U/R_tt (d duty,
-  // U bus voltage) and a ripple.
+  // The rotor is locked, the chopping is soft, and the current is continuous. The steady state has the mean
+  // current d U/R_tt (duty d, bus voltage U, line-to-line resistance R_tt) and a ripple.
   Board b = Board::duty(0.5);
   b.shaft.locked = true;
   b.start.angle_rad = 0.02;
@@ -127,8 +129,8 @@ TEST(Rig, TicksAndEdgesAreCounted) {
   EXPECT_EQ(rig.modulator().turn_ons(), 101);
 }
 
-/// The statistic "diode starts to conduct" must not depend on whether the start was located or coincided with
-/// a PWM edge. The reference trajectory R3 has 1600 starts.
+/// The statistic "diode starts to conduct" counts each start, whether the start was located as an event or
+/// coincided with a PWM edge. The reference trajectory R3 has 1600 starts.
 TEST(Rig, CountsEveryStartOfADiode) {
   const Board b = Board::duty(0.5);
   auto rig = b.rig();
@@ -136,19 +138,19 @@ TEST(Rig, CountsEveryStartOfADiode) {
   EXPECT_EQ(rig.plant().diodes_started(), 1600);
 }
 
-/// The count includes a comparator's switching that a setpoint step or a sector edge causes at once.
+/// The count includes the switching that a setpoint step or a sector edge causes at once.
 TEST(Rig, CountsEverySwitchingOfAComparator) {
   Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
   for (int n = 1; n < 4; ++n) b.setpoint(n * 5'000'000'000LL, n % 2 == 0 ? 5.0 : -5.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 20e-3 - 1e-12), sim::Stop::end);
-  // In the reference trajectory R7s the comparator switches off 332 times. After each, except perhaps the
-  // last, it switches on.
+  // In the reference trajectory R7s, the comparator switches off 332 times. After each of these instants,
+  // except perhaps the last, it switches on again.
   const std::int64_t off = 332;
   EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::comparator)), 2.0 * off, 1.0);
 }
 
-/// Times at which the comparator switched off.
+/// The times at which the comparator switched off.
 struct Offs {
   bool on = false;
   std::vector<double> at_s;
@@ -165,7 +167,7 @@ TEST(Rig, HysteresisSwitchesAsOftenAsTheReference) {
   Offs offs;
   ASSERT_EQ(run_to(rig, 20e-3, offs), sim::Stop::end);
   EXPECT_EQ(offs.at_s.size(), 332u);
-  // The mean switching frequencies of R7s in its four quarters are 19.65, 14.74, 19.70 and 14.70 kHz.
+  // R7s has the mean switching frequencies 19.65, 14.74, 19.70 and 14.70 kHz in its four quarters.
   const double reference[] = {19.65e3, 14.74e3, 19.70e3, 14.70e3};
   for (int quarter = 0; quarter < 4; ++quarter) {
     double first = 0, last = 0;

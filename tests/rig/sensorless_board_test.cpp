@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive on a realistic board (support/sensorless_board.hpp): starts, speeds and throttle steps
-// of three motors of the motor library. All tests run in both directions, with soft and complementary
-// chopping, by crossings and by observers. The drive must not lose the rotor.
+// Tests the sensorless drive on a realistic board (support/sensorless_board.hpp) with starts, speeds and
+// throttle steps of three motors of the motor library. All tests run in both directions, with soft and
+// complementary chopping, by crossings and by observers. The drive must not lose the rotor.
 #include "tests/support/sensorless_board.hpp"
 
 #include <random>
@@ -37,8 +37,8 @@ TEST(SensorlessBoard, HoldsEverySpeedBothWays) {
       }
 }
 
-/// Runs at full throttle and at a tenth of the no-load speed, twice. The setpoint steps, and the chip limits
-/// the slew rate.
+/// Runs twice at full throttle and twice at a tenth of the no-load speed. The setpoint steps, and the chip
+/// limits the slew rate.
 void expect_throttle(SensorlessBench& bench, int sign, const std::string& where) {
   const double low = tenth_of_no_load(bench), from_s = aligned_s(bench) + 0.6;
   bench.setpoint(0, sign * low);
@@ -49,7 +49,7 @@ void expect_throttle(SensorlessBench& bench, int sign, const std::string& where)
   const double fast = std::fabs(rig.plant().state().w);
   EXPECT_EQ(wrong_looks(rig, from_s + 1.6, 0.3e-3), 0) << where;
   EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
-  // At full duty the speed is the no-load speed less the drop that the load causes. With a load, the rotor
+  // At full duty, the speed is the no-load speed minus the drop that the load causes. With a load, the rotor
   // slows down again after the step to the low setpoint.
   const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
   const double full =
@@ -84,8 +84,8 @@ TEST(SensorlessBoard, ObserversThrottleTheHub) {
     }
 }
 
-/// The chip limits the slew rate of the duty (sensorless_start.hpp): from a tenth to full duty the closed
-/// form gives the time.
+/// The chip limits the slew rate of the duty (sensorless_start.hpp). The closed form gives the time from a
+/// tenth of the duty to full duty.
 TEST(SensorlessBoard, TellsHowLongTheThrottleTakes) {
   for (const SensorlessMotor& motor : three_motors) {
     SensorlessBench bench(motor, Mode::duty);
@@ -106,8 +106,9 @@ TEST(SensorlessBoard, TellsHowLongTheThrottleTakes) {
   }
 }
 
-/// One count of amplifier noise, multiplied by L/T, is several thresholds of a slow rotor's back-EMF. The
-/// observer therefore sets the current of a phase that does not conduct to exactly zero.
+/// A noise of one count of the amplifier, multiplied by L/T (inductance L, period T), is several thresholds
+/// of a slow rotor's back-EMF. If a phase does not conduct, the observer therefore sets its current to
+/// exactly zero.
 TEST(SensorlessBoard, ObserversHoldFivePercent) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -126,8 +127,8 @@ TEST(SensorlessBoard, ObserversHoldFivePercent) {
     }
 }
 
-/// Number of times that the drive loses the rotor in a speed step from one part of the no-load speed to
-/// another. Each time, the drive must catch the rotor again.
+/// Counts how often the drive loses the rotor in a step of the speed between two fractions of the no-load
+/// speed. After each loss, the drive must catch the rotor again.
 int losses_of_step(SensorlessBench& bench, double from, double to, const std::string& where) {
   const double no_load = bench.no_load_rad_s(), step_s = aligned_s(bench) + 0.7;
   bench.setpoint(0, from * no_load);
@@ -141,8 +142,8 @@ int losses_of_step(SensorlessBench& bench, double from, double to, const std::st
   return rig.firmware().diagnosis().losses;
 }
 
-/// docs/reference/sensorless-drive.md excludes this case: at the current limit an old current may outlast a
-/// crossing. The drive must catch the rotor again.
+/// docs/reference/sensorless-drive.md excludes this case: at the current limit, the current of the old pair
+/// may flow beyond a crossing. After such a loss, the drive must catch the rotor again.
 TEST(SensorlessBoard, ASpeedStepMayLoseTheRotorOnce) {
   for (const SensorlessMotor& motor : three_motors) {
     int up = 0, down = 0;

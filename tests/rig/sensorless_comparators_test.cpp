@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive by captured edges of comparators at its filtered terminals. The crossings are at the
-// angles of the closed form. The drive starts, holds its speeds and names its losses as it does with samples.
+// The sensorless drive captures the edges of comparators at its filtered terminals. The crossings are at the
+// angles of the closed form. As with samples, the drive starts, runs at its speeds and names the causes of
+// its losses.
 #include "tests/support/sensorless_comparators.hpp"
 #include "tests/support/in_part.hpp"
 #include "tests/support/seen_crossings.hpp"
@@ -16,16 +17,17 @@ using rig::CrossingReference;
 
 constexpr CrossingReference references[] = {CrossingReference::virtual_star, CrossingReference::half_bus};
 
-/// Slope of the compared voltage in V per electrical rad. In a sector, u_f (the floating terminal) less the
-/// mean of all three terminals falls by 4 K_e w/3; u_f less half the bus falls by 2 K_e w.
+/// Slope of the compared voltage, in V per electrical rad. In a sector, u_f (the voltage of the floating
+/// terminal) minus the mean of all three terminals falls by 4 K_e w/3. u_f minus half the bus voltage falls
+/// by 2 K_e w.
 double slope_V_rad(const SensorlessBench& bench, CrossingReference against, double w) {
   return (against == CrossingReference::half_bus ? 2.0 : 4.0 / 3.0) * bench.motor.machine.K_e_V_s * w /
          base::sector_rad;
 }
 
-/// Full duty does not chop: an edge is delayed by the lag, the floating leg's offset and half the hysteresis;
-/// samples add no delay. The bound is two counts of the timer, and 1e-3 of the delay for the effect of the
-/// torque ripple on the speed.
+/// At full duty, the bridge does not chop. An edge is delayed by the lag, the offset of the floating leg and
+/// half the hysteresis, but not by samples. The bound is two counts of the timer, plus 1e-3 of the delay for
+/// the effect of the torque ripple on the speed.
 TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   SensorlessBench bench(three_motors[0], control::Mode::duty);
   bench.spec.capture_Hz = bench.board.sensors.capture_Hz = 64e6;
@@ -33,8 +35,8 @@ TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   bench.load_part = 0.3;
   for (const CrossingReference against : references) {
     comparators.against = against;
-    // At full duty there is no pulse edge after which the low-pass must settle; with half the bus it may
-    // therefore be slow.
+    // At full duty, there is no edge of a pulse after which the low-pass filter must settle. With half the
+    // bus voltage as reference, it may therefore be slow.
     capture_crossings(bench, comparators, against == CrossingReference::half_bus ? 0.8 : 0.3);
     bench.timeline.clear();
     bench.setpoint(0, 1);
@@ -51,8 +53,8 @@ TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   }
 }
 
-/// With hard chopping the star point's voltage is constant, and an edge is delayed by tau. With soft and
-/// complementary chopping a diode delays a negative back-EMF until the next pulse, by up to one off-time.
+/// With hard chopping, the star point's voltage is constant, and an edge is delayed by tau. With soft and
+/// complementary chopping, a diode delays a negative back-EMF until the next pulse, by up to one off-time.
 TEST(SensorlessComparators, ChoppingDelaysAnEdgeByAPauseAtMost) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double part : {0.1, 0.3, 0.6}) {
@@ -109,8 +111,8 @@ TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
     for (const CrossingReference against : references)
-      // The hardest cases: the slowest speed without a load, where the back-EMF is smallest, and a high speed
-      // with a load.
+      // The hardest cases are the slowest speed without a load, where the back-EMF is smallest, and a high
+      // speed with a load.
       for (const double load : {0.0, 0.5}) {
         const double slowest = against == CrossingReference::half_bus ? 0.3 : 0.06,
                      part = load > 0 ? 0.8 : slowest;
@@ -124,7 +126,7 @@ TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
       }
 }
 
-/// The control period is so long that a sector near the no-load speed has only three periods.
+/// The control period is so long that a sector near the no-load speed has only three control periods.
 TEST(SensorlessComparators, ThreePeriodsASectorAreEnough) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1}) {
@@ -145,7 +147,7 @@ TEST(SensorlessComparators, ThreePeriodsASectorAreEnough) {
     }
 }
 
-/// Returns the name of the loss. It is the same as with samples (sensorless_names_test.cpp).
+/// Returns the name of the loss. It is the name that a drive with samples gives (sensorless_names_test.cpp).
 LockLoss named(SensorlessBench& bench, double cause_s) {
   auto rig = bench.rig();
   run_until(rig, cause_s);
@@ -170,7 +172,7 @@ TEST(SensorlessComparators, NamesWhatWentWrong) {
       const double cause_s = aligned_s(held) + 0.6;
       held.act(cause_s, rig::ActionKind::shaft_locked, 1);
       EXPECT_EQ(named(held, cause_s), LockLoss::masked_crossing) << where;
-      // with half the bus the handover is at twice this speed
+      // with half the bus voltage as reference, the hand-over is at twice this speed
       if (against == CrossingReference::half_bus) continue;
       SensorlessBench struck = bench_at(-0.1);
       const double blow_s = 4 * struck.spec.period_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Unequal terminal dividers shift a crossing by the closed form. With the threshold from `mismatch` the drive
-// does not lose the rotor.
+// Unequal terminal dividers shift a crossing; the shift is compared with a closed form. With the threshold
+// that follows from `mismatch`, the drive does not lose the rotor.
 #include "tests/support/seen_crossings.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -10,9 +10,9 @@ using namespace sixstep::testing;
 
 constexpr double gain_error[] = {0.01, -0.006, 0.003};
 
-/// Shift of a crossing in electrical rad. At the crossing the floating terminal is at U/2, and the driven
-/// terminals are at U and 0. With the dividers' gain errors g, the error of the compared voltage y is U (g_f
-/// - g_high). y falls by 4 K_e w in a sector.
+/// Shift of a crossing, in electrical rad. At the crossing, the floating terminal is at U/2, and the driven
+/// terminals are at U and 0 (bus voltage U). The gain errors g of the dividers change the compared voltage y
+/// by U (g_f - g_high). In a sector, y falls by 4 K_e w.
 double shift_rad(const SensorlessBench& bench, std::uint8_t sector, double w) {
   const std::size_t f = control::floating_leg(sector);
   const auto high = static_cast<std::size_t>(control::positive_pair(sector).source);
@@ -32,7 +32,7 @@ TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlop
   const double step_rad = 2 * 30.0 / 4096 / (4 * bench.motor.machine.K_e_V_s * w) * base::sector_rad;
   for (std::uint8_t k = 0; k < 6; ++k) {
     ASSERT_GT(seen.count[k], 50);
-    // The error of the mean is one converter step for each of the three legs.
+    // The error of the mean is one step of the converter for each of the three legs.
     EXPECT_NEAR(seen.late_rad[k], shift_rad(bench, k, w), step_rad) << int(k);
   }
 }

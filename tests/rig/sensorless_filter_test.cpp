@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive behind low-passes on terminals and bus: equal lags delay a crossing by tau, and the
-// design's lead removes that delay from the commutation.
+// The sensorless drive has low-pass filters on its terminals and its bus. Equal lags delay a crossing by tau.
+// The lead that the design sets removes this delay from the commutation.
 #include "tests/support/sensorless.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -9,8 +9,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::LockLoss;
 
-/// A bench with a converter and a timer that resolve the filter's effect. The filter's bandwidth is 1.1 times
-/// the required one.
+/// A bench whose converter and timer resolve the effect of the filter. The bandwidth of the filter is 1.1
+/// times the required one.
 SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
                          control::Chopping chopping = control::Chopping::soft) {
   SensorlessBench bench(motor, control::Mode::speed, chopping);
@@ -27,8 +27,8 @@ SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
 
 constexpr int commutations = 600;
 
-/// Mean delay, s, of the commutations after the end of the rotor's sector at constant speed; negative if they
-/// are early.
+/// Mean delay, in s, of the commutations after the end of the rotor's sector at constant speed. It is
+/// negative if the commutations are early.
 double mean_late_s(SensorlessBench bench, double w) {
   bench.setpoint(0, w);
   auto rig = bench.rig();
@@ -50,9 +50,11 @@ double mean_late_s(SensorlessBench bench, double w) {
   return sum_s / commutations;
 }
 
-/// Bound on the remaining error, s, in three parts: 3 % of tau, because the driven legs are sampled 3.5 tau
-/// after their edge; a timer count; and the mean of the crossings' rounding. Each crossing's rounding is one
-/// converter step up or down, where the compared voltage falls by 4 K_e w in a sector.
+/// Bound on the remaining error, in s. It has three parts:
+/// - 3 % of tau, because the driven legs are sampled 3.5 tau after their edge;
+/// - one count of the timer;
+/// - the mean rounding of the crossings. Each crossing is rounded by one converter step up or down, while the
+///   compared voltage falls by 4 K_e w in a sector.
 double remainder_s(const SensorlessBench& bench, double w) {
   const double lsb_V = 1.25 * bench.spec.bus_V / 4096, K_e = bench.motor.machine.K_e_V_s;
   const double sector_s = base::sector_rad / (bench.motor.machine.pole_pairs * w);
@@ -74,7 +76,7 @@ TEST(SensorlessFilter, TheLeadTakesTheFiltersLatenessOff) {
     }
 }
 
-/// The slowest filter that soft chopping allows, with soft and hard chopping.
+/// Tests the slowest filter that soft chopping allows, with soft and hard chopping.
 TEST(SensorlessFilter, StartsAndHoldsBehindTheSlowestFilter) {
   for (const SensorlessMotor& motor : three_motors)
     for (const control::Chopping chopping : {control::Chopping::soft, control::Chopping::hard})
@@ -92,8 +94,8 @@ TEST(SensorlessFilter, StartsAndHoldsBehindTheSlowestFilter) {
       }
 }
 
-/// Without blanking, the drive mistakes a leg that has just been switched off for a leg whose back-EMF has
-/// crossed zero.
+/// A leg that has just been switched off resembles a leg whose back-EMF has crossed zero. Without blanking,
+/// the drive mistakes one for the other.
 TEST(SensorlessFilter, WithoutItsBlankingTheRotorIsLost) {
   SensorlessBench bench = bench_of(three_motors[0], true);
   bench.chip.sensorless.crossing.margin_ticks = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sensorless drive's losses of the rotor and their names, rotors that already spin, and Hall probes as a
-// second source.
+// Tests the losses of the rotor and their names, rotors that already spin at the start, and Hall probes as a
+// second source of the angle.
 #include "tests/support/sensorless.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -16,9 +16,9 @@ TEST(Sensorless, CatchesASpinningRotor) {
       SensorlessBench bench(motor);
       bench.at.speed_rad_s = part * bench.no_load_rad_s();
       bench.at.angle_rad = 1.0;
-      // Soft chopping cannot limit a braking current near the no-load speed. At 0.9 of the no-load speed the
-      // setpoint is therefore the rotor's speed. At the other speeds the setpoint is lower, so that the drive
-      // brakes.
+      // Soft chopping cannot limit a braking current near the no-load speed. At 0.9 of the no-load speed, the
+      // setpoint is therefore the speed of the rotor. At the other speeds, the setpoint is lower, so that the
+      // drive brakes.
       bench.setpoint(0, (std::fabs(part) > 0.8 ? 1.0 : 0.6) * part * bench.no_load_rad_s());
       auto rig = bench.rig();
       const double listen_s = bench.start.rotor.spin.listen_ticks / bench.spec.capture_Hz;
@@ -46,7 +46,8 @@ TEST(Sensorless, BrakesARotorThatSpinsTheOtherWayAndTurnsItRound) {
   }
 }
 
-/// A loss of the rotor after a cause: its name, and the number of commutations from the cause to the loss.
+/// A loss of the rotor after a cause: the name of the loss, and the number of commutations from the cause to
+/// the loss.
 struct Lost {
   LockLoss named = LockLoss::none;
   int commutations = 0;
@@ -93,8 +94,8 @@ TEST(Sensorless, ALoadThatTurnsTheRotorBackIsSeenWithinTwoCommutations) {
     bench.act(cause_s, rig::ActionKind::load_torque, 10 * bench.nominal_A() * bench.motor.K_t_Nm_A);
     auto rig = bench.rig();
     run_until(rig, cause_s);
-    // The drive may follow the rotor while the rotor turns forward. After the reversal it may commutate at
-    // most twice.
+    // While the rotor turns forward, the drive may follow it. After the rotor's reversal, the drive may
+    // commutate at most twice.
     ASSERT_GT(
         run_until_true(rig, cause_s + 0.3, bench.spec.period_s, [&] { return rig.plant().state().w <= 0; }),
         0);
@@ -112,7 +113,7 @@ TEST(Sensorless, ALoadThatTurnsTheRotorBackIsSeenWithinTwoCommutations) {
   }
 }
 
-/// The divider of leg b breaks at `cause_s`.
+/// A drive whose divider of leg b breaks at `cause_s`.
 struct BrokenDivider : rig::SensorlessDrive<double> {
   using rig::SensorlessDrive<double>::SensorlessDrive;
   template <class Real>
@@ -151,7 +152,7 @@ TEST(Sensorless, GivesUpAfterSoManyLossesAndIsClearedBySettingNothing) {
   EXPECT_EQ(phase(rig), SensorlessPhase::running);
 }
 
-/// A bench with Hall probes whose drive starts with `source`.
+/// A bench with Hall probes. Its drive starts with the rotor source `source`.
 SensorlessBench with_probes(const SensorlessMotor& motor, control::RotorSource source) {
   SensorlessBench bench(motor);
   bench.chip.source = {.has_hall = true, .wanted = source};
@@ -159,7 +160,7 @@ SensorlessBench with_probes(const SensorlessMotor& motor, control::RotorSource s
   return bench;
 }
 
-/// Changes the chip's rotor source.
+/// Changes the rotor source of the chip at the time t_s.
 void choose(SensorlessBench& bench, rig::Rig<double, rig::SensorlessDrive<double>>::Tunings& tunings,
             double t_s, control::RotorSource source) {
   tunings.push_back({{.drive = bench.chip}, 1.0});
@@ -167,7 +168,7 @@ void choose(SensorlessBench& bench, rig::Rig<double, rig::SensorlessDrive<double
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// The smallest and the largest speed in an interval.
+/// The smallest and the largest speed until `to_s`.
 template <class Rig>
 std::pair<double, double> speeds(Rig& rig, double to_s, double every_s) {
   double low = rig.plant().state().w, high = low;

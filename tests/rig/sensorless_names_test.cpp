@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of losses that the plant provokes: an old current that outlasts the crossing, a rotor struck into
-// another sector, a held rotor, a broken divider. Each case is tested in both directions, by crossings in
-// double and by an observer in q15.
+// The plant provokes losses, and the tests check their names. The causes are an old current that outlasts the
+// crossing, a rotor struck into another sector, a held rotor, and a broken divider. Each case runs in both
+// directions, by crossings in double and by an observer in q15.
 #include "tests/support/sensorless_board.hpp"
 
 #include <array>
@@ -21,7 +21,8 @@ struct Lost {
   int commutations = 0;  ///< since the cause
 };
 
-/// Runs until the drive loses the rotor. `caused` returns whether the plant shows the cause at that time.
+/// Runs until the drive loses the rotor. The function `caused` returns whether the plant shows the cause at
+/// that time.
 template <class Rig, class Caused>
 Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caused) {
   run_until(rig, cause_s);
@@ -42,7 +43,7 @@ Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caus
   return found;
 }
 
-/// Tests two drives: by the crossings in double, and by the flux linkage in q15.
+/// Tests two drives: one by the crossings in double, and one by the flux linkage in q15.
 template <class Caused>
 void expect_name(const SensorlessBench& bench, double cause_s, LockLoss name, const std::string& where,
                  Caused&& caused) {
@@ -64,7 +65,7 @@ std::string at(const SensorlessMotor& motor, int sign) {
   return std::string(motor.name) + (sign > 0 ? " forward" : " backward");
 }
 
-/// The crossing has passed, and the floating leg still carries its old current.
+/// Returns whether the crossing has passed while the floating leg still carries its old current.
 template <class Rig>
 bool crossing_is_hidden(const Rig& rig, double least_A) {
   const control::SensorlessState& rotor = rig.firmware().rotor();
@@ -74,8 +75,8 @@ bool crossing_is_hidden(const Rig& rig, double least_A) {
   return passed && std::fabs(state.i[control::floating_leg(rotor.sector)]) > least_A;
 }
 
-/// The inductance is so large that the limit current I takes half a sector at half the no-load speed to
-/// decay: L I = U t. The drive then speeds up.
+/// The inductance L is so large that the limit current I decays in half a sector at half the no-load speed: L
+/// I = U t (bus voltage U, time t). The drive then accelerates.
 TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1}) {
@@ -92,8 +93,8 @@ TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation)
     }
 }
 
-/// Within four control periods a torque, at any angle in a sector, accelerates the rotor from 0.1 to 0.7 of
-/// its no-load speed. The rotor turns through sectors that the drive does not yet expect.
+/// A torque accelerates the rotor from 0.1 to 0.7 of its no-load speed within four control periods, at any
+/// angle in a sector. The rotor turns through sectors that the drive does not yet expect.
 TEST(SensorlessNames, ARotorThatIsStruckStandsInAWrongSector) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -123,9 +124,10 @@ TEST(SensorlessNames, AHeldRotorMasksItsCrossing) {
 
 constexpr double broken_s = 1.4;
 
-/// The divider of one leg breaks on the board and reads 0. The reading is wrong once the terminal has another
-/// voltage. A wrong reading matters unless the leg floats and its crossing is done. Before a falling crossing
-/// the chip interprets 0 as the crossing: the pairs of the next two sectors are then still right.
+/// The divider of one leg breaks on the board and reads 0. The reading is wrong as soon as the terminal has
+/// another voltage. A wrong reading has no effect if the leg floats and its crossing has already passed.
+/// Before a falling crossing, the chip interprets 0 as the crossing; the pairs of the next two sectors are
+/// then still right.
 template <class Scalar, std::size_t leg>
 struct BrokenDivider : BuiltDrive<Scalar> {
   using BuiltDrive<Scalar>::BuiltDrive;
@@ -172,9 +174,9 @@ void expect_divider_named(const SensorlessMotor& motor, int sign, Follow followe
   EXPECT_LE(l.commutations, looks_crossed ? 3 : 2) << where;
 }
 
-/// A reading of 0 from a leg that is driven high contradicts the command: the loss is named `terminals`. In a
-/// floating leg a reading of 0 looks like a conducting diode, which hides the crossing, or like a back-EMF
-/// that does not reach its crossing.
+/// If a leg is driven high, a reading of 0 contradicts the command, and the loss is named `terminals`. If a
+/// leg floats, a reading of 0 has two explanations: a conducting diode, which hides the crossing, or a
+/// back-EMF that does not reach its crossing.
 TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back-EMF observers replace the detection of crossings on the virtual board, with motors of the motor
-// library. The angles of their commutations are compared with the ends of the rotor's sectors, also on motors
-// whose R, L and K_e differ from the design's values.
+// On the virtual board, back-EMF observers replace the detection of crossings, with motors of the motor
+// library. The angles of their commutations are compared with the ends of the rotor's sectors. The motors
+// include motors whose R, L and K_e differ from the design's values.
 #include "tests/support/in_part.hpp"
 #include "tests/support/observers.hpp"
 
@@ -14,7 +14,7 @@ using control::LockLoss;
 using control::Mode;
 using control::SensorlessPhase;
 
-/// Electrical degrees that the rotor turns in one control period. The tests allow a part of it as error,
+/// Electrical degrees by which the rotor turns in one control period. A part of it is the allowed error,
 /// because a chip measures once per period.
 double period_deg(const SensorlessBench& bench, double speed_rad_s) {
   return speed_rad_s * bench.motor.machine.pole_pairs * bench.spec.period_s * 180.0 / base::pi;
@@ -33,9 +33,9 @@ TEST(SensorlessObserver, HoldsFromFivePercentOnAndCommutatesAtTheSectorsEdge) {
           const double w = part * bench.no_load_rad_s();
           bench.setpoint(0, w);
           auto rig = bench.rig();
-          // Without a load the hub motor overshoots its reference and returns to it. When its torque changes
-          // sign, at 0.8 s, one commutation of the sliding-mode observer is 5 degrees off. The test therefore
-          // starts after this time.
+          // Without a load, the speed of the hub motor overshoots its reference and returns to it. At 0.8 s,
+          // its torque changes sign, and one commutation of the sliding-mode observer is 5 degrees off. The
+          // test therefore starts after this time.
           run_until(rig, aligned_s(bench) + 1.0);
           EXPECT_EQ(phase(rig), SensorlessPhase::running);
           const double turn_s = 2 * base::pi / (bench.motor.machine.pole_pairs * w);
@@ -51,7 +51,7 @@ TEST(SensorlessObserver, HoldsFromFivePercentOnAndCommutatesAtTheSectorsEdge) {
         }
 }
 
-/// Factors on the R, L and K_e of a motor's data sheet.
+/// Factors by which R, L and K_e differ from the motor's data sheet.
 struct Strayed {
   double R, L, K_e;
 };
@@ -60,8 +60,8 @@ constexpr Strayed strayed[] = {{1.3, 1, 1},     {0.7, 1, 1},     {1, 1.3, 1},   
                                {1.3, 0.7, 1.1}, {1.3, 0.7, 0.9}, {0.7, 1.3, 1.1}, {0.7, 1.3, 0.9},
                                {0.7, 0.7, 1.1}, {0.7, 0.7, 0.9}};
 
-/// The rotor runs from rest to 8 % of the no-load speed and then, in steps of some 5 %, to 70 %. The test
-/// checks the commutations at both speeds, and that the drive does not lose the rotor.
+/// The rotor accelerates from rest to 8 % of the no-load speed, and then in steps of some 5 % to 70 %. The
+/// commutations at both speeds are checked, and the drive must not lose the rotor.
 template <class Firmware, class Config>
 void expect_lock(SensorlessBench& bench, const Config& chip, double load, const std::string& where) {
   bench.load_part = load;
@@ -69,13 +69,13 @@ void expect_lock(SensorlessBench& bench, const Config& chip, double load, const 
   const double from_s = aligned_s(bench);
   bench.timeline.clear();
   bench.setpoint(0, slow);
-  // The speed rises in small steps. At the current limit, with higher L and lower K_e, the old current would
-  // outlast the crossing in two successive sectors: the observers would report a long demagnetisation and
-  // catch the rotor again.
+  // The speed rises in small steps. In larger steps, the drive would reach the current limit. With higher L
+  // and lower K_e, the old current would then outlast the crossing in two successive sectors. The observers
+  // would report a long demagnetisation and catch the rotor again.
   for (int n = 1; n <= 13; ++n) bench.setpoint(from_s + 0.7 + 0.03 * n, slow + (fast - slow) * n / 13);
   rig::Rig<double, Firmware> rig(bench.plant(), {.drive = chip}, bench.board, bench.timeline);
   run_until(rig, from_s + 0.6);
-  // An error of 10 % in K_e moves the commutation by flux linkage by 1.5 degrees (flux_linkage.hpp).
+  // An error of 10 % in K_e shifts the commutation by flux linkage by 1.5 degrees (flux_linkage.hpp).
   const double model_deg = 1.6;
   const CommutationError at_slow = watch_commutations(rig, from_s + 0.65, bench.spec.period_s);
   EXPECT_LT(at_slow.worst, model_deg + 1.0 + 0.5 * period_deg(bench, slow)) << where;
@@ -165,8 +165,8 @@ TEST(SensorlessObserver, ThrottleStepsKeepLock) {
     }
 }
 
-/// The design has a lower limit than the usual 5 % of the no-load speed. The test prints the lowest speed at
-/// which each observer follows a rotor with 30 % of the nominal torque as load.
+/// The lower speed limit of the design is below the usual 5 % of the no-load speed. For each observer, the
+/// test prints the lowest speed at which it follows a rotor with 30 % of the nominal torque as load.
 TEST(SensorlessObserver, TellsTheLowestSpeedThatItHolds) {
   for (int which = 0; which < 2; ++which)
     for (const Follow follower : every_follow) {

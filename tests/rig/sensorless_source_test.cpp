@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes with the sensorless drive, and rotors that already spin, on a realistic board. The tests cover
-// the handover to back-EMF and back, a line that fails during the run, and a line that is dead from the
-// start, in both directions, at constant and at changing speed. The drive also catches spinning rotors under
-// load.
+// Hall probes with the sensorless drive, and rotors that already spin, on a realistic board. The cases are
+// the hand-over to back-EMF and back, a line that fails during the run, and a line that is dead from the
+// start. They run in both directions, at constant and at changing speed. The drive also catches spinning
+// rotors under load.
 #include "tests/support/sensorless_board.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -25,15 +25,15 @@ std::string at(const SensorlessMotor& motor, int sign, bool changes) {
          (changes ? ", speeding up" : ", steady");
 }
 
-/// Changes the chip's rotor source.
+/// Changes the rotor source of the chip at the time t_s.
 void choose(SensorlessBench& bench, BuiltRig::Tunings& tunings, double t_s, RotorSource source) {
   tunings.push_back({{.drive = bench.chip}, 1.0});
   tunings.back().config.drive.source.wanted = source;
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// Runs until `source` commutates, for at most `most_s` s. Checks that this happened and that the drive's
-/// sector is then at most one off.
+/// Runs until `source` determines the commutation, for at most `most_s` seconds. Expects that this happens,
+/// and that the drive's sector is then at most one sector off.
 void expect_source(BuiltRig& rig, RotorSource source, double most_s, const std::string& where) {
   const double t = run_until_true(rig, rig.now().seconds() + most_s, 1e-4,
                                   [&] { return rig.firmware().source().source == source; });
@@ -70,7 +70,7 @@ TEST(SensorlessSource, HandsOverAndBackBothWays) {
     }
 }
 
-/// Checks that the drive runs by back-EMF at the speed w.
+/// Expects that the drive runs by back-EMF at the speed w.
 void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) {
   EXPECT_EQ(rig.firmware().source().source, RotorSource::back_emf) << where;
   EXPECT_EQ(phase(rig), SensorlessPhase::running) << where;
@@ -78,7 +78,7 @@ void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) 
   EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
 }
 
-/// A dead line that hid an edge delays the handover by a sector. The drive may then lose the rotor once and
+/// If a dead line hid an edge, the hand-over is a sector late. The drive may then lose the rotor once, and
 /// must catch it again.
 TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   int n = 0, caught_again = 0;
@@ -100,7 +100,7 @@ TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   std::printf("a Hall line dies: %d of %d go on, %d of them caught again\n", n, n, caught_again);
 }
 
-/// With a dead line the code at power-up may still be valid. The first sectors then show the fault.
+/// With a dead line, the code at power-up may still be valid. The fault then appears in the first sectors.
 TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -120,9 +120,9 @@ TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
     }
 }
 
-/// Soft chopping cannot limit a braking current near the no-load speed. At 0.8 of the no-load speed the
-/// setpoint is therefore the rotor's speed. At the other speeds the setpoint is lower, so that the drive
-/// brakes.
+/// Soft chopping cannot limit a braking current near the no-load speed. At 0.8 of the no-load speed, the
+/// setpoint is therefore the speed of the rotor. At the other speeds, the setpoint is lower, so that the
+/// drive brakes.
 TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -148,8 +148,8 @@ TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
       }
 }
 
-/// A load of half the nominal torque stops a slow rotor before the drive catches it. The drive must then
-/// start the rotor.
+/// A load of half the nominal torque stops a slow rotor before the drive can catch it. The drive must then
+/// start the rotor from rest.
 TEST(SensorlessSource, StartsARotorThatStoppedWhileItWasCaught) {
   SensorlessBench bench = on_built_board(three_motors[2]);
   bench.load_part = 0.5;

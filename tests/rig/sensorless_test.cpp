@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sensorless six-step on the virtual board, with three motors of the motor library and the design of
-// design/loops/: starts, speeds and throttle steps. The drive's sector is compared with the rotor's sector.
+// design/loops/. The drive starts, runs at several speeds and follows throttle steps. Its sector is compared
+// with the rotor's sector.
 #include "tests/support/sensorless.hpp"
 
 #include <cstdlib>
@@ -20,7 +21,8 @@ struct Started {
   double after_s = 0.0;
 };
 
-/// Starts the drive from rest. The result says whether it reaches the speed w and holds it for 0.1 s.
+/// Starts the drive from rest. The result states whether the drive reaches the speed w and keeps it for 0.1
+/// s.
 Started started(const SensorlessBench& bench, double w) {
   auto rig = bench.rig();
   const double most_s = 2.0 + 8.0 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
@@ -101,7 +103,8 @@ TEST(Sensorless, ThrottleStepsKeepLock) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1})
       for (const control::Chopping chopping : {control::Chopping::soft, control::Chopping::hard}) {
-        // With hard chopping the mean voltage is 2 d - 1 of the bus: both values give 10 %.
+        // With hard chopping, the mean voltage is 2 d - 1 of the bus voltage at the duty d. Both values of
+        // the duty therefore give 10 %.
         const double low = chopping == control::Chopping::hard ? 0.55 : 0.1;
         SensorlessBench bench(motor, Mode::duty, chopping);
         bench.load_part = 0.1;

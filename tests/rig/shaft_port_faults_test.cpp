@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers that fail during a run, with shafts whose motion has a closed form: lines that
-// stick, an index that is lost or false, tracks and windings that break and recover, excitation that fails
-// and returns.
+// Encoders and resolvers fail during a run. The motion of the shaft has a closed form. The faults are lines
+// that are stuck, an index that is lost or false, tracks and windings that break and recover, and an
+// excitation that fails and returns.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,14 +24,14 @@ ShaftPorts encoder(int lines, const Motion& m) {
                     m.shaft(0));
 }
 
-/// The quarter lines passed: floor(4 N theta/2 pi), N lines.
+/// The number of passed quarter lines: floor(4 N theta/2 pi), with N lines per turn.
 std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
 
-// With line A or B stuck, only the other line's edges remain, and they count up and down by one. After the
-// fault the count follows the lines again. It has then lost a whole number of lines: the passed lines, within
-// one.
+// If line A or B is stuck, only the edges of the other line remain, and they count up and down by one. After
+// the fault, the count follows the lines again. It has lost a whole number of lines: the lines passed during
+// the fault, within one line.
 TEST(StuckLine, LosesWholeLines) {
   constexpr std::int64_t lines = 1000;
   for (const int line : {line_A, line_B})
@@ -57,8 +57,8 @@ TEST(StuckLine, LosesWholeLines) {
         }
 }
 
-// Each edge of the other line looks like a reversal at the same angle. The measured distance, and thus the
-// speed, is zero.
+// If one line is stuck, each edge of the other line looks like a reversal at the same angle. The measured
+// distance is therefore zero, and so is the speed.
 TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   constexpr std::int64_t lines = 1000;
   const Motion m{0.1, 300, 0};
@@ -88,7 +88,7 @@ TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   }
 }
 
-// The last captured edge is an edge of the line that is not stuck.
+// The captured edges are edges of the line that is not stuck.
 TEST(StuckLine, CapturesTheOtherLinesEdges) {
   constexpr std::int64_t lines = 500;
   for (const int line : {line_A, line_B}) {
@@ -142,7 +142,7 @@ TEST(FalseIndex, LatchesTheCountAtAWrongPlace) {
   m.show(ports, 0.02, 0.03);
   EXPECT_FALSE(ports.index_passed());
   EXPECT_EQ(ports.since_index(), quarters(m, 500, 0.03) - quarters(m, 500, 0.02));
-  // A line Z that is stuck high or low has no rising pulse.
+  // A line Z that is stuck, high or low, has no rising pulse.
   ports.stick_line(line_Z, true, sim::to_instant(0.03));
   EXPECT_TRUE(ports.index_passed());
   ports.pulse_index();
@@ -164,8 +164,8 @@ TEST(AbsolutePort, ATrackIsWholeAgain) {
   }
 }
 
-// The cosine and sine voltages scale with the excitation. A broken winding's voltage is zero; after the
-// repair both voltages have their full amplitude.
+// The voltages of the cosine and sine windings are proportional to the excitation. The voltage of a broken
+// winding is zero. After the repair, both voltages have their full amplitude.
 TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,
@@ -210,8 +210,8 @@ double off_turns(const ShaftPorts& ports, double turns) {
   return off - std::floor(off + 0.5);
 }
 
-// The angle comes from a ratio: half the excitation gives the same angle. Without excitation there is no
-// error signal: the angle continues at its speed.
+// The angle is computed from a ratio, so half the excitation gives the same angle. Without excitation there
+// is no error signal, and the angle continues at its last speed.
 TEST(ConverterChip, WithoutExcitationGoesOnAtItsSpeed) {
   const Motion m{0.4, 150, 0};
   ShaftPorts whole(converter(), capture_Hz, 0, m.shaft(0)), half = whole, none = whole;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers as a board's peripherals, with shafts whose motion has a closed form: counts and the
-// time of the last edge, the latch of an absolute code, samples at the peaks of an excitation.
+// Encoders and resolvers as peripherals of a board. The motion of the shaft has a closed form. The tests
+// check the counts and the time of the last edge, the latch of an absolute code, and samples at the peaks of
+// an excitation.
 #include "sixstep/rig/shaft_ports.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ ShaftPorts encoder(int lines, const Motion& m) {
                     m.shaft(0));
 }
 
-/// The quarter lines passed: floor(4 N theta/2 pi), N lines.
+/// The number of passed quarter lines: floor(4 N theta/2 pi), with N lines per turn.
 std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
@@ -36,14 +37,15 @@ TEST(EncoderPort, CountsAndCapturesTheLastEdge) {
     m.show(ports, 0, 0.02);
     const std::int64_t n = quarters(m, 1000, 0.02);
     EXPECT_EQ(ports.quarters(), n);
-    // The edge at which count n begins: edge n forward, edge n + 1 backward.
+    // The edge at which count n begins. Forward it is edge n, backward it is edge n + 1.
     const double border = static_cast<double>(w > 0 ? n : n + 1) * 2 * base::pi / 4000;
     EXPECT_NEAR(ports.edge_time(), (border - m.theta_0) / w * capture_Hz, 1.0) << w;
     EXPECT_EQ(ports.edge_direction(), w > 0 ? 1 : -1);
   }
 }
 
-// The rotor reverses at t = w/|a|. On the way back it passes its last edge again.
+// The rotor reverses at t = w/|a| (initial speed w, acceleration a). On the way back, it passes its last edge
+// again.
 TEST(EncoderPort, ARotorThatTurnsRoundPassesItsEdgesAgain) {
   const Motion m{0.5, 40, -8000};  // reverses at 5 ms, 0.1 rad further
   ShaftPorts ports = encoder(1000, m);
@@ -54,7 +56,7 @@ TEST(EncoderPort, ARotorThatTurnsRoundPassesItsEdgesAgain) {
   EXPECT_EQ(ports.quarters(), n);
   EXPECT_EQ(ports.edge_direction(), -1);
   const double border = static_cast<double>(n + 1) * 2 * base::pi / 4000;
-  // The edge on the way back is at t = (w + sqrt(w^2 - 2 |a| (border - theta_0)))/|a|.
+  // On the way back, the edge is passed at t = (w + sqrt(w^2 - 2 |a| (border - theta_0)))/|a|.
   const double t = (m.w + std::sqrt(m.w * m.w + 2 * m.a * (border - m.theta_0))) / -m.a;
   EXPECT_NEAR(ports.edge_time(), t * capture_Hz, 2.0);
 }
@@ -70,7 +72,7 @@ TEST(EncoderPort, TellsOfItsIndexOnceATurn) {
   EXPECT_EQ(passed, 4) << "at 0, 2 pi, 4 pi and 6 pi";
 }
 
-// The counter misses 7 edges and lags by 7. The index then corrects the count since the index.
+// The counter misses 7 edges, so its count is 7 too low. The index then corrects the count since the index.
 TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   for (const double w : {100.0, -100.0}) {
     const Motion m{w > 0 ? -0.05 : 0.05, w, 0};
@@ -87,7 +89,8 @@ TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   }
 }
 
-// The missed edges are on both sides of the index. The count since the index lacks those after the index.
+// The missed edges are on both sides of the index. The count since the index lacks the edges that are missed
+// after the index.
 TEST(EncoderPort, EdgesMissedBehindTheIndexAreMissingFromItsCount) {
   const Motion m{-3.5 * 2 * base::pi / 2000, 100, 0};  // 4 edges to the index; the fourth is the edge of the
                                                        // index
@@ -149,8 +152,8 @@ TEST(ResolverPort, IsSampledAtItsPeaks) {
   }
 }
 
-// If a winding's voltage leads the excitation by d, its sample at a peak of the excitation is cos d of its
-// amplitude.
+// If a winding's voltage leads the excitation by the angle d, its sample at a peak of the excitation is the
+// amplitude times cos d.
 TEST(ResolverPort, ShowsWhatItsWindingsAreUnlikeBy) {
   constexpr double rad = 180 / base::pi;
   const rig::Resolver r{.amplitude_V = 1.5,
@@ -198,8 +201,8 @@ TEST(ResolverPort, IsAsNoisyAsItIsSaidToBeAndTheSeedsOwn) {
     square += (x * x + y * y) / 2;
     product += x * y;
   }
-  // Rounding to counts adds 1/12 to the variance. 8000 values determine the deviation within 0.8 %, 4000
-  // products the mean within 1/63.
+  // Rounding to counts adds 1/12 to the variance. From 8000 values, the deviation is accurate to 0.8 %. From
+  // 4000 products, the mean is accurate to 1/63.
   const double wanted = 100 + 1.0 / 12;
   EXPECT_NEAR(std::sqrt(square / samples / wanted), 1, 5 * 0.008);
   EXPECT_NEAR(product / samples / wanted, 0, 5.0 / 63) << "the windings' noise is each one's own";
@@ -221,15 +224,15 @@ rig::ShaftSensorConfig converter(int bits, double latency_s = 0.0) {
   return given;
 }
 
-/// The chip's angle less p_r theta(t), in turns, between -1/2 and 1/2.
+/// The chip's angle minus p_r theta(t), in turns, between -1/2 and 1/2 (p_r: pole pairs of the resolver).
 double off_turns(const ShaftPorts& ports, const Motion& m, double t) {
   const double turns = 2 * m.theta(t) / (2 * base::pi);
   const double off = ports.converter().angle() * 0x1p-32 - turns;
   return off - std::floor(off + 0.5);
 }
 
-// At constant speed a type 2 loop has no lag at its clocks. The remaining error is the rounding down to a
-// count, and the integrator's rounding of the speed, 2^-48 turn divided by K_i.
+// At constant speed, a loop of type 2 has no lag at its clocks. Two errors remain: the angle is rounded down
+// to a count, and the integrator rounds the speed by 2^-48 turn, which is divided by K_i.
 TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
   for (const int bits : {10, 12, 14, 16})
     for (const double w : {0.0, 150.0, -400.0}) {
@@ -243,7 +246,7 @@ TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
     }
 }
 
-// The lag is constant: the acceleration divided by K_a.
+// The lag is constant. It is the acceleration divided by the loop's acceleration constant K_a.
 TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
   const Motion m{0.1, 0, 40000};
   ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
@@ -281,7 +284,7 @@ TEST(ConverterChip, IsReadAsItWasLatched) {
   EXPECT_NEAR(off_turns(now, m, 0.01) - off_turns(late, m, 0.01), behind, 0x1p-16 + step);
 }
 
-// Without the cosine winding, the chip detects only the sign of the sine.
+// Without the cosine winding, the chip can determine only the sign of the sine.
 TEST(ConverterChip, WithoutItsCosineSaysAQuarterOfATurn) {
   for (const double theta : {0.2, 0.7, 1.2}) {  // p_r theta is below half a turn
     const Motion m{theta, 0, 0};

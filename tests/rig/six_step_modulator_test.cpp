@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gates follow the command edge by edge (model.md 3). Ticks are picoseconds; the period is 30 us.
+// The gates follow the command edge by edge (model.md 3). Ticks are picoseconds, and the period is 30 us.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -150,7 +150,7 @@ double drawn_duty(std::mt19937_64& random) {
   return kind == 2 ? 0.03 * unit(random) : kind == 3 ? 1 - 0.03 * unit(random) : unit(random);
 }
 
-/// The driven pair of a sector; reversed, source and sink are exchanged.
+/// The driven pair of a sector. If the drive is reversed, source and sink are exchanged.
 Pair pair_of(unsigned sector, bool reversed) {
   const Pair pair = control::positive_pair(static_cast<std::uint8_t>(sector % 6));
   return reversed ? control::swapped(pair) : pair;

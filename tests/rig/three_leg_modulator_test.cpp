@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gates follow three leg commands edge by edge (model.md 11). Ticks are picoseconds; the period is 30 us.
+// The gates follow three leg commands edge by edge (model.md 11). Ticks are picoseconds, and the period is 30
+// us.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -25,8 +26,8 @@ LegCommands<double> legs(LegCommand<double> a, LegCommand<double> b, LegCommand<
   return {.enabled = true, .leg = {a, b, c}};
 }
 
-/// All edges of one period, as pairs like {2.5, "a-b+"}: time in us since its start, and the gates after the
-/// edge.
+/// All edges of one period, as pairs like {2.5, "a-b+"}. A pair is the time in us since the start of the
+/// period, and the gates after the edge.
 std::vector<std::pair<double, std::string>> edges(ThreeLegModulator& m, std::int64_t start) {
   std::vector<std::pair<double, std::string>> all;
   while (m.next_edge() < at(start + period)) {
@@ -82,7 +83,7 @@ TEST(ThreeLegModulator, EdgesOfTwoLegsAtOneInstantHappenTogether) {
   }
 }
 
-/// The pulse of b ends at the instant at which a's dead time ends.
+/// The pulse of b ends at the same instant as the dead time of a.
 TEST(ThreeLegModulator, AnEdgeAndTheEndOfADeadTimeAtOneInstantBothHappen) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1.5e6}};
   m.start_period(at(0), legs(pwm(0.25), pwm(0.3), high));
@@ -99,8 +100,8 @@ TEST(ThreeLegModulator, DeadTimeIsPerLegAndOnlyWhereItsCommandChanges) {
   EXPECT_EQ(edges(m, period), (Edges{{1.0, "a+b+c-"}, {15.0, "a+c-"}, {16.0, "a+b-c-"}}));
 }
 
-/// The off-time is shorter than the dead time: the lower switch is commanded on and off and never turns on.
-/// The upper switch nevertheless waits for the dead time.
+/// The off-time is shorter than the dead time. The lower switch is commanded on and off, but never turns on.
+/// The upper switch must still wait for the dead time.
 TEST(ThreeLegModulator, TheUpperSwitchWaitsFromTheTurnOffCommandOfTheLowerEvenIfThatNeverCameOn) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), legs(pwm(0.98), low, low));
@@ -160,7 +161,8 @@ LegCommand<double> drawn_leg(std::mt19937_64& random) {
   }
 }
 
-/// Random leg commands follow each other, with pulses and off-times down to zero. The bridge is off at times.
+/// A sequence of random leg commands, with pulses and off-times down to zero. In some periods the bridge is
+/// off.
 TEST(ThreeLegModulator, NeverShootsThroughAndKeepsTheDeadTimeOverAnyCommands) {
   constexpr std::uint32_t seed = 1113;
   std::mt19937_64 random{seed};
@@ -193,8 +195,8 @@ TEST(ThreeLegModulator, NeverShootsThroughAndKeepsTheDeadTimeOverAnyCommands) {
   }
 }
 
-/// Six-step is a special case of three leg commands. Without a commutation it must have the same gates at the
-/// same instants.
+/// Six-step is a special case of three leg commands. Without a commutation, both must have the same gates at
+/// the same instants.
 TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
   constexpr std::uint32_t seed = 6;
   std::mt19937_64 random{seed};
@@ -208,8 +210,8 @@ TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
     ThreeLegModulator three{config};
     for (int k = 0; k < 200; ++k) {
       SCOPED_TRACE(::testing::Message() << "seed " << seed << " board " << board << " period " << k);
-      // In six-step a new pair takes over the state of the legs that it replaces, including a dead time.
-      // Independent legs do not. The other phase is therefore used only without a dead time.
+      // In six-step, a new pair takes over the state of the replaced legs, including a dead time. Independent
+      // legs do not take over a state. The third phase is therefore used only if there is no dead time.
       const bool reversed = random() % 4 == 0;
       Pair pair = reversed ? Pair{Leg::b, Leg::a} : Pair{Leg::a, Leg::b};
       if (!(config.dead_ticks > 0) && random() % 2 == 0) pair = {Leg::c, Leg::b};

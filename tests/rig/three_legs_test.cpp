@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmwares that command three legs, on the virtual board. Circuits are compared with closed forms, and
-// six-step as three legs is compared with six-step.
+// Firmware on the virtual board commands three legs. Circuits are compared with closed forms. Six-step as
+// three leg commands is compared with six-step.
 #include <gtest/gtest.h>
 
 #include "tests/support/laws.hpp"
@@ -29,7 +29,7 @@ void expect_same_state(const Rig& one, const auto& two) {
   EXPECT_EQ(one.event_count(rig::EventKind::pwm_edge), two.event_count(rig::EventKind::pwm_edge));
 }
 
-/// A firmware that fills in the three legs from the six-step command of the present sector's pair.
+/// A firmware that converts the six-step command of the present sector's pair into three leg commands.
 struct SixStepLegs {
   Chopping chopping;
 
@@ -41,8 +41,8 @@ struct SixStepLegs {
   }
 };
 
-/// The rotor runs up, with commutation at the sample. Six-step as three legs has the same bits as six-step,
-/// including freewheeling floating legs.
+/// The rotor accelerates from rest, with commutation at the sample. Six-step as three leg commands has the
+/// same bits as six-step, including the freewheeling of floating legs.
 TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const bool centred : {false, true})
@@ -65,7 +65,7 @@ TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
       }
 }
 
-/// The exact mean of i_a over whole periods, from the integrals of its polynomials.
+/// The exact mean of i_a over whole periods, computed from the integrals of its polynomials.
 struct MeanOfA {
   double ampere_s = 0.0, s = 0.0;
   void segment(const auto& rig, double part) {
@@ -77,7 +77,7 @@ struct MeanOfA {
 };
 
 /// The mean of i_a in the steady state, over a hundred periods. They begin after 40 time constants, when the
-/// exponential has decayed below rounding.
+/// initial transient has decayed below rounding.
 double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   auto rig = three_leg_rig(b, HeldLegs{legs});
   EXPECT_EQ(run_to(rig, 800 * T), sim::Stop::end);
@@ -87,7 +87,7 @@ double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   return mean.ampere_s / mean.s;
 }
 
-/// The solver's error of currents (model.md 12) is 6.5e-12 of full scale, which is 23.3 A.
+/// The solver's error of currents is 6.5e-12 of full scale (model.md 12). Full scale is 23.3 A.
 constexpr double amp_tolerance = 6.5e-12 * 23.3;
 
 TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
@@ -100,9 +100,9 @@ TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
   }
 }
 
-/// The current's sign selects the diode that conducts in the dead time: the lower diode if the current flows
-/// into the motor, else the upper one. The leg's mean voltage falls by U t_d/T if i > 0 and rises by the same
-/// amount if i < 0, at any duty.
+/// During the dead time, a diode conducts: the lower diode if the current i flows into the motor, else the
+/// upper diode. The leg's mean voltage falls by U t_d/T if i > 0 (bus voltage U, dead time t_d, period T). It
+/// rises by the same amount if i < 0. Both changes are independent of the duty.
 TEST(ThreeLegs, DeadTimeWorksAgainstTheCurrentOfEachLeg) {
   const double dead_s = 1e-6, lost = U * dead_s / T;
   for (const bool centred : {false, true})
@@ -111,7 +111,7 @@ TEST(ThreeLegs, DeadTimeWorksAgainstTheCurrentOfEachLeg) {
       Board b = locked_at(10.0);
       b.board.modulator.centre_aligned = centred;
       b.board.modulator.dead_ticks = dead_s * 1e12;
-      // The currents are some amperes in each direction and exceed the ripple U T/(8 L_s) = 0.3 A.
+      // The currents are some amperes in each direction. They exceed the ripple of U T/(8 L_s) = 0.3 A.
       const double d = sign * 0.15;
       const double u_a = (0.5 + d) * U - sign * lost, u_bc = (0.5 - d) * U + sign * lost;
       EXPECT_NEAR(mean_of_a(b, complementary(0.5 + d, 0.5 - d, 0.5 - d)),
@@ -127,8 +127,8 @@ TEST(ThreeLegs, PulsesBelowTheMinimumChangeTheMeanVoltageAndNoOtherLegs) {
               amp_tolerance);
 }
 
-/// Two legs drive; the third is off and floats. The voltage over both phases is (d_a - d_b) U, and no current
-/// flows in c. At rest the terminal of c is between the rails.
+/// Two legs are driven. The third leg is off and floats. The voltage across both phases is (d_a - d_b) U
+/// (duties d, bus voltage U), and no current flows in c. At rest, the terminal of c is between the rails.
 TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   Board b = locked_at(10.0);
   control::LegCommands<double> legs = complementary(0.6, 0.35, 0.0);
@@ -139,7 +139,7 @@ TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   EXPECT_EQ(rig.plant().state().i[2], 0.0);
 }
 
-/// Ten periods on, then off.
+/// A firmware that drives for ten periods, and then turns off.
 struct TenPeriods {
   template <class Real>
   control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
@@ -147,8 +147,8 @@ struct TenPeriods {
   }
 };
 
-/// After all legs turn off, the currents flow through the diodes until they are zero: L di/dt = -U over both
-/// phases.
+/// After all legs turn off, the currents flow through the diodes until they are zero. The voltage across both
+/// phases is then L di/dt = -U (bus voltage U).
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   Board b = locked_at(10.0);
   auto rig = three_leg_rig(b, TenPeriods{});
@@ -159,7 +159,8 @@ TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(rig.plant().state().i[k], 0.0);
 }
 
-/// model.md 11: with a delay, each leg has d = 1/2 in period 0. A firmware that is off stays off.
+/// By model.md 11, each leg of a board with a delay has the duty 1/2 in period 0. A firmware that is off
+/// remains off.
 TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   Board b = locked_at(10.0);
   b.board.delayed = true;
@@ -178,7 +179,7 @@ TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   EXPECT_EQ(silent.event_count(rig::EventKind::pwm_edge), 0);
 }
 
-/// The sample is in the middle of a period; its command acts from the start of the next period.
+/// The sample is in the middle of a period. Its command acts from the start of the next period.
 TEST(ThreeLegs, AnAnswerFromTheMiddleActsFromTheNextPeriod) {
   Board b = locked_at(10.0);
   b.board.sampled_in_middle = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A voltage vector rotates in open loop on a sine machine at the same constant speed. The current is compared
-// with the phasor solution: its fundamental is the fundamental of the voltage divided by R + j w L.
+// A voltage vector rotates in open loop on a sine machine of constant speed. The current is compared with the
+// phasor solution: its fundamental is the fundamental of the voltage divided by R + j w L.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -20,7 +20,7 @@ constexpr double T = 30e-6, U = 24.0, pi = std::numbers::pi;
 constexpr int periods = 60;  // PWM periods in an electrical turn
 constexpr double w = 2 * pi / (periods * T), start_deg = 20.0;
 
-/// Leg commands at sample n for a rotating vector of length V. At n = 0 the vector leads phase a by
+/// Leg commands for a rotating vector of the length V. At the sample n = 0, the vector leads phase a by
 /// `phase_rad`.
 struct TurningVector {
   double V = 0.0, phase_rad = 0.0;
@@ -38,7 +38,8 @@ struct TurningVector {
   }
 };
 
-/// With an inertia of 1e9 kg m2 the machine's torque changes the speed by parts in 1e13 over the run.
+/// The inertia is 1e9 kg m2. The machine's torque therefore changes the speed in the run by only some 1e-13
+/// of its value.
 Board bench(bool centred) {
   Board b;
   b.machine.back_emf = plant::BackEmf::sine;
@@ -50,8 +51,8 @@ Board bench(bool centred) {
   return b;
 }
 
-/// (2/turn) integral of i_a exp(-j w t), by a five-point Gauss rule per segment. The rule is exact to
-/// rounding for w h <= 0.1 and currents whose order is far below ten.
+/// (2/turn) times the integral of i_a exp(-j w t), by a five-point Gauss rule in each segment of length h.
+/// The rule is exact within rounding for w h <= 0.1 if the order of the current is far below ten.
 struct Fundamental {
   Complex sum = 0.0;
   void segment(const auto& rig, double part) {
@@ -68,7 +69,8 @@ struct Fundamental {
   }
 };
 
-/// Electrical turns before the measured one. L/R is 0.55 ms: exp(-45) of the start remains.
+/// Electrical turns before the turn that is evaluated. L/R is 0.55 ms, so exp(-45) of the initial transient
+/// remains.
 constexpr int settling_turns = 14;
 
 Complex current(const Board& b, const TurningVector& vector) {
@@ -86,14 +88,15 @@ Complex back_emf(const Board& b) {
   return std::polar(b.machine.K_e_V_s * w / b.machine.pole_pairs, (start_deg - 60.0) * pi / 180.0);
 }
 
-/// The vector with each sample constant for a period, without the shape of the pulses.
+/// The phasor of a vector whose samples are each constant for a period, without the shape of the pulses.
 Complex held(const TurningVector& v) {
   const double half = w * T / 2;
   return std::polar(v.V * std::sin(half) / half, v.phase_rad - half);
 }
 
-/// The fundamental of the actual pulses, phase a to star point. A pulse of length d T centred at t_c
-/// contributes (2/turn) U d T sinc(w d T/2) exp(-j w t_c).
+/// The fundamental of the actual pulses, as the voltage from phase a to the star point. A pulse of length d
+/// T, centred at t_c, contributes (2/turn) U d T sinc(w d T/2) exp(-j w t_c) (duty d, period T, bus voltage
+/// U).
 Complex pulsed(const TurningVector& v, bool centred) {
   const auto leg = [&](int k) {
     Complex sum = 0.0;
@@ -107,14 +110,14 @@ Complex pulsed(const TurningVector& v, bool centred) {
   return leg(0) - (leg(0) + leg(1) + leg(2)) / 3.0;
 }
 
-/// The sinc of a centred pulse of length d T exceeds that of a pulse of length T by (1 - d^2) (w T)^2/24.
-/// With x = d - 1/2, d (1 - d^2) = 3/8 + x/4 - 3/2 x^2 - x^3. The constant and the square have no
-/// fundamental, because x only changes its sign after half a turn. The fundamental of x/4 is V/(4 U); that of
-/// the cube is at most 2/8.
+/// The sinc of a centred pulse of length d T exceeds the sinc of a pulse of length T by (1 - d^2) (w T)^2/24.
+/// With x = d - 1/2, d (1 - d^2) = 3/8 + x/4 - 3/2 x^2 - x^3. Half a turn later, x has the opposite sign, so
+/// the constant and the square have no fundamental. The fundamental of x/4 is V/(4 U). The fundamental of the
+/// cube is at most 2/8.
 double pulse_shape_V(double V) { return (V + U) / 4 * w * T * w * T / 24; }
 
-/// The bound covers the solver (6.5e-12 of full scale, model.md 12), the quadrature, and the start's
-/// remainder after 45 time constants.
+/// The bound allows for the solver's error (6.5e-12 of full scale, model.md 12), the quadrature's error, and
+/// the initial transient after 45 time constants.
 constexpr double tolerance_A = 1e-10 * 23.3;
 
 TEST(VoltageVector, ItsCurrentIsThatOfThePhasorSolution) {
@@ -142,7 +145,7 @@ TEST(VoltageVector, ItsCurrentIsThatOfItsPulsesToRounding) {
       }
 }
 
-/// A delay of one period turns the voltage back by exactly w T.
+/// A delay of one period rotates the voltage back by exactly w T.
 TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
   const TurningVector v{12.0, 0.3};
   Board b = bench(true);
@@ -151,8 +154,8 @@ TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
   EXPECT_LE(std::abs(current(b, v) - (voltage - back_emf(b)) / impedance(b)), tolerance_A);
 }
 
-/// The amplitude of the bridge's voltage for a vector of length V. It is undistorted up to U/2
-/// (sine-triangle) and U/sqrt 3 (space vector), and smaller than V beyond.
+/// The amplitude of the bridge's voltage for a vector of length V. Up to U/2 (sine-triangle) or U/sqrt 3
+/// (space vector), it is equal to V (bus voltage U). For larger vectors, it is smaller than V.
 TEST(VoltageVector, SpaceVectorReachesUOverRoot3AndSineTriangleHalfOfU) {
   const auto made = [](double V, bool space_vector) {
     const Board b = bench(true);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crossed wires (model.md 7): all six orders of the phases with all six orders of the probes. The expected
-// results follow from the table of model.md 3 and from the shape of the back-EMF, which this file defines
-// independently.
+// Crossed wires (model.md 7): the phases in all six orders, and the probes in all six orders. The expected
+// results follow from the table of model.md 3 and from the shape of the back-EMF. This file defines both
+// independently of the tested code.
 #include "sixstep/rig/wiring.hpp"
 
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ constexpr const char* words[] = {"abc", "bca", "cab", "acb", "cba", "bac"};
 constexpr int probes[6][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}};
 constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
 
-/// Index of the wire end at a position: the letter of the word at this position.
+/// Index of the wire end at a position. The word of an order has one letter for each position.
 int end_at(WireOrder order, int place) { return words[static_cast<int>(order)][place] - 'a'; }
 
-/// The 120-degree trapezoid of phase k at an electrical angle.
+/// At an electrical angle, the shape of phase k: a trapezoid with a flat top of 120 degrees.
 double shape(double electrical_deg, int k) {
   const double from_top = std::remainder(electrical_deg - 120.0 * k - 60.0, 360.0);
   return std::fmax(-1.0, std::fmin(1.0, (90.0 - std::fabs(from_top)) / 30.0));
@@ -43,15 +43,15 @@ std::array<int, 2> driven(const Wiring& wires, int sector) {
   return {};
 }
 
-/// The torque at an angle, divided by K_e and the current.
+/// The torque at an angle, divided by K_e and by the current.
 double torque_factor(const Wiring& wires, double electrical_deg) {
   const auto [source, sink] = driven(wires, static_cast<int>(electrical_deg / 60));
   return shape(electrical_deg, source) - shape(electrical_deg, sink);
 }
 
 enum class Does { forward, backward, stands };
-/// Torques of one sign in all sectors turn the rotor. If the signs differ, the rotor stops, because the mean
-/// over a turn is zero.
+/// If the torques of all sectors have one sign, the rotor turns. If the signs differ, the rotor stops,
+/// because the mean torque over a turn is zero.
 Does expected(const Wiring& wires) {
   double least = 9, most = -9, sum = 0;
   for (int sector = 0; sector < 6; ++sector) {
@@ -127,8 +127,8 @@ Board phase_hysteresis() {
   return b;
 }
 
-/// Checks that both runs have the same currents in the board's legs. The second rotor turns by `way` times
-/// the first rotor's angle.
+/// Expects that both runs have the same currents in the legs of the board. The rotor of the second run turns
+/// by `way` times the angle of the first rotor.
 void expect_the_board_sees_no_difference(const Wiring& wires, double straight_deg, double crossed_deg,
                                          double way) {
   const Board boards[] = {Board::duty(0.5), Board::duty(0.7, control::Chopping::hard),
@@ -155,17 +155,17 @@ TEST(CrossedWires, ThatMoveOnTogetherRunAsIfTheyWereStraight) {
   expect_the_board_sees_no_difference({WireOrder::cab, WireOrder::cab}, 17, 240 + 17, 1);
 }
 
-/// u_ab of the phases a and b has the signs of H1. Swapping a and b reverses u_ab and exchanges u_bc with
-/// u_ca; exchanging H2 with H3 matches this. For the board, the motor's angle then counts in the other
-/// direction, and the motor turns backwards.
+/// The voltage u_ab of phases a and b has the sign pattern of H1. Swapping a and b reverses u_ab and
+/// exchanges u_bc with u_ca. If H2 and H3 are also exchanged, the board receives consistent codes. For the
+/// board, the motor's angle then counts in the other direction, so the motor turns backwards.
 TEST(CrossedWires, OfTwoPhasesAndTheTwoProbesBesideThemRunTheMirroredMotor) {
   expect_the_board_sees_no_difference({WireOrder::bac, WireOrder::acb}, 17, 60 - 17, -1);
   expect_the_board_sees_no_difference({WireOrder::cba, WireOrder::bac}, 17, 180 - 17, -1);
   expect_the_board_sees_no_difference({WireOrder::acb, WireOrder::cba}, 17, 300 - 17, -1);
 }
 
-/// The inverted code belongs to the sector three sectors later, whose pair is the reversed pair, as for a
-/// negative command.
+/// The inverted code is the code of the sector three sectors later. The pair of that sector is the reversed
+/// pair, as for a negative command.
 TEST(CrossedWires, InvertedLinesAreANegativeCommand) {
   GeneralRig inverted = wired(Board::duty(0.5), {.inverted = 7}, 17);
   GeneralRig negative = wired(Board::duty(-0.5), {}, 17);
@@ -184,8 +184,8 @@ TEST(CrossedWires, OneInvertedLineMakesACodeThatCannotBe) {
   EXPECT_EQ(rig.pins(), 0);
 }
 
-/// Probe k (k = 0 for H1) shows 1 in the half turn of sectors (2k + 5) mod 6 to (2k + 7) mod 6. All 48 ways
-/// to connect three lines are tested.
+/// Probe k (k = 0 for H1) shows 1 in the half turn of sectors (2k + 5) mod 6 to (2k + 7) mod 6. The test
+/// covers all 48 ways to connect three lines.
 TEST(CrossedWires, EachPinShowsItsProbeOrTheContrary) {
   for (const WireOrder order : orders)
     for (std::uint8_t inverted = 0; inverted < 8; ++inverted)
@@ -211,7 +211,7 @@ TEST(CrossedWires, MayBeCrossedAtAnyTime) {
   ASSERT_EQ(run_to(built, 10e-3), sim::Stop::end);
   EXPECT_EQ(told.plant().state().i, built.plant().state().i);
   EXPECT_EQ(told.plant().state().w, built.plant().state().w);
-  // An edge between two ticks commutates at once, and the currents are continuous.
+  // An edge between two ticks causes a commutation at once, and the currents are continuous.
   Board running = Board::duty(0.5);
   running.timeline.push_back(
       {{10'000'000'100, 0.0}, rig::ActionKind::wire_probes, static_cast<double>(WireOrder::bca)});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact lag is compared with closed forms (step, ramp, sine, a chopped input in its steady state) and,
-// for its weights, with quadrature in long double.
+// The exact lag is compared with closed forms: step, ramp, sine, and a chopped input in its steady state. The
+// weights of the lag are compared with a quadrature in long double.
 #include "sixstep/series/first_order_lag.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::series;
 using Poly = Coefficients<double>;
 
-/// A first-order lag that is advanced segment by segment, as in a board's front end.
+/// A first-order lag that is advanced segment by segment, as the board's front end does.
 struct Lag {
   double tau = 1;
   CompensatedSum<double> x{};
@@ -25,8 +25,8 @@ struct Lag {
 
 constexpr double eps = 0x1p-52;
 
-/// The weight by Gauss-Legendre quadrature with 5 points per piece. The number of pieces keeps the error,
-/// 4e-13 (30/pieces)^10, below rounding.
+/// The weight by Gauss-Legendre quadrature with 5 points in each piece. The number of pieces is so large that
+/// the error, 4e-13 (30/pieces)^10, is below rounding.
 long double weight(long double z, int j) {
   constexpr long double at[] = {0.0L, 0.538469310105683091036314420700L, 0.906179845938663992797626878299L};
   constexpr long double of[] = {0.568888888888888888888888888889L, 0.478628670499366468041291514836L,
@@ -43,8 +43,8 @@ long double weight(long double z, int j) {
 }
 
 TEST(FirstOrderLag, WeightsAreTheirIntegral) {
-  // Each order follows from a damped recurrence. The error is a few roundings of numbers below 1, relative to
-  // the weight.
+  // Each order follows from a recurrence in which errors decay. The error is a few roundings of numbers below
+  // 1, relative to the weight.
   for (const double z : {1e-9, 1e-3, 0.2, 0.999, 1.0, 1.5, 2.0, 3.7, 7.0, 8.3, 11.9, 15.99, 16.0, 30.0})
     for (const int degree : {16, 9, 6, 1}) {
       const LagWeights w = lag_weights(z, degree);
@@ -97,7 +97,7 @@ Poly sine(double a, double b) {
 TEST(FirstOrderLag, SineComesThroughSmallerAndLater) {
   const double w = 2.0, h = 0.21;
   for (const double tau : {1e-4, 0.03, 0.5, 40.0}) {
-    // The lag starts on its steady response 1/(1 + i w tau) and must stay on it.
+    // The lag starts on its steady response 1/(1 + i w tau) and must remain on it.
     const double size = 1 / std::hypot(1, w * tau), later = std::atan(w * tau);
     Lag lag{.tau = tau, .x = {-size * std::sin(later), 0}};
     for (int n = 0; n < 3000; ++n) lag.follow(sine(w * h * n, w * h), max_degree, h);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// first_root is compared with constructed roots, with the roots on a plain grid, and with the critical cases
-// of a simulator: a start on the boundary, a root at the end, a touch.
+// first_root() is compared with constructed roots, and with the roots on a plain grid. It is also tested with
+// the critical cases of a simulator: a start on the boundary, a root at the end, and a polynomial that
+// touches zero.
 #include "sixstep/series/first_root.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +18,14 @@ using Exact = std::array<long double, max_degree + 1>;
 constexpr double eps = 0x1p-52;
 constexpr std::uint32_t seed = 20240917;
 
-/// c *= (s - root), in long double.
+/// Multiplies the polynomial c by (s - root), in long double.
 void multiply_root(Exact& c, int& degree, long double root) {
   ++degree;
   for (int j = degree; j >= 1; --j) c[j] = c[j - 1] - root * c[j];
   c[0] *= -root;
 }
 
-/// c *= ((s - centre)^2 + offset^2): no real root.
+/// Multiplies the polynomial c by (s - centre)^2 + offset^2, which has no real root.
 void multiply_pair(Exact& c, int& degree, long double centre, long double offset) {
   const Exact before = c;
   degree += 2;
@@ -71,8 +72,9 @@ Exact random_positive(std::mt19937_64& random, int& degree) {
   return c;
 }
 
-/// Rounding errors of the coefficients, of the Bernstein form and of an evaluation. Each is at most degree *
-/// eps times the sum of the coefficients' magnitudes, which bounds every summed term.
+/// Bound of the rounding errors of the coefficients, of the Bernstein form and of an evaluation. Each error
+/// is at most degree * eps times the sum of the coefficients' magnitudes, which is a bound of every summed
+/// term.
 double value_error(const Exact& c, int degree) {
   return 4.0 * (degree + 1) * eps * static_cast<double>(magnitude(c, degree));
 }
@@ -111,7 +113,7 @@ TEST(Pitfall09_FirstRootSafely, FindsTheFirstOfEveryPlantedClosePair) {
                                       << " a " << p.a << " delta " << p.delta);
     ASSERT_LE(root, 1.0);
     // With x = s - a, the first solution of x (x - delta) g = +-error is within 2 error/(g delta) of 0. The
-    // bound is twice this, because g varies.
+    // tolerance is twice this bound, because the remaining factor g varies.
     ASSERT_NEAR(root, p.a, 4 * error / (p.rest_at_a * p.delta) + eps);
   }
 }
@@ -188,11 +190,11 @@ TEST(FirstRoot, NegativeStartIsNow) {
 }
 
 TEST(Pitfall03_RestartOnABoundary, IsNoEvent) {
-  // s (1/2 - s) rises from zero and returns to zero at 1/2.
+  // The polynomial s (1/2 - s) rises from zero and returns to zero at 1/2.
   EXPECT_EQ(first_root<double>({0.0, 0.5, -1.0}, 2, 1.0, 1e-15), 0.5);
-  // A leg starts to conduct with i = di/dt = 0: s^2 (1/4 - s).
+  // A leg that starts to conduct with i = di/dt = 0, as s^2 (1/4 - s).
   EXPECT_EQ(first_root<double>({0.0, 0.0, 0.25, -1.0}, 3, 1.0, 1e-15), 0.25);
-  // From rest on a sector edge, theta ~ t^3; rounding noise in the lower coefficients.
+  // A start from rest on a sector edge, with theta ~ t^3. The lower coefficients contain rounding noise.
   EXPECT_EQ(first_root<double>({-3e-16, 2e-16, -1e-16, 1.0}, 3, 1.0, 1e-15), no_root<double>);
   const auto root = first_root<double>({-3e-16, 2e-16, -1e-16, 0.5, -1.0}, 4, 1.0, 1e-15);
   EXPECT_NEAR(root, 0.5, 2 * eps);
@@ -214,13 +216,13 @@ TEST(FirstRoot, RootsOutsideTheSegmentAreIgnored) {
 
 TEST(FirstRoot, RootAtTheEndCounts) {
   EXPECT_EQ(first_root<double>({1.0, -1.0}, 1, 1.0, 1e-15), 1.0);
-  // (1 - s)(s^2 - s + 1/2): Newton's method without bracketing does not converge safely here.
+  // For (1 - s)(s^2 - s + 1/2), Newton's method without bracketing does not converge safely.
   const auto curved = first_root<double>({0.5, -1.5, 2.0, -1.0}, 3, 1.0, 1e-15);
   EXPECT_GE(curved, 1.0 - 16 * eps);  // within the segment the polynomial is not negative
 }
 
 TEST(FirstRoot, ATouchIsFoundOrPassedButNeverElsewhere) {
-  // (s - 1/2)^2 is not negative anywhere, except by rounding.
+  // The polynomial (s - 1/2)^2 is not negative anywhere, except by rounding.
   const auto touch = first_root<double>({0.25, -1.0, 1.0}, 2, 1.0, 1e-15);
   if (touch != no_root<double>) {
     EXPECT_NEAR(touch, 0.5, std::sqrt(4 * eps));

@@ -36,7 +36,7 @@ TEST(Polynomial, IntegralsAreExact) {
   const Poly c{1.0, -2.0, 3.0}, d{2.0, 0.5, -1.0};
   EXPECT_EQ(integral(c, 2, 1.0), 1.0 - 1.0 + 1.0);
   EXPECT_EQ(integral(c, 2, 0.5), 0.5 - 0.25 + 0.125);
-  // (1 - 2s + 3s^2)(2 + s/2 - s^2) = 2 - 3.5 s + 4 s^2 + 3.5 s^3 - 3 s^4
+  // The product (1 - 2s + 3s^2)(2 + s/2 - s^2) is 2 - 3.5 s + 4 s^2 + 3.5 s^3 - 3 s^4.
   EXPECT_NEAR(product_integral(c, d, 2, 1.0), 2 - 3.5 / 2 + 4.0 / 3 + 3.5 / 4 - 3.0 / 5, 8 * eps * 8);
 }
 
@@ -65,8 +65,8 @@ TEST(Polynomial, RestrictedIsTheSameCurve) {
     if (n % 5 == 0) from = 0;
     const Poly r = restricted(c, degree, from, to);
     for (const double s : {0.0, 0.25, 0.5, 1.0}) {
-      // Bound on the terms of the Taylor shift: sum |c_j| (from + (to - from) s)^j, expanded binomially, is
-      // at most sum |c_j| to^j.
+      // Bound on the terms of the Taylor shift. The sum of |c_j| (from + (to - from) s)^j, expanded
+      // binomially, is at most the sum of |c_j| to^j.
       const double scale = magnitude_of(c, degree);
       EXPECT_NEAR(evaluate(r, degree, s), evaluate(c, degree, from + (to - from) * s),
                   4 * (degree + 1) * eps * scale)
@@ -92,7 +92,7 @@ TEST(Pitfall11_CompensatedSums, LoseNothingInAMillionSteps) {
   EXPECT_GT(std::fabs(plain - exact), 100 * eps * 1000.0) << "the plain sum is no worse: test says nothing";
 }
 
-/// Chebyshev polynomial T_n, shifted to [0, 1]: its n roots and n + 1 extremes are known.
+/// The Chebyshev polynomial T_n, shifted to [0, 1]. Its n roots and n + 1 extremes are known.
 Poly chebyshev(int n) {
   Poly before{1.0}, now{-1.0, 2.0};
   for (int k = 1; k < n; ++k) {
@@ -169,7 +169,7 @@ TEST(Extremes, NoSampleOfTheCurveLiesOutside) {
     }
     EXPECT_GE(low, e.low - error) << "seed " << seed << " polynomial " << n;
     EXPECT_LE(high, e.high + error);
-    // A grid of 1/500 misses an extreme by at most |y''|/8/500^2 <= 16*15*sum/8/250000.
+    // A grid of 1/500 misses an extreme by at most |y''|/8/500^2, and this is at most 16*15*sum/8/250000.
     EXPECT_NEAR(low, e.low, 240.0 / 8 / 250000 * magnitude_of(c, degree) * 4);
   }
 }

@@ -34,8 +34,8 @@ long double first_error(int points) {
 
 template <int points>
 void expect_gauss() {
-  // Literals of 21 digits have errors of at most 5e-22, and a node's power s^j has j times this error. A sum
-  // has 8 terms in long double.
+  // Literals of 21 digits have errors of at most 5e-22. The relative error of a node's power s^j is j times
+  // this error. A sum in long double has 8 terms.
   const long double tolerance = 64 * 0x1p-63L;
   for (int j = 0; j < 2 * points; ++j)
     EXPECT_NEAR(static_cast<double>(power_integral<points>(j) * (j + 1) - 1), 0.0,
@@ -59,8 +59,8 @@ TEST(Gauss, IsExactUpToItsDegreeAndMissesTheNextByWhatTheoryKnows) {
 }
 
 TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
-  // The conversion of a literal to double must not depend on whether long double has 64 or 113 bits: the
-  // values are not near a tie.
+  // The conversion of a literal to double must not depend on whether long double has 64 or 113 bits. The
+  // values are therefore not near a tie.
   const auto far_from_tie = [](long double v) {
     const double d = static_cast<double>(v);
     const long double ulp = std::nextafter(d, 2.0) - d;
@@ -74,8 +74,8 @@ TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
     });
 }
 
-/// The Taylor series of a solution, as in the solver: c_j = a_j x^j/j!, |a_j| <= 1; the last term is at
-/// rounding level.
+/// The Taylor series of a solution, as the solver has it: c_j = a_j x^j/j! with |a_j| <= 1. The last term is
+/// at the level of rounding.
 Poly solution_series(std::mt19937_64& random, int degree) {
   std::uniform_real_distribution<double> any(-1, 1);
   double rate = 0x1p-53;
@@ -98,14 +98,14 @@ TEST(Gauss, AFewPointsAreEnoughForProductsOfSolutions) {
       const auto s = nodes_up_to<points>(to);
       return to * weighted_sum<points>(values_at<points>(a, degree, s), values_at<points>(b, degree, s));
     });
-    // The values have errors of at most 4 eps each (the terms fall quickly); products and sums add as much
+    // Each value has an error of at most 4 eps, because the terms fall quickly. Products and sums add as much
     // again. The scale is 1.
     EXPECT_NEAR(sum, product_integral(a, b, degree, to), 16 * eps) << "seed " << seed << " pair " << n;
   }
 }
 
-/// Value of a series as the solver's code computes it. If the degree needs this number of points, even and
-/// odd powers are evaluated separately; for an odd degree the highest even power is zero.
+/// Value of a series, computed as in the solver. If the degree needs this number of points, even and odd
+/// powers are evaluated separately. For an odd degree, the highest even power is zero.
 template <int points, class Real>
 Real fitting_value(const Coefficients<Real>& c, int degree, Real x) {
   constexpr int most = 2 * points;
@@ -120,8 +120,8 @@ Real fitting_value(const Coefficients<Real>& c, int degree, Real x) {
   return even + odd * x;
 }
 
-/// SIMD instructions compute two numbers at once; each must have the bits of a separate computation. With an
-/// odd number of points, no sum includes the unused lane.
+/// SIMD instructions compute two numbers at once. Each number must have the bits of a separate computation.
+/// With an odd number of points, no sum may include the unused lane.
 template <int points, class Real>
 void expect_bits_of_single_numbers(std::mt19937_64& random) {
   std::uniform_real_distribution<double> any(-1, 1);
@@ -146,14 +146,14 @@ void expect_bits_of_single_numbers(std::mt19937_64& random) {
   }
   EXPECT_EQ(weighted_sum<points>(v), sum) << points;
   EXPECT_EQ(weighted_sum<points>(v, u), products) << points;
-  // The weights sum to one and the values to at most 17: the other order of the sum causes a few rounding
-  // errors.
+  // The weights sum to one, and the magnitudes of the values sum to at most 17. The other order of summation
+  // causes a few rounding errors.
   const auto w_v = weighted<points>(v);
   const auto w_vu = w_v * u;
   const Real rounding = 17 * 17 * points * std::numeric_limits<Real>::epsilon();
   EXPECT_LE(std::fabs(total(w_v) - sum), rounding) << points;
   EXPECT_LE(std::fabs(total(w_vu) - products), rounding) << points;
-  // Each total equals a separately computed total.
+  // Each total is equal to a separately computed total.
   const auto two = totals(w_vu, w_v);
   EXPECT_EQ(two[0], total(w_vu)) << points;
   EXPECT_EQ(two[1], total(w_v)) << points;
@@ -181,8 +181,8 @@ TEST(Nodes, HaveTheBitsOfSingleNumbersInFloat) { expect_bits_of_single_numbers<f
 TEST(Nodes, HaveTheBitsOfSingleNumbersInLongDouble) { expect_bits_of_single_numbers<long double>(); }
 
 TEST(Gauss, OnePointFewerWouldNotDo) {
-  // The cosh-like series has terms of one sign: at degree 8, 3 points miss a remainder that 4 points do not
-  // miss.
+  // All terms of this series have one sign, as in cosh. At degree 8, four points integrate it to rounding,
+  // and three points do not.
   Poly c{};
   double rate = std::pow(0x1p-53 * 40320, 1.0 / 8), term = 1;
   for (int j = 0; j <= 8; ++j, term *= rate / j) c[j] = term;
@@ -201,7 +201,7 @@ TEST(WholeIntegral, AgreesWithTheDivisions) {
     const int degree = static_cast<int>(random() % (max_degree + 1));
     Poly c{};
     for (int j = 0; j <= degree; ++j) c[j] = any(random);
-    // Both methods have two roundings per term and one per sum; the sum is at most 1 + 1/2 + .. + 1/17 < 3.5.
+    // Each method has two roundings per term and one per sum. The sum is at most 1 + 1/2 + .. + 1/17 < 3.5.
     EXPECT_NEAR(whole_integral(c, degree), integral(c, degree, 1.0), (degree + 3) * 3.5 * eps)
         << "seed " << seed << " polynomial " << n;
   }

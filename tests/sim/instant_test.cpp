@@ -53,7 +53,7 @@ TEST(Instant, FractionsOfATickAddUp) {
   Instant thirds;
   constexpr int count = 3'000'000;
   for (int n = 0; n < count; ++n) thirds = thirds.plus_ticks(1.0 / 3.0);
-  // Each sum below 2 rounds by at most eps/2; the literal 1/3 has an error of eps/8.
+  // Each sum below 2 is rounded by at most eps/2. The literal 1/3 has an error of eps/8.
   EXPECT_NEAR(seconds_between({1'000'000, 0.0}, thirds) * 1e12, 0.0, count * eps);
 }
 

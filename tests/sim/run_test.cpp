@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run loop is compared with the closed solutions of two systems: a bouncing ball (located events) and a
-// switched RL circuit (scheduled events).
+// The run loop is compared with the closed solutions of two systems. A bouncing ball has located events, and
+// a switched RL circuit has scheduled events.
 #include "sixstep/sim/run.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ class Ball {
   Instant now_{};
 };
 
-/// L di/dt = u - R i. A clock switches u on at n T and off at n T + on.
+/// A circuit with L di/dt = u - R i. A clock switches u on at n T and off at n T + on.
 class Chopped {
  public:
   using Real = double;
@@ -119,8 +119,8 @@ TEST(Run, BallBouncesAtTheClosedFormTimes) {
   long double t = std::sqrt(2.0L / 9.81L), v = 9.81L * t;
   ASSERT_EQ(ball.bounces_s.size(), 9u);
   for (std::size_t n = 0; n < ball.bounces_s.size(); ++n) {
-    // Each bounce adds two errors: of a root, eps of the run's time; and of a speed, eps of the speed. The
-    // next interval is 2 v/g.
+    // Each bounce adds two errors: the error of a root, eps of the run's time, and the error of a speed, eps
+    // of the speed v. The next interval is 2 v/g (gravity g).
     const double bound = 8.0 * static_cast<double>(n + 1) * eps * 3.5;
     EXPECT_NEAR(ball.bounces_s[n], static_cast<double>(t), bound) << n;
     v *= static_cast<long double>(ball.restitution);
@@ -135,8 +135,8 @@ TEST(Pitfall07_ZeroLengthSteps, EndAsNoProgressNeverAsAHang) {
   sim::NoObserver none;
   const sim::Run run = sim::run(ball, sim::to_instant(100.0), none);
   EXPECT_EQ(run.stop, Stop::no_progress);
-  // The bounces end at t_0 + 2 t_0 (e + e^2 + ...) = t_0 (1 + e)/(1 - e). The ball stops bouncing when v h is
-  // noise, 64 eps m over 100 s.
+  // The bounces end at t_0 + 2 t_0 (e + e^2 + ...) = t_0 (1 + e)/(1 - e) (first bounce t_0, restitution e).
+  // The ball stops when v h (speed v, length h) is noise: 64 eps m over 100 s.
   const double t_0 = std::sqrt(2.0 / 9.81);
   EXPECT_NEAR(ball.now().seconds(), 3.0 * t_0, 64 * 8 * eps * 100.0);
   EXPECT_LT(run.segments, 1000);
@@ -154,7 +154,7 @@ TEST(Pitfall07_ZeroLengthSteps, AreLegal) {
   EXPECT_EQ(run.segments, 2);
 }
 
-/// A system whose only guard is negative until the given number of events has been applied.
+/// A system whose only guard is negative until `left` events have been applied.
 struct Stuttering {
   using Real = double;
   int left;
@@ -191,7 +191,7 @@ TEST(Run, KnownSwitchingsGiveTheClosedForm) {
   EXPECT_EQ(run.stop, Stop::end);
   EXPECT_EQ(circuit.switchings, 2 * periods + 1) << "what is due at the end is done";
   EXPECT_EQ(run.segments, 2 * periods);
-  // Each segment adds an error of eps/2 of the full current; the errors decay with L/R = 19 periods.
+  // Each segment adds an error of eps/2 of the full current. The errors decay with L/R, which is 19 periods.
   EXPECT_NEAR(circuit.i, static_cast<double>(chopped_exact(periods)), 40 * eps * Chopped::U / Chopped::R);
 }
 
@@ -215,8 +215,8 @@ TEST(Run, AnObserverDoesNotChangeABit) {
   EXPECT_EQ(sampling.segments, a.segments);
 }
 
-/// The end of a slice restarts the expansion. The result has the same bits only if the slice ends at an
-/// instant at which the system restarts anyway. Each action due at this instant runs once.
+/// The end of a slice restarts the expansion. If the slice ends at an instant at which the system restarts in
+/// any case, the result has the same bits. Each action that is due at this instant is executed once.
 TEST(Run, StoppingAtKnownInstantsIsInvisible) {
   Chopped whole, sliced;
   sim::NoObserver none;
@@ -250,7 +250,7 @@ TEST(Run, AnEndThatHasPassedDoesNothingButWhatIsDue) {
   EXPECT_EQ(ball.acts, 1);
 }
 
-/// A system whose act() or expand() fails.
+/// A system whose act() fails, or whose expand() fails.
 struct Broken : Ball {
   bool acts_well = true;
   bool act() { return acts_well; }
@@ -265,7 +265,7 @@ TEST(Run, FaultsAndUnsettledStatesEndTheRun) {
   EXPECT_EQ(sim::run(unsettled, sim::to_instant(1.0), none).stop, Stop::unsettled);
 }
 
-/// Two guards reach zero together: the event is that of the guard visited first.
+/// Two guards reach zero together. The event is the event of the first guard in the order of the visit.
 struct TwoGuards : Ball {
   int applied = -1;
   template <class Visit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed point in a scenario: the bases exceed all of the drive's values, or check() refuses the scenario.
+// Fixed point in a scenario: the bases exceed all values of the drive, or check() refuses the scenario.
 #include "sixstep/study/compile/arithmetic.hpp"
 
 #include <gmock/gmock.h>
@@ -31,8 +31,8 @@ TEST(Arithmetic, FloatingPointComputesInSI) {
 }
 
 TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
-  // drive_in() returns the drive that `sixstep export header` writes. It has the bases of the product drive,
-  // which follow from the board's converters.
+  // drive_in() returns the drive that `sixstep export header` writes. Its bases are the bases of the product
+  // drive, which follow from the converters of the board.
   const Scenario s = product_scenario(control::Mode::speed, 100.0);
   const auto compiled = study::compile(s);
   const auto drive = study::drive_in<control::Q15>(s, *compiled);
@@ -46,18 +46,18 @@ TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
 }
 
 TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
-  // The largest error is 15 A: 10 A measured less a reference of -5 A. The largest Q31 number is one digit
-  // below 1, the base.
+  // The largest error is 15 A: a measured current of 10 A minus a reference of -5 A. The largest Q31 number
+  // is one digit below the base, which is 1.
   const rig::Bases u = units<control::Q31>(current_square());
   EXPECT_NEAR(u.current_A, 15.0, 15.0 * 0x1p-30);
   EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
   EXPECT_EQ(u.setpoint, u.current_A);
-  // Q30 represents numbers below 2: with half the base it has the same range.
+  // Q30 represents numbers below 2. With half the base, it has the same range.
   EXPECT_NEAR((units<control::Q30>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
 }
 
-/// Each format can represent the over-speed threshold, above and below 716 rad/s, the speed that the bus
-/// allows.
+/// Each format can represent the over-speed threshold. The thresholds are above and below 716 rad/s, the
+/// speed that the bus allows.
 TEST(Arithmetic, AnyOverSpeedFits) {
   for (const double over : {400.0, 716.0, 717.0, 800.0, 900.0})
     for (const auto arithmetic : {study::Arithmetic::q14, study::Arithmetic::q15, study::Arithmetic::q31}) {
@@ -98,7 +98,8 @@ TEST(Arithmetic, WhatDoesNotFitIsAProblemBeforeTheRun) {
   EXPECT_THAT(run.problems()[0].cure, HasSubstr("control.full_scale"));
 }
 
-/// The full scale that the message names fits; a hundredth less does not.
+/// The message names a full scale. With this full scale, the scenario is accepted; with one hundredth less,
+/// it is refused.
 TEST(Arithmetic, AFullScaleThatIsTooSmallIsToldWithTheKeyThatFits) {
   for (const Arithmetic format : {Arithmetic::q15, Arithmetic::q14}) {
     Scenario s = current_square();
@@ -140,8 +141,8 @@ TEST(Arithmetic, AnIntegralThatSeesNoDigitIsAProblem) {
   EXPECT_TRUE(study::run(s));
 }
 
-/// The numbers in the message are a bound: a frequency with the named number is accepted, and one that is 1 %
-/// beyond it is refused.
+/// The message names a bound of the timer's frequency. A frequency at this bound is accepted, and a frequency
+/// 1 % beyond it is refused.
 TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
   const std::pair<study::FirmwareKind, Arithmetic> drives[] = {
       {study::FirmwareKind::product, Arithmetic::q15},
@@ -202,8 +203,8 @@ TEST(Arithmetic, EveryModeRunsInEveryFormat) {
 }
 
 TEST(Arithmetic, FullDutyIsWholeWhereTheFormatHasIt) {
-  // Q14 represents 1: there is no off-time, and the trajectory equals that of double. The largest Q15 number
-  // is one digit below 1: each period has an off-time.
+  // Q14 represents 1, so there is no off-time, and the trajectory is equal to the trajectory in double. The
+  // largest Q15 number is one digit below 1, so each period has an off-time.
   Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   const auto wide = study::run(s);
   s.control.arithmetic = Arithmetic::q14;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive's behaviour at its limits, in full switching simulation.
+// Tests the behaviour of the drive at its limits, in the full switching simulation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,9 @@ Scenario flywheel() {
   return s;
 }
 
-/// Overshoot of the speed loop with an ideal current loop: dw = T_s T/J, the plant of the loop's design.
-/// Either the loop has no limits, or its output is limited while the integral continues (wind-up).
+/// Overshoot of the speed loop with an ideal current loop. The plant is dw = T_s T/J (sample period T_s,
+/// torque T, inertia J), as in the design of the loop. With `winds_up`, the output is limited while the
+/// integral continues; without it, the loop has no limit.
 double overshoot_of_the_design(const Scenario& s, bool winds_up) {
   const auto compiled = study::compile(s);
   const control::PiConfig<double>& pi = compiled->drive.speed;
@@ -78,9 +79,10 @@ TEST(Behaviour, ReversalAtSpeedKeepsTheCurrentLimit) {
   const auto out = study::run(s);
   ASSERT_TRUE(out);
   EXPECT_FALSE(out->fault);
-  // The bound has three terms. The limit; the PI controller's overshoot of the largest step, 20 A, in the
-  // proportion of the design, 0.375 A to 5 A (thesis 7.3.1); and the ripple from bus and back-EMF until the
-  // next sample.
+  // The bound is the sum of three terms:
+  // - the limit of 10 A;
+  // - the overshoot of the PI at the largest step, 20 A; the design has 0.375 A at 5 A (thesis 7.3.1);
+  // - the ripple that the bus voltage and the back-EMF cause until the next sample.
   const double e_V = 0.0335 * 200.0, ripple = (24.0 + e_V) / 0.572e-3 * s.pwm.period_s;
   const double most = 10.0 + 20.0 * 0.375 / 5.0 + ripple;
   std::printf("current %.4g .. %.4g A, bound %.4g\n", out->comparisons[1].measured,
@@ -90,8 +92,8 @@ TEST(Behaviour, ReversalAtSpeedKeepsTheCurrentLimit) {
   EXPECT_NEAR(out->comparisons[2].measured, -200.0, 0.2) << "0.1 %, as in 7.4";
 }
 
-/// The drive brakes a flywheel from 600 rad/s with a source that cannot sink. At 5 A most of the power of the
-/// 20 V back-EMF returns to the bus. At 20 A it would all be lost in the windings.
+/// The drive brakes a flywheel from 600 rad/s. The source cannot sink current. At 5 A, most of the power from
+/// the back-EMF of 20 V returns to the bus. At 20 A, the windings would dissipate all of it.
 Scenario braking() {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.1;
@@ -116,8 +118,9 @@ TEST(Behaviour, RegenerationLimitKeepsTheBusWithinItsBound) {
     const auto limited = study::run(s);
     ASSERT_TRUE(limited) << to_string(limited.problems()[0]);
     std::printf("with it %.6g V\n", limited->comparisons[0].measured);
-    // The bound adds two parts to 30 V. At the switch-off, 5/4 of 5 A and 20 V of back-EMF return the energy
-    // of L: L I^2/(2 C 10 V). One period of this current adds I T/C.
+    // The bound adds two terms to 30 V. At the switch-off, the current is 5/4 of 5 A, and the back-EMF is 20
+    // V. The energy of the inductance L returns to the bus: L I^2/(2 C 10 V). The current of one period adds
+    // I T/C.
     EXPECT_LT(limited->comparisons[0].measured,
               30.0 + 0.572e-3 * 6.25 * 6.25 / (2 * 10e-3 * 10.0) + 6.25 * 30e-6 / 10e-3);
     EXPECT_GT(limited->comparisons[0].measured, 24.0);
@@ -125,7 +128,8 @@ TEST(Behaviour, RegenerationLimitKeepsTheBusWithinItsBound) {
 }
 
 TEST(Behaviour, OneShuntTurnsTheRotorAsPhaseCurrentsDo) {
-  // 5 A while the rotor speeds up: the run includes commutations, and duties from zero upwards.
+  // The drive applies 5 A while the rotor accelerates. The run therefore includes commutations, and duties
+  // from zero upwards.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.pwm.alignment = study::Alignment::centre;
   s.pwm.sample = study::SampleAt::middle;
@@ -140,7 +144,7 @@ TEST(Behaviour, OneShuntTurnsTheRotorAsPhaseCurrentsDo) {
   ASSERT_TRUE(ideal && shunt);
   std::printf("mean current %.5g A ideal, %.5g A by one shunt\n", ideal->comparisons[0].measured,
               shunt->comparisons[0].measured);
-  // One count of 12 bits over +-20.48 A is 10 mA; the measured difference is 1.2 mA.
+  // One count of 12 bits over +-20.48 A is 10 mA. The measured difference is 1.2 mA.
   EXPECT_NEAR(shunt->comparisons[0].measured, ideal->comparisons[0].measured, 10e-3);
 }
 

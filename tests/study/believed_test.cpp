@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the drive believes: [believed] and the mounting of shaft sensors, judged by the laws of their errors.
-// The controller follows from the beliefs alone, and the plant from the motor alone.
+// Tests the keys [believed] and the mounting of shaft sensors by the laws of their errors. The controller is
+// computed only from the believed values, and the plant only from the motor's values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,8 @@ using ::testing::IsEmpty;
 
 constexpr double deg = base::pi / 180, K_e = 16.75e-3, p_m = 8;
 
-/// The 251601 with a sine, field-oriented, turned at a constant speed by a dynamometer.
+/// A field-oriented drive with the 251601 as a sine machine. A dynamometer turns the shaft at a constant
+/// speed.
 Scenario on_dynamometer(RotorSensing rotor, double current_A, double speed_rad_s) {
   Scenario s = maxon_scenario(Mode::current, current_A);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -63,7 +64,7 @@ struct Means {
   double torque_Nm = 0.0, i_d = 0.0, i_q = 0.0;
 };
 
-/// Means over the last quarter: of the torque, and of the currents along and across the true magnet.
+/// Means over the last quarter of the run: the torque, and the currents along and across the true magnet.
 Means means_of(const Scenario& s) {
   Means sum;
   double n = 0;
@@ -92,7 +93,7 @@ Means means_of(const Scenario& s) {
 
 constexpr RotorSensing kinds[] = {RotorSensing::encoder, RotorSensing::absolute, RotorSensing::resolver};
 
-/// With the angle error d the drive's current I lies at 90 deg + d from the magnet.
+/// If the angle has the error d, the current vector I of the drive is at 90 degrees + d from the magnet.
 TEST(Believed, AnAngleOffsetCostsTheCosineOfTheTorque) {
   constexpr double I = 3.0, K = 1.5 * K_e;
   for (const RotorSensing kind : kinds)
@@ -100,7 +101,8 @@ TEST(Believed, AnAngleOffsetCostsTheCosineOfTheTorque) {
       Scenario s = on_dynamometer(kind, I, 20);
       mount(s, d);
       const Means m = means_of(s);
-      // 4096 lines resolve 0.18 electrical degrees; the sampled resolver's 12 bits and its loop 0.1.
+      // An encoder of 4096 lines resolves 0.18 electrical degrees. The sampled resolver, with 12 bits and its
+      // loop, resolves 0.1 degrees.
       const double loose = I * 0.4 * deg + 0.004 * I;
       EXPECT_NEAR(m.i_d, -I * std::sin(d * deg), loose) << static_cast<int>(kind) << " at " << d;
       EXPECT_NEAR(m.i_q, I * std::cos(d * deg), loose) << static_cast<int>(kind) << " at " << d;
@@ -122,7 +124,7 @@ TEST(Believed, ABelievedOffsetTakesTheMountingOff) {
   }
 }
 
-/// A tracking chip's loop starts at the angle that the mounted windings show.
+/// The loop of a tracking chip starts at the angle that the mounted windings show.
 TEST(Believed, ATrackingChipShowsTheOffsetFromTheStart) {
   Scenario s = on_dynamometer(RotorSensing::resolver, 3.0, 20);
   s.sensors.resolver.reading = rig::ResolverReading::tracking;
@@ -131,8 +133,8 @@ TEST(Believed, ATrackingChipShowsTheOffsetFromTheStart) {
   s.compare = {{over(MetricKind::maximum, Signal::angle_error, 0.0), 0, "test"},
                {over(MetricKind::minimum, Signal::angle_error, 0.0), 0, "test"}};
   const std::vector<double> error = figures_of(s);
-  // The chip's loop starts without speed: behind a ramp a loop of type 2 with damping 1 is by w t exp(-w_n t), at most w/(e w_n).
-  // Its bandwidth is sqrt(3 + sqrt 10) w_n.
+  // The loop of the chip starts with speed 0. A loop of type 2 with damping 1 lags behind a ramp of the slope
+  // w by w t exp(-w_n t), which is at most w/(e w_n). Its bandwidth is sqrt(3 + sqrt 10) w_n.
   const double w_n = 2 * base::pi * 1000 / std::sqrt(3 + std::sqrt(10.0));
   const double behind = p_m * 20 / (std::exp(1.0) * w_n) / deg;
   EXPECT_NEAR(error[0], -40, 0.1);
@@ -140,7 +142,7 @@ TEST(Believed, ATrackingChipShowsTheOffsetFromTheStart) {
   EXPECT_LT(error[1], -40);
 }
 
-/// Six-step by a sensor: the sector changes where the shown angle passes a multiple of 60 deg.
+/// Six-step with a shaft sensor: the sector changes when the measured angle passes a multiple of 60 degrees.
 TEST(Believed, AnOffsetMovesTheCommutationOfSixStep) {
   for (const double d : {0.0, 20.0, -20.0}) {
     Scenario s = on_dynamometer(RotorSensing::absolute, 3.0, 20);
@@ -150,7 +152,8 @@ TEST(Believed, AnOffsetMovesTheCommutationOfSixStep) {
     s.pwm.commutation = CommutationAt::sample;
     mount(s, d);
     s.compare = {{over(MetricKind::mean, Signal::torque, 0.0125), 0, "test"}};
-    // A sector's mean of the torque of a constant current on a sine: cos d of its greatest.
+    // The current is constant, and the back-EMF is a sine. The mean torque in a sector is then cos d times
+    // its maximum.
     const double best = std::sqrt(3.0) * K_e * 3.0 * 3 / base::pi;
     EXPECT_NEAR(figures_of(s)[0] / best, std::cos(d * deg), 0.03) << d;
   }
@@ -167,7 +170,8 @@ TEST(Believed, WithHallProbesTheSpeedReadsByTheRatioOfThePolePairs) {
   }
 }
 
-/// The electrical angle p_f theta leaves the magnet's p_m theta by 360 degrees per turn and pole pair.
+/// The believed electrical angle p_f theta and the true angle p_m theta drift apart by 360 degrees per turn
+/// and pole pair of difference.
 TEST(Believed, WithAShaftSensorWrongPolePairsMakeTheMeanTorqueZero) {
   for (const RotorSensing kind : kinds) {
     Scenario s = on_dynamometer(kind, 3.0, 100);
@@ -182,7 +186,8 @@ TEST(Believed, WithAShaftSensorWrongPolePairsMakeTheMeanTorqueZero) {
   }
 }
 
-/// e[n] of the PI of a believed inductance on the true winding, held over each period.
+/// The errors e[n] of a PI that is designed for the believed inductance, on the true winding. The voltage is
+/// constant over each period.
 std::vector<double> step_errors(double L_believed_H, double L_H, double R_ohm, double w, double T,
                                 int ticks) {
   const double a_f = std::exp(-R_ohm * T / L_believed_H), a_m = std::exp(-R_ohm * T / L_H);
@@ -213,12 +218,13 @@ TEST(Believed, AWrongInductanceMovesThePolesOfTheLoopThatWasPlaced) {
     const std::vector<double> error = step_errors(part * L, L, R, w, T, static_cast<int>(read.size()));
     for (std::size_t n = 0; n < read.size(); ++n)
       EXPECT_NEAR(1 - read[n] / 2.0, error[n], 2e-3) << part << ", tick " << n;
-    // While R T/L is small the first change is w T part, as if the bandwidth were that part.
+    // If R T/L is small, the first change of the current is w T times `part`, as if the bandwidth were w
+    // times `part`.
     EXPECT_NEAR((1 - error[1]) / (1 - std::exp(-w * T)), part, 0.06 * part);
   }
 }
 
-/// The torque limit divided by the believed constant is the current.
+/// The drive's current limit is the torque limit divided by the believed torque constant.
 TEST(Believed, AWrongTorqueConstantChangesTheTorquePerAmpere) {
   Scenario s = cascade(5e-3);
   s.control.speed.torque_limit_Nm = 0.1;
@@ -246,7 +252,7 @@ std::vector<Scenario> drives() {
   return {cascade(), hall, field, weak, sensorless, fixed};
 }
 
-/// Every value of the sheet as a belief.
+/// Sets every believed value to the value of the sheet.
 void believe_all(Scenario& s, const design::Sheet& sheet) {
   Believed& b = s.believed;
   b.pole_pairs = sheet.pole_pairs;
@@ -268,7 +274,8 @@ TEST(Believed, TheTruthGivesTheBitsOfNoBelief) {
   }
 }
 
-/// A motor A whose drive believes in B has the controller of B, to the bit, and the plant of A.
+/// If the drive of a motor A believes in the values of a motor B, its controller is the controller of B to
+/// the last bit. Its plant is the plant of A.
 TEST(Believed, TheControllerFollowsFromTheBeliefsAndThePlantFromTheMotor) {
   for (const Scenario& s : drives()) {
     Scenario other = s;
@@ -317,7 +324,8 @@ TEST(Believed, ASensorsZeroOffsetKeepsTheBits) {
   }
 }
 
-/// A drive that knows of exchanged wires takes them back; a drive that does not drives other pairs.
+/// If the believed table of the Hall lines matches the exchanged wires, the drive runs as with straight
+/// wires. If the table does not match, the drive energises wrong pairs.
 TEST(Believed, AHallTableThatFitsTheWiresTakesThemBack) {
   const auto final_speed = [](rig::WireOrder wires, rig::WireOrder table) {
     Scenario s = cascade(40e-3);

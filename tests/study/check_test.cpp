@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// check() finds each contradiction, names its key, and accepts a valid scenario.
+// check() finds each contradiction and names its key. It accepts a valid scenario.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Each test runs in both kernels: a gear with losses selects the general kernel.
+/// Each test runs in both kernels. A gear with losses selects the general kernel.
 class Clamp : public ::testing::TestWithParam<bool> {
  protected:
   static study::Scenario coasting() {
@@ -25,7 +25,7 @@ class Clamp : public ::testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Kernels, Clamp, ::testing::Bool());
 
 /// A random scenario found this case: the clamp grips and releases at one instant. No segment is clamped, but
-/// the kinetic energy is lost.
+/// the kinetic energy is dissipated.
 TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   study::Scenario s = coasting();
   s.initial.speed_rad_s = 60.0;
@@ -42,8 +42,8 @@ TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   EXPECT_LT(std::fabs(outcome->energy->mechanical_residual), 1e-13);
 }
 
-/// Random scenarios found this case: only the cogging torque of the magnets does work, and the clamp
-/// dissipates this energy.
+/// Random scenarios found this case: only the cogging torque of the magnets does work on the rotor, and the
+/// clamp dissipates this energy.
 TEST(ClampOnCogging, TakesWhatTheMagnetsGaveARotorFromRest) {
   study::Scenario s = maxon_scenario(control::Mode::off, 0.0);
   s.sheet.cogging_orders = {48};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commutation error is compared with its cause: the probes' offset, their delay, or the time between an
-// edge and the sample.
+// The commutation error is compared with its cause, which is the offset of the probes, their delay, or the
+// time between an edge and the sample.
 #include <gtest/gtest.h>
 
 #include "sixstep/base/angle.hpp"
@@ -64,7 +64,7 @@ TEST(CommutationError, IsTheAngleOfTheDelay) {
 }
 
 // With commutation at the samples, the error is between 0 and the angle of one period. The rms of a uniform
-// distribution is this angle divided by sqrt(3); 30 commutations determine it within a fifth.
+// distribution is this angle divided by sqrt(3). From 30 commutations, the rms is accurate to a fifth.
 TEST(CommutationError, IsSpreadOverAPeriodAtSamples) {
   Scenario s = turned(61);
   s.pwm.commutation = CommutationAt::sample;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The duty step at commutation, on the switching motor. It must remove the current dip that theory predicts
-// for an unchanged duty, and reduce the torque ripple with a current loop.
+// Tests the duty step at a commutation on the switching motor. With an unchanged duty, theory predicts a
+// current dip. The step must remove this dip, and must reduce the torque ripple of a drive with a current
+// loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ using study::Signal;
 
 constexpr double K_t = 33.5e-3, R = 0.515, L = 0.286e-3, U = 24.0;  // per phase, of maxon_sheet()
 
-/// An external drive turns the motor; the chopping is complementary.
+/// An external drive turns the motor. The chopping is complementary.
 Scenario turned(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A) {
   Scenario s = maxon_scenario(Mode::current, current_A);
   s.pwm.chopping = control::Chopping::complementary;
@@ -41,17 +42,17 @@ void ask_torque(Scenario& s, MetricKind metric, double from_s) {
   ask(s, figure);
 }
 
-/// Current, A, of the staying phase when the leaving phase's current has reached zero. E is the back-EMF of a
-/// phase, I the current before the commutation, u the voltage between the entering and the staying phase. See
-/// model.md 1; the leaving terminal is at the lower rail.
+/// Current, in A, of the staying phase at the instant when the leaving phase's current reaches zero. E is the
+/// back-EMF of a phase, I is the current before the commutation, and u is the voltage between the entering
+/// and the staying phase (model.md 1). The leaving terminal is at the lower rail.
 double after_commutation_A(double E, double I, double u) {
   const double leaving = (u + 2 * E) / (3 * R), staying = (4 * E - u) / (3 * R);
   const double faded = leaving / (leaving + I);  // exp(-t R/L) when the leaving current is zero
   return (I + staying) * faded - staying;
 }
 
-/// The smallest current at the first commutation after the start. Before it the loop has settled, and from
-/// then on its duty is constant.
+/// The smallest current at the first commutation after the start. The loop has settled before this
+/// commutation, and its duty is constant from then on.
 double least_current_A(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s,
                        double current_A) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
@@ -87,7 +88,8 @@ TEST(CommutationStep, LeavesNothingOfTheDipThatTheoryForetells) {
       }
 }
 
-/// If 4 E + 3 R I exceeds U, even full duty is too small; overlapping keeps the current.
+/// If 4 E + 3 R I exceeds the bus voltage U, even full duty is too small (back-EMF E, current I). Overlapping
+/// then keeps the current.
 TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
   for (const double speed_rad_s : {370.0, 430.0})
     for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper, PwmPattern::on_pwm}) {
@@ -101,7 +103,7 @@ TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
     }
 }
 
-/// The torque ripple with the drive's current loop at its usual period.
+/// The torque ripple of a drive with its current loop at the usual period.
 double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A,
                  int delay_periods, study::Arithmetic arithmetic = study::Arithmetic::float64) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
@@ -113,8 +115,8 @@ double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double spee
   return out ? out->comparisons[0].measured : 0.0;
 }
 
-/// At speeds where full duty is too small, overlapping also reduces the ripple with the current loop, as far
-/// as the bus allows.
+/// At speeds at which full duty is too small, overlapping also reduces the torque ripple with the current
+/// loop. The bus voltage limits this effect.
 TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
   for (const double speed_rad_s : {350.0, -400.0, 450.0, -500.0})
     for (const int delay_periods : {0, 1}) {
@@ -129,8 +131,8 @@ TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
     }
 }
 
-/// The step reduces the ripple if a commutation lasts several periods. It leaves the ripple about equal if a
-/// commutation lasts one period. It does not change the run of a braked motor.
+/// The step reduces the ripple if a commutation lasts several periods. If a commutation lasts one period, the
+/// ripple is about equal. For a braked motor, the step changes nothing.
 TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
   using enum PwmPattern;
   for (const double speed_rad_s : {50.0, -150.0, 300.0})
@@ -148,7 +150,7 @@ TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
       }
 }
 
-/// The torque ripple in the chip's arithmetic is compared with the ripple in double; the bound is the torque
+/// The torque ripple in the chip's arithmetic is compared with the ripple in double. The bound is the torque
 /// of 0.02 A.
 TEST(CommutationStep, InTheNumbersOfAChip) {
   for (const study::Arithmetic arithmetic :
@@ -157,9 +159,9 @@ TEST(CommutationStep, InTheNumbersOfAChip) {
                 ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1), 0.02 * K_t);
 }
 
-/// The remark appears exactly in runs that equal the plain run bit for bit. The leaving phase's current lasts
-/// L I/u at most, u = 2 E + 3 R I/2. The drive applies no step to commutations that are shorter than the
-/// command's delay, nor in a braked or resting motor.
+/// The remark is printed exactly if the bits of the run are equal to the run without a step. The current of
+/// the leaving phase lasts at most L I/u, with u = 2 E + 3 R I/2 (back-EMF E, current I). The drive applies
+/// no step if this time is shorter than the command's delay, or if the motor is braked or at rest.
 TEST(CommutationStep, TellsARunInWhichItNeverActs) {
   for (const double speed_rad_s : {0.0, 60.0, 300.0})
     for (const double current_A : {0.5, 3.0, -3.0})
@@ -187,8 +189,8 @@ TEST(CommutationStep, TellsARunInWhichItNeverActs) {
       }
 }
 
-/// With a pattern that chops the staying leg, the current has a larger peak and a deeper dip than with
-/// PWM-ON; a remark says so.
+/// If the pattern chops the staying leg, the current has a larger peak and a deeper dip than with PWM-ON. A
+/// remark states this.
 TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   struct Seen {
     double least_Nm, most_A;
@@ -224,8 +226,9 @@ TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   }
 }
 
-/// With an overlap longer than a sector, the torque is below that of the duty step. The speed limit follows
-/// from the rate at which the leaving current falls, U - 2 E - 3 R I/2. Above it the run has a remark.
+/// If the overlap is longer than a sector, the torque is lower than with the duty step. The speed limit
+/// follows from the voltage that reduces the leaving current, U - 2 E - 3 R I/2. Above this speed, the run
+/// has a remark.
 TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
   const double current_A = 5.0;
   const double limit_rad_s = (U - 1.5 * R * current_A) / (8 * L * current_A / base::sector_rad + K_t);
@@ -252,8 +255,8 @@ TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
   }
 }
 
-/// If the duty is 1 with and without the duty step, the bits are the same, and the run says so for each
-/// pattern. At a lower speed the step has an effect.
+/// If the duty is 1 with and without the duty step, the bits are the same, and a remark says so for each
+/// pattern. At a lower speed, the step has an effect.
 TEST(CommutationStep, IsIdleWhereTheDutyIsOneAnyway) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper})
     for (const double speed_rad_s : {200.0, 640.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two speed cascades whose motors differ by a part in 1e12: the distance between their trajectories is the
-// best agreement that a comparison with another solver can require.
+// Two speed cascades whose motors differ by a part in 1e12. The distance between their trajectories is a
+// lower limit of the agreement that a comparison with another solver can require.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ struct Rows {
   void segment(const rig::LeanRig<double>& rig, double s) { grid.segment(rig, s); }
 };
 
-/// Phase currents and speed of the thesis's speed cascade from rest to 100 rad/s (reference case R8). Only
-/// K_e is changed.
+/// Phase currents and speed of the thesis's speed cascade from rest to 100 rad/s (reference case R8). The
+/// factor changes only K_e.
 std::vector<std::vector<double>> cascade(double K_e_factor) {
   Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   s.duration_s = 0.2;
@@ -76,12 +76,12 @@ TEST(Pitfall13_Conditioning, TheSpeedCascadeAmplifiesATwelfthDigit) {
       "K_e 1e-12 larger: currents apart by %.1e A, %.0f-fold of the stall current; speed by %.1e rad/s\n",
       twelfth.current_A, twelfth.current_A / (1e-12 * 24.0 / 1.03), twelfth.speed_rad_s);
   std::printf("one bit larger: currents apart by %.1e A\n", bit.current_A);
-  // This cascade is compared at 1e-9 A. Two solvers that read K_e with twelve digits may differ by more than
-  // 1e-9 A; two solvers that compute in double from the same bits may not.
+  // The tolerance for this cascade is 1e-9 A. Two solvers that read K_e with twelve digits may differ by
+  // more. Two solvers that compute in double from the same bits may not.
   EXPECT_GT(twelfth.current_A, 1e-9);
   EXPECT_LT(bit.current_A, 1e-9);
-  // The problem amplifies the difference, not the solver: ten times the change gives ten times the distance,
-  // apart from the rounding that a change of one bit shows.
+  // The problem itself amplifies the difference, not the solver: ten times the change gives ten times the
+  // distance. The tolerance is the rounding that a change of one bit shows.
   EXPECT_NEAR(eleventh.current_A / 10, twelfth.current_A, 2 * bit.current_A);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadbeat current control and feedback of the staying phase's current, on the switching motor: the number of
-// periods of a step, and the remaining ripple of commutation.
+// Tests deadbeat current control and the feedback of the staying phase's current on the switching motor. The
+// figures are the number of periods of a step, and the remaining ripple of commutation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,9 +27,9 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// A step of 1 A with a held rotor is complete after the delay and one period. A pulse at the beginning of
-/// its period has another effect than a voltage over the whole period: the error is at most R T/L of the
-/// step.
+/// With a locked rotor, a step of 1 A is complete after the delay and one period. A pulse at the beginning of
+/// its period and a voltage over the whole period have different effects. The difference is at most R T/L of
+/// the step (resistance R, period T, inductance L).
 TEST(Deadbeat, AStepIsThereAPeriodAfterTheAnswerBegins) {
   for (const auto arithmetic : {study::Arithmetic::float64, study::Arithmetic::float32,
                                 study::Arithmetic::q15, study::Arithmetic::q31})
@@ -53,8 +53,8 @@ struct Torque {
   double most, least, ripple_rms;
 };
 
-/// An external drive turns the motor at 150 rad/s. The drive controls 3 A, 0.1 N m, with complementary
-/// chopping.
+/// An external drive turns the motor at 150 rad/s. The drive controls 3 A, which is 0.1 N m, with
+/// complementary chopping.
 Torque torque_of(CurrentLoopType type, CurrentFeedback feedback) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -76,7 +76,7 @@ Torque torque_of(CurrentLoopType type, CurrentFeedback feedback) {
 
 /// A commutation halves the mean of the new pair's currents. A loop that measures this mean reacts at once:
 /// the deadbeat loop within a period, the PI controller within its settling time. The staying phase's current
-/// shows the present torque, but not the coming dip.
+/// is proportional to the present torque, but it does not predict the dip.
 TEST(Deadbeat, TakesOffTheRippleOfCommutation) {
   using enum CurrentFeedback;
   const Torque pi = torque_of(CurrentLoopType::pi, mean),

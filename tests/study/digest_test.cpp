@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One trajectory has one digest: in repeated runs, in several threads, with and without observers, run at
-// once or resumed.
+// One trajectory has one digest: in repeated runs, in several threads, with and without observers, and if a
+// run is resumed from a snapshot.
 #include "sixstep/study/measure/digest.hpp"
 #include "sixstep/base/hash.hpp"
 
@@ -28,8 +28,8 @@ using control::Mode;
 using Rig = rig::LeanRig<double>;
 static_assert(std::is_copy_constructible_v<Rig>, "a copy of the rig is its snapshot");
 
-/// A scenario with states that a snapshot could omit: a loop designed by its settling time, a bus with R and
-/// C, and dead time.
+/// A scenario whose states a snapshot could omit: a loop that is designed by its settling time, a bus with R
+/// and C, and dead time.
 Scenario rich() {
   Scenario s = current_square();
   s.control.current.d1 = s.control.current.d0 = std::nullopt;
@@ -60,7 +60,7 @@ std::uint64_t digest_of(const Scenario& s, const Listeners& listeners = {}) {
   return run(s, listeners).operator*().digest;
 }
 
-/// A digest of only the end state, to compare runs with and without observers.
+/// A digest of the end state only. Runs with and without observers can be compared by it.
 std::uint64_t end_state(const Rig& rig) { return Digest{}.after(rig); }
 
 /// Calls each(rig, digest) at every control tick, after the tick's event.
@@ -143,8 +143,9 @@ TEST(Digest, GoesOnFromASnapshotAtAnyTick) {
   }
 }
 
-/// States of a sensed and of a product firmware that a snapshot could omit: noise, offsets, captured edges,
-/// the one-shunt measurement's memory, filters, fault counters, a changing reference and later events.
+/// Scenarios with states of a sensed firmware and of a product firmware that a snapshot could omit. The
+/// states are noise, offsets, captured edges, the memory of the one-shunt measurement, filters, fault
+/// counters, a changing reference and later events.
 Scenario one_shunt() {
   Scenario s = current_square();
   s.control.current = {.settle_s = 1e-3, .damping = 0.9};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[at]]: a change during a run acts at its instant, follows the physical law, and has the same effect under
+// A change [[at]] during a run acts at its instant and follows the physical law. It has the same effect under
 // each of its names.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using study::At;
 using study::Scenario;
 using study::Shape;
 
-/// Rows of t and one column on a grid.
+/// Rows on a grid, each with the time and one column.
 std::vector<std::pair<double, double>> curve(Scenario s, const char* column, double grid_s) {
   s.record.grid_s = grid_s;
   s.record.columns = {column};
@@ -67,8 +67,8 @@ TEST(Events, AStepOfAStiffSupplyDrivesTheHeldMotorFromThereOn) {
 }
 
 TEST(Events, ASourceBehindItsResistanceIsFollowedAndMayCeaseToSink) {
-  // No current is drawn: the bus follows the source with R C = 1 ms. While the source cannot sink, a bus
-  // voltage above the source's voltage is constant.
+  // No current is drawn, so the bus follows the source with R C = 1 ms. While the source cannot sink, a bus
+  // voltage above the source's voltage remains constant.
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.duration_s = 5e-3;
   s.supply = {.voltage_V = 24.0, .resistance_ohm = 0.5, .capacitance_F = 2e-3};
@@ -103,8 +103,8 @@ TEST(Events, AClampTakesTheKineticEnergyAndLetsGoFromRest) {
   const study::Outcome out = outcome_of(s);
   ASSERT_TRUE(out.energy);
   EXPECT_LT(std::fabs(out.energy->mechanical_residual), 1e-12);
-  // The load's work and the stored energy become friction and clamp losses, except the kinetic energy at the
-  // end.
+  // The work of the load and the stored energy become friction and clamp losses, except for the kinetic
+  // energy at the end.
   EXPECT_GT(out.energy->friction, 0.5 * J * 190.0 * 190.0);
 }
 
@@ -121,8 +121,8 @@ TEST(Events, AClearedFaultLetsTheProductDriveRunAgain) {
   const auto out = study::run(s, {.on_event = std::ref(again)});
   ASSERT_TRUE(out && out->trip);
   EXPECT_EQ(out->trip->reasons.at(0), "under-voltage");
-  // The speed returns to the reference within the ripple of a speed that is measured by edges: one count of 1
-  // MHz in 1309 us.
+  // The speed returns to the reference. The tolerance is the ripple of a speed that is measured by edges: one
+  // count of 1 MHz in 1309 us.
   EXPECT_NEAR(again.last_speed, 100.0, 2.0);
   s.at[2].request = study::DriveRequest::off;  // the drive stays off without clearing
   ASSERT_TRUE(study::run(s, {.on_event = std::ref(never)}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The export gate refuses each quantity that the drive reads but the run does not measure, and no others.
+// The export gate refuses each quantity that the drive reads but that the run does not measure. It refuses no
+// other quantity.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ std::vector<std::string> wheres(const base::Problems& problems) {
   return out;
 }
 
-/// A scenario with a requirement and with a board's measurements.
+/// A scenario with a requirement and with the measurements of a board.
 Scenario on_a_board(Mode mode) {
   Scenario s = maxon_scenario(mode, mode == Mode::duty ? 0.5 : 3.0);
   s.sensors = board_sensors();
@@ -66,7 +67,7 @@ TEST(ExportGate, IdealSensorsAreRefusedWhereTheDriveReadsThem) {
   EXPECT_THAT(unmeasured(s), IsEmpty()) << "nothing is read";
 }
 
-/// The first message is complete: after its cure, neither the check nor the gate refuses anything.
+/// The first message is complete: after its remedy, neither the check nor the gate refuses anything.
 TEST(ExportGate, TheCureOfAnotherSensorIsAllThatHasToChange) {
   const Scenario usual = on_a_board(Mode::position);
   for (const study::RotorSensing rotor :
@@ -120,8 +121,8 @@ TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
   EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
 }
 
-/// With every kind of chopping, a reversal changes a leg from one switch to the other, which needs a dead
-/// time.
+/// With every kind of chopping, a reversal changes a leg from one switch to the other. This change needs a
+/// dead time.
 TEST(ExportGate, ADriveWithoutDeadTimeIsRefused) {
   for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
     for (const auto chopping :
@@ -192,7 +193,8 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
-/// The timer counts whole microseconds: it rounds a dead time of 0.4 us to zero and one of 1.4 us to 1 us.
+/// The timer counts whole microseconds. It rounds a dead time of 0.4 us to zero, and a dead time of 1.4 us to
+/// 1 us.
 TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   Scenario s = on_a_board(Mode::current);
   s.pwm.timer_Hz = 1e6;
@@ -210,7 +212,8 @@ TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   }
 }
 
-/// The converter's range ends at the current. The lean drive has no fault that would report this.
+/// The range of the converter ends at the controlled current. The lean drive has no fault that would report
+/// this.
 TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);
   s.duration_s = 5e-3;
@@ -224,7 +227,7 @@ TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("and the converter measures only up to"));
 }
 
-/// The drive reads a bus of 24 V as 12 V, where its converter's range ends.
+/// The range of the bus converter ends at 12 V, so the drive reads a bus of 24 V as 12 V.
 TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);
   s.duration_s = 5e-3;
@@ -240,8 +243,8 @@ TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
     }
 }
 
-/// The kinetic energy J/2 (500^2 - 71^2), less the losses in the winding, charges the capacitor by C/2 (U^2 -
-/// 24^2): the bus is between 24 V and this U.
+/// The kinetic energy J/2 (500^2 - 71^2) (inertia J) charges the capacitor C by C/2 (U^2 - 24^2). The losses
+/// in the winding reduce this energy. The bus voltage is therefore between 24 V and this U.
 TEST(ExportGate, ABusThatBrakingRaisesStandsAgainstIt) {
   Scenario s = on_a_board(Mode::speed);
   s.reference = {};
@@ -289,7 +292,7 @@ TEST(ExportGate, ALimitOfTheBusBeyondItsConverterIsRefused) {
 }
 
 /// The scenario never stops the drive, but the first test on the bench does. The rotor's 0.6 J would return
-/// to 0.1 mF, which stores only 0.03 J up to the threshold, unless the supply sinks the energy.
+/// to 0.1 mF. This capacitor stores only 0.03 J up to the threshold, so the supply must sink the rest.
 TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
   Scenario s = braking_onto_a_small_bus();
   for (const bool sinks : {true, false}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thresholds of the protection that never act, act too late, or stop a sound run. The run does not reach
-// them, so that only the export gate reports them.
+// Thresholds of the protection may never act, act too late, or stop a sound run. The runs do not reach these
+// thresholds, so only the export gate can report them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::vector<std::string> unmeasured(const Scenario& s) {
   return out;
 }
 
-/// The torque limit is 0.195 N m, which corresponds to 5.82 A.
+/// The torque limit is 0.195 N m. It corresponds to 5.82 A.
 Scenario limited_by_torque() {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.pwm.delay_periods = 1;
@@ -41,7 +41,7 @@ Scenario limited_by_torque() {
   return s;
 }
 
-/// A held rotor draws at most the speed loop's limit, 0.195 N m/(33.5 mNm/A).
+/// With a locked rotor, the current is at most the limit of the speed loop, 0.195 N m/(33.5 mNm/A).
 TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.protection.stall_s = 0.1;
@@ -62,8 +62,8 @@ TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
   EXPECT_THAT(unmeasured(s), IsEmpty());
 }
 
-/// The smallest of the drive's limits is its largest command. A threshold below this current stops a sound
-/// run.
+/// The drive has several limits, and the smallest limit is its largest command. An over-current threshold
+/// below this current stops a sound run.
 TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.protection.stall_current_A.reset();
@@ -86,8 +86,8 @@ TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   EXPECT_EQ(told(3.1), "");
 }
 
-/// The longest stall that the winding withstands follows from the thermal model: the closed-form time in
-/// which I^2 R heats the cold winding to its limit. This time is finite, and longer than without any cooling.
+/// The thermal model gives the longest stall that the winding withstands. In this time, I^2 R heats the cold
+/// winding to its limit. The closed form is finite and longer than the time without any cooling.
 TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   Scenario s = product_scenario(Mode::current, 15.0);
   s.pwm.delay_periods = 1;
@@ -102,7 +102,7 @@ TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   const double capacity = thermal->winding_s / thermal->winding_housing_K_W;
   const double watts = 15.0 * 15.0 * 1.03;
   const double uncooled_s = capacity * (thermal->max_winding_degC - 25) / watts;
-  // Warm copper has a higher loss: up to 1.4 times at 125 degC.
+  // Warm copper has a higher loss, up to 1.4 times at 125 degC.
   for (const double stall_s : {uncooled_s / 1.5, uncooled_s * 1.5}) {
     s.protection.stall_s = stall_s;
     if (stall_s < uncooled_s)
@@ -112,8 +112,9 @@ TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   }
 }
 
-/// At the other end of the thermal ranges, the winding's heat capacity is lower. The shorter time is the
-/// limit. Its lower bound is the time of heating without any cooling at this end.
+/// At the other end of the thermal ranges, the heat capacity of the winding is lower, so the permissible time
+/// is shorter. The limit is the shorter time. It is longer than the time of heating without any cooling at
+/// this end.
 TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
   Scenario s = limited_by_torque();
   s.protection.stall_current_A = 4.0;
@@ -132,7 +133,8 @@ TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
   s.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
   s.sheet.thermal_resistance_winding_housing_K_W->range = base::Interval{4.0, 5.3};
   const double by_ends_s = first_refused();
-  // Heating without cooling, with the copper loss at the final temperature, is the shortest possible time.
+  // The shortest possible time is the time of heating without cooling, with the copper loss at the final
+  // temperature.
   EXPECT_LT(by_ends_s, 0.6 * by_values_s);
   EXPECT_GT(by_ends_s, 11.7 / 5.3 * 100 / (1.393 * watts));
   s.sheet.thermal_time_constant_winding_s = base::Quantity{11.7, "", ""};
@@ -140,8 +142,8 @@ TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
   EXPECT_NEAR(first_refused() / by_ends_s, 1, 1e-5) << "a motor file with these values says the same";
 }
 
-/// An accepted offset reduces the converter's range in one direction: the remaining range must include the
-/// over-current.
+/// An accepted offset reduces the range of the converter in one direction. The remaining range must contain
+/// the over-current threshold.
 TEST(ExportProtection, AnAcceptedOffsetLeavesTheRangeThatTheOverCurrentNeeds) {
   Scenario s = limited_by_torque();
   const double range_A = *s.sensors.current_range_A;
@@ -155,7 +157,7 @@ TEST(ExportProtection, AnAcceptedOffsetLeavesTheRangeThatTheOverCurrentNeeds) {
     }
 }
 
-/// The gate charge divided by the driver's current is the time until a switch is off.
+/// The time until a switch is off is the gate charge divided by the driver's current.
 TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.bridge.gate_current_A = 0.1;
@@ -183,8 +185,8 @@ TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
   EXPECT_NE(study::short_dead_time(s), "");
 }
 
-/// The gate names each check for which the sheet lacks a line, and does not name it if the sheet has the
-/// line.
+/// If the sheet lacks a line that a check needs, the gate names the check. If the sheet has the line, the
+/// gate does not name the check.
 TEST(ExportProtection, AChecksMissingLineIsNamed) {
   using ::testing::HasSubstr;
   Scenario s = limited_by_torque();

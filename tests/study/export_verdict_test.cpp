@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reasons to refuse a header although the run meets every requirement: the verdict on the design, or a loop
-// that is unstable with a large inertia. The advised cures must remove these reasons.
+// A header is refused in two cases although the run meets every requirement: the verdict on the design is
+// bad, or a loop is unstable with a large inertia. The remedy in the message must make the refusal disappear.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,8 +34,8 @@ TEST(ExportVerdict, WhatItsDesignFoundStandsAgainstIt) {
   EXPECT_THAT(study::run(s)->remarks, Contains(HasSubstr("NOT USABLE: the loop never settles")));
 }
 
-/// The loop as a recurrence, sample by sample: i' = a i + (1 - a)/R u, u' = u + d1 e + d0 e_before, with
-/// `late` periods of delay. The result is true if the current grows.
+/// The loop as a recurrence, sample by sample: i' = a i + (1 - a)/R u and u' = u + d1 e + d0 e_before
+/// (current i, voltage u, error e), with `late` periods of delay. Returns whether the current grows.
 bool grows(double d1, double d0, double R, double L, double T, int late) {
   const double a = std::exp(-R * T / L), b = (1 - a) / R;
   double i = 1.0, u = 0.0, e_before = 0.0, waits = 0.0, first = 0.0, last = 0.0;
@@ -69,7 +69,7 @@ TEST(ExportVerdict, ALoopIsUnstableWhereItsRecurrenceGrows) {
   EXPECT_LT(unstable, 13);
 }
 
-/// A steady speed hides a current that oscillates.
+/// The speed is steady although the current oscillates.
 TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.1;
@@ -92,8 +92,8 @@ TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
   }
 }
 
-/// The drive brakes with a bus that cannot sink. The advised cure, a larger capacitor, works; a smaller
-/// braking current does not.
+/// The drive brakes, and the bus cannot sink the energy. The advised larger capacitor removes the problem. A
+/// smaller braking current does not.
 TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
   Scenario s = braking_onto_a_small_bus();
   s.supply.sinks = false;
@@ -113,7 +113,8 @@ TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
   EXPECT_THAT(unheld(s), IsEmpty());
 }
 
-/// A stall current lowered as the cure says must satisfy the check, also with a coarse converter.
+/// The stall current is lowered as the message says. It must then pass the check, even with a coarse
+/// converter.
 TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
   for (const int bits : {12, 6, 5, 4}) {
     Scenario s = product_scenario(Mode::speed, 100.0);
@@ -142,9 +143,9 @@ TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
   }
 }
 
-/// Braking and the energy of the windings raise the bus until shortly after the trip. The load then turns the
-/// coasting rotor backwards, J dw/dt = M - B w. If its back-EMF raises the bus further, the message must name
-/// the load as the cause of the highest voltage.
+/// Until shortly after the trip, braking and the energy of the windings raise the bus. Then the load turns
+/// the coasting rotor backwards, J dw/dt = M - B w (load M, friction B). If the back-EMF raises the bus
+/// further, the message must name the load as the cause of the highest voltage.
 TEST(ExportVerdict, ABusThatALoadRaisesAfterATripIsNotBlamedOnBraking) {
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.pwm.delay_periods = 1;

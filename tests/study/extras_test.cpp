@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A product's extras inside the loops (control/drive_extras.hpp), from a scenario, in full switching
-// simulation of the reference motor. Each test compares a run with the extra and a run without it.
+// A scenario switches on a product's extra functions inside the loops (control/drive_extras.hpp). The tests
+// simulate the reference motor with full switching. Each test compares a run with the extra and a run without
+// it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,17 +35,17 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// Integral gain of the designed current loop, per sample.
+/// Integral gain of the designed current loop for one sample.
 double K_i(const Scenario& s) {
   const auto compiled = study::compile(s);
   return compiled->drive.current.d1 + compiled->drive.current.d0;
 }
 
 TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
-  // The current is 5 A into the held rotor, u = R i = 5.15 V. The bus falls from 36 V to 24 V less the drop
-  // over 1 ohm, with tau = 20 ms. With the nominal bus the loop must command u 24 V/U, which rises at the
-  // rate u 24 V |U'|/U^2. The steady error of the integral behind this ramp is the ramp's slope times T/K_i.
-  // At 5 ms, with 0.86 A drawn: U = 23.14 V + 12.86 V exp(-1/4).
+  // The current is 5 A, the rotor is locked, and u = R i = 5.15 V. The bus U falls from 36 V to 24 V minus
+  // the drop across 1 ohm, with tau = 20 ms. If the loop uses the nominal bus, it must command u 24 V/U,
+  // which rises at the rate u 24 V |U'|/U^2. The integral lags behind this ramp by an error of the ramp's
+  // slope times T/K_i. At 5 ms, with 0.86 A from the supply, U = 23.14 V + 12.86 V exp(-1/4).
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
   s.initial.angle_rad = 0.02;
@@ -65,9 +66,9 @@ TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
 }
 
 TEST(Extras, BackEmfFeedForwardTakesTheRampOfTheSpeedFromTheLoop) {
-  // The current is 5 A into the free rotor. The back-EMF rises at the rate K_t^2 i/J, and the integral lags
-  // by K_t^2 i/J T/K_i. Commutations saturate the loop and cost more current, but equally in both runs: the
-  // difference of the samples' means shows the lag.
+  // The current is 5 A, and the rotor is free. The back-EMF rises at the rate K_t^2 i/J, and the integral
+  // lags by K_t^2 i/J T/K_i. Commutations saturate the loop and reduce the current further, but equally in
+  // both runs. The difference between the means of the samples is therefore the lag.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.duration_s = 30e-3;
   study::Measure mean = window(MetricKind::mean, Signal::current, 2e-3, 30e-3);
@@ -82,8 +83,8 @@ TEST(Extras, BackEmfFeedForwardTakesTheRampOfTheSpeedFromTheLoop) {
 }
 
 TEST(Extras, ASlewedSetpointAsksForItsSlopeOfTorque) {
-  // A slope of 1000 rad/s^2 needs the torque J w' + B w, measured over the middle of the ramp. The speed
-  // follows within its ripple of some 0.5 rad/s, which is 1 % of the ramp's 60 ms at either end.
+  // A slope of 1000 rad/s^2 needs the torque J w' + B w, which is measured over the middle of the ramp. The
+  // speed has a ripple of some 0.5 rad/s. This is 1 % of the ramp's 60 ms at either end.
   Scenario s = maxon_scenario(Mode::speed, 100.0);
   s.duration_s = 0.15;
   ask(s, window(MetricKind::mean, Signal::torque, 20e-3, 80e-3));
@@ -105,8 +106,8 @@ TEST(Extras, LimitsOfCurrentAndTorqueAreTheReference) {
 }
 
 TEST(Extras, OwnTorqueDoesNotPassTheLimitOfSpeed) {
-  // 2 A without a load. The speed limit's gain is K = J/(K_t 1 ms). With friction B the speed is w = w_limit
-  // K K_t/(K K_t + B).
+  // The current is 2 A, without a load. The gain of the speed limit is K = J/(K_t 1 ms) (inertia J). With the
+  // friction B, the speed is w = w_limit K K_t/(K K_t + B).
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.duration_s = 0.1;
   ask(s, window(MetricKind::mean, Signal::speed, 0.08, 0.1));
@@ -117,23 +118,23 @@ TEST(Extras, OwnTorqueDoesNotPassTheLimitOfSpeed) {
   ASSERT_TRUE(out);
   std::printf("speed %.6g, at most %.6g rad/s\n", out->comparisons[0].measured, out->comparisons[1].measured);
   const double K_K_t = J / 1e-3;
-  // The loop controls the sampled current, which is up to half a ripple, U T/(8 L), below the mean current.
-  // The speed error is half the ripple divided by K.
+  // The loop controls the sampled current. The sample is below the mean current by up to half a ripple, U
+  // T/(8 L). The speed error is half the ripple divided by K.
   const double half_ripple_A = 24.0 * T / (8 * L);
   EXPECT_NEAR(out->comparisons[0].measured, 100.0 * K_K_t / (K_K_t + B), half_ripple_A * K_t / K_K_t);
-  // The reference falls as the speed rises. The current lags by its settling time: the overshoot is less than
-  // the speed that full torque adds in this time.
+  // The reference falls as the speed rises, and the current lags by its settling time. The overshoot is less
+  // than the increase of the speed at full torque in this time.
   EXPECT_LT(out->comparisons[1].measured, 100.0 + K_t * 2.0 / J * 1e-3);
 }
 
-/// The mean current of a rotor held at 20 rad/s by its inertia, at a duty just above or below zero.
+/// The mean current at a duty just above or below zero. The inertia keeps the rotor at 20 rad/s.
 double current_at(double duty, bool smooth) {
   Scenario s = maxon_scenario(Mode::duty, duty);
   s.duration_s = 80e-3;
   s.initial.speed_rad_s = 20.0;
   s.load.inertia_kg_m2 = 1.0;
   s.control.smooth_chopping.on = smooth;
-  // The window is ten sectors of (pi/24)/20 rad/s, 6.5 ms each.
+  // The window contains ten sectors, each of (pi/24)/20 rad/s = 6.5 ms.
   ask(s, window(MetricKind::mean, Signal::current, 10e-3, 10e-3 + 10 * M_PI / 24 / 20.0));
   return first_figure(s);
 }
@@ -143,9 +144,9 @@ TEST(Extras, SmoothChoppingHasNoStepAtDutyZero) {
   const double soft = current_at(d, false) - current_at(-d, false);
   const double smooth = current_at(d, true) - current_at(-d, true);
   std::printf("from -%g to %g: soft %.4g A, smooth %.4g A\n", d, d, soft, smooth);
-  // After each commutation the current rises with tau = L/R, 0.085 of a sector; meanwhile the measured
-  // current is half of the sum of two phases. At duty 0, soft chopping changes from no current to the current
-  // of short-circuited windings (model.md 4b).
+  // After each commutation, the current rises with tau = L/R, which is 0.085 of a sector. Meanwhile, the
+  // measured current is half of the sum of two phases. At duty 0, soft chopping changes between no current
+  // and the current of short-circuited windings (model.md 4b).
   const double commutation = L / R / (M_PI / 24 / 20.0);
   EXPECT_NEAR(soft, K_t * 20.0 / R, commutation * K_t * 20.0 / R);
   // With smooth chopping the current changes by 2 d U/R.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive without a sensor on its rotor: its estimate of the magnet's angle is compared with
-// the motor's angle.
+// Field-oriented drives without a sensor on the rotor. Their estimate of the magnet's angle is compared with
+// the angle of the motor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ using control::EstimatorPhase;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// A machine with interior magnets: the size of 251601, L_d 0.24 mH, L_q 0.34 mH, iron that saturates.
+/// A machine with interior magnets of the size of the 251601: L_d is 0.24 mH, L_q is 0.34 mH, and the iron
+/// saturates.
 Scenario inner_magnets(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -46,7 +47,7 @@ Scenario inner_magnets(Mode mode, double reference) {
   return s;
 }
 
-/// Phase currents through 12-bit converters of +-10 A, with 5 mA of noise.
+/// The phase currents are measured by 12-bit converters of +-10 A, with 5 mA of noise.
 void with_real_sensors(Scenario& s) {
   s.sensors.currents = rig::CurrentMeasurement::phases;
   s.sensors.current_range_A = 10.0;
@@ -94,7 +95,7 @@ double found_at_s(const std::vector<Look>& looks) {
   return INFINITY;
 }
 
-/// Injection finds the angle and the north pole from any angle. It moves the rotor by no more than the
+/// Injection finds the angle and the north pole from any initial angle. The rotor moves only by the
 /// oscillation that the pulses cause.
 TEST(FieldEstimate, InjectionFindsAngleAndNorthFromAHundredRandomAngles) {
   constexpr unsigned seed = 20261126;
@@ -116,7 +117,7 @@ TEST(FieldEstimate, InjectionFindsAngleAndNorthFromAHundredRandomAngles) {
   }
 }
 
-/// If L_d exceeds L_q, the pulse's response has the other sign.
+/// If L_d exceeds L_q, the response to the pulse has the other sign.
 TEST(FieldEstimate, InjectionFindsARotorWhoseFluxAxisIsTheLargerOne) {
   for (const double angle : {0.05, 0.4, 0.75}) {
     Scenario s = inner_magnets(Mode::current, 0.0);
@@ -127,8 +128,8 @@ TEST(FieldEstimate, InjectionFindsARotorWhoseFluxAxisIsTheLargerOne) {
   }
 }
 
-/// A speed loop with the estimated angle: from standstill through the handover, back through standstill, then
-/// in the other direction.
+/// A speed loop uses the estimated angle. The rotor starts from standstill and passes the hand-over. It
+/// brakes through standstill and turns in the other direction.
 template <class Scalar>
 std::vector<Look> reverses(FieldAngle angle, bool real) {
   Scenario s = inner_magnets(Mode::speed, 0.0);
@@ -153,10 +154,10 @@ TEST(FieldEstimate, ItIsHandedFromInjectionToTheFluxAndBack) {
   for (const bool real : {false, true}) {
     const std::vector<Look> looks = reverses<double>(FieldAngle::injection_observer, real);
     ASSERT_FALSE(looks.empty());
-    // During acceleration the angle lags by the loop's design value, 5 degrees, and at the handover by up to
-    // 5 degrees more. Dead time causes voltages that the observer does not measure, 4/3 U t_d/T = 0.32 V. At
-    // 200 rad/s, with a back-EMF of 3.35 V, this adds 5.5 degrees and the converters' noise. The resulting
-    // error of a mean speed over 50 ms is below 2 * 0.1 rad/(8 * 0.05 s).
+    // During acceleration, the angle lags by the design value of the loop, 5 degrees, and at the hand-over by
+    // up to 5 degrees more. Dead time causes a voltage that the observer does not measure, 4/3 U t_d/T = 0.32
+    // V. At 200 rad/s, the back-EMF is 3.35 V, so this voltage adds 5.5 degrees; the noise of the converters
+    // is also added. The resulting error of a mean speed over 50 ms is below 2 * 0.1 rad/(8 * 0.05 s).
     EXPECT_LT(worst_off_deg(looks, 0.09, 0.55), real ? 16.0 : 10.0) << real;
     for (const auto& [from_s, to_s, speed] :
          {std::tuple{0.2, 0.25, 200.0}, std::tuple{0.35, 0.4, -200.0}, std::tuple{0.5, 0.55, 20.0}}) {
@@ -177,7 +178,7 @@ TEST(FieldEstimate, FloatFollowsAsDoubleDoes) {
   EXPECT_LT(worst, 0.5);
 }
 
-/// A round rotor starts at any angle against friction: a rotating current vector turns it, then the observer
+/// A round rotor starts at any angle, against friction. A rotating current vector turns it. Then the observer
 /// follows its flux, in either direction.
 TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   constexpr unsigned seed = 1126;
@@ -207,7 +208,8 @@ TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   }
 }
 
-/// The 251601 with a winding that is warmer than the drive's model. The loop controls the current at any R.
+/// The winding of the 251601 is warmer than in the drive's model. The loop controls the current at any
+/// resistance.
 Scenario observed_251601(double load_Nm, double warmer_K) {
   Scenario s = maxon_scenario(Mode::speed, 200.0);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -230,7 +232,8 @@ Scenario observed_251601(double load_Nm, double warmer_K) {
   return s;
 }
 
-/// 3/2 p psi 2.33 A is 0.0585 N m. The drive guarantees to start against 0.6 of this torque, 0.0351 N m.
+/// At 2.33 A, the torque 3/2 p psi i is 0.0585 N m. The design guarantees a start against 0.6 of this torque,
+/// 0.0351 N m.
 TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
   for (const double load_Nm : {0.03, 0.035})
     for (const double warmer_K : {0.0, 40.0})
@@ -244,7 +247,7 @@ TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
       }
 }
 
-/// The load exceeds the torque of the start current: the drive reports a fault after four starts.
+/// The load exceeds the torque of the start current. The drive reports a fault after four starts.
 TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   Scenario s = observed_251601(0.06, 0.0);
   s.duration_s = 4.0;
@@ -256,8 +259,8 @@ TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   EXPECT_LT(out->simulated_s, 3.0);
 }
 
-/// A zero reference brakes the rotor on purpose. The drive starts the rotor repeatedly without a fault, and
-/// the rotor follows the later reference.
+/// A zero reference stops the rotor on purpose. The drive repeats its start without a fault, and the rotor
+/// follows the later reference.
 TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
   Scenario s = observed_251601(0.005, 0.0);
   s.reference = {};
@@ -270,8 +273,8 @@ TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
   EXPECT_NEAR(looks.back().true_speed_rad_s, 200.0, 5.0);
 }
 
-/// Samples are in the middle of the period: the voltage before a sample is half of one command and half of
-/// the next.
+/// The samples are in the middle of the period. The voltage before a sample is therefore half of one command
+/// and half of the next command.
 TEST(FieldEstimate, TheObserverSeesFromTheMiddleOfThePeriodToo) {
   Scenario s = inner_magnets(Mode::speed, 200.0);
   s.control.field.angle = FieldAngle::observer;
@@ -324,8 +327,8 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
                  "control.field.injection_V", "control.field.angle has no injection");
 }
 
-/// The motor's iron does not saturate, although the drive was designed for iron that saturates. The drive
-/// reports this and stops.
+/// The drive is designed for iron that saturates, but the motor's iron does not saturate. The drive reports
+/// this and stops.
 TEST(FieldEstimate, ADriveThatSeesNoNorthGivesUp) {
   Scenario s = inner_magnets(Mode::current, 1.0);
   s.designed_for = Nominal{s.sheet, s.supply, s.load};

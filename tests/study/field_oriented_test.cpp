@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive in a scenario. Its poles are compared with the designed poles; decoupling, voltage
-// circle, field weakening and torque per ampere are compared with their laws. Real sensors and refusals are
-// tested too. data/scenarios/reference/G15.toml has a trajectory of an independent solver.
+// The field-oriented drive in a scenario. Its poles are compared with the designed poles. Decoupling, voltage
+// circle, field weakening and torque per ampere are compared with their laws. The tests include real sensors
+// and refusals. data/scenarios/reference/G15.toml contains a trajectory of an independent solver.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,8 @@ using namespace sixstep::study;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// The 251601 with a sinusoidal back-EMF of the same peak, 20 kHz, and a delay of one period.
+/// The 251601 with a sinusoidal back-EMF of the same peak. The PWM frequency is 20 kHz, and the delay is one
+/// period.
 Scenario field_oriented(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -60,8 +61,8 @@ std::vector<Tick> ticks_of(const Scenario& s) {
   });
 }
 
-/// The plant of a locked rotor is R and L. The pulses of a voltage are centred in each period; a voltage over
-/// the whole period would change the current by 3e-4 more, (T R/L)^2/24 of a period's change.
+/// The plant of a locked rotor is R and L. The pulses of a voltage are centred in each period. A voltage over
+/// the whole period would change the current by 3e-4 more, which is (T R/L)^2/24 of the change in a period.
 TEST(FieldOriented, ACurrentStepHasThePolesThatWereDesigned) {
   for (const int delay : {0, 1}) {
     Scenario s = field_oriented(Mode::current, 2.0);
@@ -84,7 +85,7 @@ TEST(FieldOriented, ACurrentStepHasThePolesThatWereDesigned) {
 
 constexpr double bandwidth_Hz = 100;
 
-/// The largest |i_d| after a step of i_q, at a speed that an external drive keeps.
+/// The largest |i_d| after a step of i_q. An external drive keeps the speed.
 double largest_i_d(bool decoupling) {
   Scenario s = field_oriented(Mode::current, 0.0);
   s.reference = {};
@@ -102,11 +103,11 @@ double largest_i_d(bool decoupling) {
   return largest;
 }
 
-/// Without decoupling both axes are one complex current: (L s + R + j w_e L) i = L w_b (s + R/L)/s (i* - i).
-/// The poles of its step response are the roots of s^2 + (R/L + w_b + j w_e) s + w_b R/L. The delay adds a
-/// part of 1.5 T w_b. With decoupling the added voltage is 1.5 periods old: the error is 1.5 T times the
-/// slope of I w_e w_b/((s + R/L)(s + w_b)^2). It is less than 1.5 T w_e I/e, because s/(s + w_b)^2 is at most
-/// 1/(e w_b) in time.
+/// Without decoupling, both axes are one complex current: (L s + R + j w_e L) i = L w_b (s + R/L)/s (i* - i),
+/// with the bandwidth w_b. The poles of its step response are the roots of s^2 + (R/L + w_b + j w_e) s + w_b
+/// R/L. The delay adds a part of 1.5 T w_b. With decoupling, the added voltage is 1.5 periods old. The error
+/// is 1.5 T times the slope of I w_e w_b/((s + R/L)(s + w_b)^2). It is less than 1.5 T w_e I/e, because s/(s
+/// + w_b)^2 is at most 1/(e w_b) in time.
 TEST(FieldOriented, DecouplingHoldsTheOtherAxisAtSpeed) {
   using Number = std::complex<double>;
   const double w_e = 8 * 400.0, w_b = 2 * base::pi * bandwidth_Hz, a = 0.515 / 0.286e-3, step_A = 6.0,
@@ -135,8 +136,8 @@ TEST(FieldOriented, TheVectorStaysWithinTheCircleOfTheBus) {
   EXPECT_NEAR(longest, 24 / std::numbers::sqrt3, 1e-9) << "and is used up";
 }
 
-/// A free rotor without load reaches the speed at which the magnet's back-EMF equals the radius of the
-/// voltage circle. With field weakening the rotor exceeds this speed.
+/// A free rotor without load reaches the speed at which the back-EMF of the magnet is equal to the radius of
+/// the voltage circle. With field weakening, the rotor exceeds this speed.
 TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
   Scenario s = field_oriented(Mode::speed, 1100.0);
   s.duration_s = 0.4;
@@ -154,8 +155,8 @@ TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
     EXPECT_LE(std::hypot(tick.reference.d, tick.reference.q), 20.0 * 1.001);
 }
 
-/// With the same reference, a salient rotor has more torque if a part of the current is on the d axis. The
-/// reference is i_q.
+/// The reference is i_q. With the same reference, a salient rotor has more torque per ampere if a part of the
+/// current is on the d axis.
 TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   Scenario s = field_oriented(Mode::current, 12.0);
   s.sheet.inductance_mH = std::nullopt;
@@ -171,13 +172,13 @@ TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   };
   const double with = torque_per_A(true), without = torque_per_A(false);
   EXPECT_NEAR(without, 1.5 * 0.01675, 1e-3 * without) << "i_q alone: 3/2 p psi";
-  // i_d = a - sqrt(a^2 + i_q^2), T = 3/2 p (psi + (L_d - L_q) i_d) i_q
+  // With a = psi/(2 (L_q - L_d)): i_d = a - sqrt(a^2 + i_q^2) and T = 3/2 p (psi + (L_d - L_q) i_d) i_q.
   const double psi = 0.01675 / 8, a = psi / (2 * 0.2e-3), i_d = a - std::hypot(a, 12.0);
   EXPECT_NEAR(with, 1.5 * 8 * (psi - 0.2e-3 * i_d) * 12.0 / std::hypot(i_d, 12.0), 2e-3 * with);
   EXPECT_GT(with, 1.1 * without);
 }
 
-/// The torque is 3/2 p psi i_q at any angle; only the switching causes a ripple.
+/// The torque is 3/2 p psi i_q at any angle. Only the switching causes a ripple.
 TEST(FieldOriented, TheSpeedCascadeReachesItsSpeedInBothFloats) {
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32}) {
     Scenario s = field_oriented(Mode::speed, 300.0);
@@ -220,8 +221,8 @@ TEST(FieldOriented, RunsOnWhatABoardMeasures) {
   }
 }
 
-/// The recorded columns equal the drive's values at its last sample, row by row. The figures of merit use the
-/// same values.
+/// In each row, the recorded columns are equal to the drive's values at its last sample. The figures of merit
+/// use the same values.
 TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   Scenario s = field_oriented(Mode::current, 0.0);
   s.reference = {};
@@ -257,8 +258,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
     }
     EXPECT_NEAR(out->comparisons[k].measured, sum / 80, 1e-13 * 24) << s.record.columns[k];
   }
-  // If the level is not given, the level of i_q is the setpoint. The last sample more than 2 % of the step
-  // away applies to its whole period.
+  // If no level is given, the level of i_q is the setpoint. The last sample that is more than 2 % of the step
+  // away counts for its whole period.
   double last_out_s = 0.0;
   for (const Tick& t : ticks)
     if (t.t_s >= 1e-3 && std::fabs(t.measured.q - 3.0) > 0.02 * 2.0) last_out_s = t.t_s + 50e-6 - 1e-3;
@@ -266,8 +267,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   EXPECT_NEAR(out->comparisons[6].measured, last_out_s, 1e-12);
 }
 
-/// A hand brake with 7 pole pairs, 5.12 mWb and 22.3 uH at 60 V. An external drive turns it until the
-/// magnet's back-EMF is 35.84 V per phase.
+/// A motor with 7 pole pairs, 5.12 mWb and 22.3 uH serves as a hand brake at 60 V. An external drive turns it
+/// until the back-EMF of the magnet is 35.84 V per phase.
 Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   Scenario s = field_oriented(Mode::current, reference_A);
   s.sheet.pole_pairs = 7;
@@ -284,8 +285,8 @@ Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   return s;
 }
 
-/// The plant includes pulses; short_bus_test.cpp has the law. The smallest possible current is (35.84 -
-/// 34.64) V/|Z| = 7.6 A. Without the limitation the current was 460 A.
+/// short_bus_test.cpp contains the law; this test adds PWM pulses. The smallest possible current is (35.84 -
+/// 34.64) V/|Z| = 7.6 A. Without the limitation, the current would be 460 A.
 TEST(FieldOriented, TurnedBeyondTheBusItHoldsItsCurrent) {
   for (const double reference_A : {0.0, 80.0, -80.0})
     for (const std::optional<double> weakening_A : {std::optional<double>{}, std::optional<double>{5.0}}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finite-set law, which selects one of the states of three legs, in a scenario: the distance of the
-// currents from their reference, the turn-ons per second, the rise time of a step, and the effect of a delay.
+// The finite-set law selects one of the states of three legs. The scenarios test the distance of the currents
+// from their reference, the turn-ons per second, the rise time of a step, and the effect of a delay.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,12 +27,12 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr double T = 20e-6, U = 24.0, R = 0.515, L = 0.286e-3, K_e = 0.01675;
-/// b: current that one volt causes over a period, A/V. band_A: largest distance between a reference and the
-/// nearest of the seven possible currents.
+/// b is the current that one volt causes in a period, in A/V. band_A is the largest distance between a
+/// reference and the nearest of the seven possible currents.
 const double b = (1 - std::exp(-R * T / L)) / R, band_A = 2 / (3 * std::numbers::sqrt3) * b * U;
 
-/// The 251601 with a sinusoidal back-EMF of the same peak, 50 kHz. The inertia is so large that the speed is
-/// constant.
+/// The 251601 with a sinusoidal back-EMF of the same peak, at 50 kHz. The inertia is so large that the speed
+/// is constant.
 Scenario finite_set(double reference, double speed_rad_s, int delay) {
   Scenario s = maxon_scenario(Mode::current, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -70,14 +70,14 @@ double farthest_A(const Scenario& s) {
   return most;
 }
 
-/// Error that the rotation x = w_e T within a period causes: x^2/24 of the voltage and the back-EMF.
+/// Error that the rotation by x = w_e T within a period causes: x^2/24 of the voltage and of the back-EMF.
 double turning_A(double speed_rad_s) {
   const double x = 8 * speed_rad_s * T;
   return x * x / 24 * b * U;
 }
 
-/// The radius of the triangles bounds the distance if the steady voltage R I + w K_e is inside the bus's
-/// hexagon by at least this radius.
+/// If the steady voltage R I + w K_e is inside the bus's hexagon by at least the radius of the triangles,
+/// this radius is a bound of the distance.
 TEST(FiniteSet, TheCurrentsStayWithinTheTrianglesOfTheBus) {
   for (const int delay : {0, 1})
     for (const double w : {-100.0, 20.0, 100.0}) {
@@ -95,7 +95,8 @@ TEST(FiniteSet, ADelayThatIsNotMadeUpForIsWorse) {
   EXPECT_GT(farthest_A(s), 1.5 * band_A);
 }
 
-/// The law has no integral: only within the band do the mean current and the mean torque equal the reference.
+/// The law has no integral. The mean current and the mean torque are therefore equal to the reference only
+/// within the band.
 TEST(FiniteSet, MeanCurrentAndTorqueAreThoseAskedForWithinTheBand) {
   for (const int delay : {0, 1}) {
     Scenario s = finite_set(4.0, 100.0, delay);
@@ -109,7 +110,7 @@ TEST(FiniteSet, MeanCurrentAndTorqueAreThoseAskedForWithinTheBand) {
   }
 }
 
-/// A switch turns on at most in every second period.
+/// A switch turns on in at most every second period.
 TEST(FiniteSet, NoSwitchIsFasterThanHalfTheSamples) {
   double fastest = 0.0;
   for (const double w : {20.0, 100.0, 400.0})
@@ -123,7 +124,8 @@ TEST(FiniteSet, NoSwitchIsFasterThanHalfTheSamples) {
   EXPECT_GT(fastest, 0.1 / T) << "it does switch";
 }
 
-/// Without PWM pulses, the drive's switching frequency is the mean of its three upper switches.
+/// Without PWM pulses, the switching frequency of the drive is the mean frequency of its three upper
+/// switches.
 TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   Scenario s = finite_set(4.0, 60.0, 1);
   for (const Signal what : {Signal::current, Signal::gate_T1, Signal::gate_T3, Signal::gate_T5})
@@ -133,8 +135,8 @@ TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   EXPECT_NEAR(f[0], (f[1] + f[2] + f[3]) / 3, 1e-9 / T);
 }
 
-/// A weight on the switching of a leg reduces its turn-ons. The nearest state costs at most three switched
-/// legs, which bounds the distance.
+/// A weight on the switching of a leg reduces the turn-ons. Reaching the nearest state switches at most three
+/// legs, and their weight bounds the additional distance.
 TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   double last = 1 / T;
   for (const double weight : {0.0, 0.6, 1.2}) {
@@ -148,9 +150,9 @@ TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   }
 }
 
-/// With a locked rotor the bus voltage limits the rate of rise: from U/sqrt 3 less R I in the direction of
-/// the smallest reach, to 2/3 U in the direction of the largest. A PI controller with a bandwidth of a
-/// twentieth of the control frequency is slower.
+/// With a locked rotor, the bus voltage limits the rate of rise. It limits the voltage to U/sqrt 3 minus R I
+/// in the direction of the smallest reach, and to 2/3 U in the direction of the largest reach. A PI
+/// controller whose bandwidth is a twentieth of the control frequency is slower.
 TEST(FiniteSet, AStepTakesWhatTheBusAllows) {
   const double I = 8.0;
   const auto rise_s = [&](FieldLaw law, int delay) {
@@ -184,8 +186,8 @@ TEST(FiniteSet, NoStateBeyondThePeakIsTakenWhileAnotherIsLeft) {
   EXPECT_GT(sum / n, 5.0 - 2 * band_A);
 }
 
-/// L_q = 2 L_d: the smaller inductance determines the band. The model omits half of the change that saliency
-/// causes in a period.
+/// With L_q = 2 L_d, the smaller inductance determines the band. The model omits half of the change that
+/// saliency causes in a period.
 TEST(FiniteSet, ASalientRotorStaysWithinTheBandOfItsSmallerInductance) {
   Scenario s = finite_set(4.0, 60.0, 1);
   s.sheet.inductance_mH = std::nullopt;

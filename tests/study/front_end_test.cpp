@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The analogue front end of a scenario, in the loop: the effect of a slow amplifier on a controlled current,
-// and of a divider's capacitor on a bus step.
+// The analogue front end of a scenario within the loop. The tests show the effect of a slow amplifier on a
+// controlled current, and the effect of a divider's capacitor on a bus step.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ constexpr double T = 30e-6, tau = 0.572e-3 / 1.03, full_A = 24 / 1.03;
 
 double lag_s(double bandwidth_Hz) { return 1 / (2 * base::pi * bandwidth_Hz); }
 
-/// The drive controls 5 A in the held rotor: centred pulses, sampled in the middle, 16 bits.
+/// The drive controls 5 A with a locked rotor. The pulses are centred, and the 16-bit converter samples in
+/// their middle.
 Scenario held_at_5_A(CurrentMeasurement currents, double range_A) {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
@@ -47,8 +48,8 @@ double mean_of(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// The steady ripple of the held motor, with the mean d U/R, after a first-order lag. The current rises
-/// towards U/R in the on-time and falls towards zero in the off-time, with L/R.
+/// The steady ripple of the locked motor around the mean d U/R, after a first-order lag. The current rises
+/// towards U/R in the on-time, and falls towards zero in the off-time, with the time constant L/R.
 class Ripple {
  public:
   Ripple(double mean_A, double lag) : lag_(lag), on_s_(mean_A / full_A * T) {
@@ -56,13 +57,13 @@ class Ripple {
     top_ = full_A * (1 - a) / (1 - a * b);
     foot_ = top_ * b;
   }
-  /// A phase's current, after the lag, at time t after the beginning of its pulse.
+  /// The current of a phase, after the lag, at the time t after the beginning of its pulse.
   double phase_at(double t) const {
     double x = 0;
     for (int n = 0; n < 2000; ++n) x = behind(behind(x, full_A, foot_, on_s_), 0, top_, T - on_s_);
     return behind(x, full_A, foot_, t);
   }
-  /// The DC link's current after the lag; the link's current is zero in the rest of the period.
+  /// The current of the DC link after the lag. Outside the pulse, the current of the link is zero.
   double link_at(double t) const {
     double x = 0;
     for (int n = 0; n < 2000; ++n) x = behind(x, full_A, foot_, on_s_) * std::exp(-(T - on_s_) / lag_);
@@ -79,7 +80,7 @@ class Ripple {
 };
 
 /// The integral controls the mean reading to 5 A, which is a whole number of counts. Each reading is within
-/// half a count of the converter's input, and so is the mean. One hundredth is added for the shift that the
+/// half a count of the converter's input, so the mean is too. One hundredth is added for the shift that the
 /// ripple may cause.
 constexpr double held_within = 1.01 * 20.48 / (1 << 16);
 
@@ -93,8 +94,8 @@ TEST(FrontEnd, ASlowAmplifierReadsTheRippleLate) {
   }
 }
 
-/// A pulse in the link starts from zero. After half a pulse the amplifier still lags, and the reading is too
-/// small by this lag.
+/// A current pulse in the DC link starts from zero. In the middle of the pulse, the amplifier still lags, so
+/// the reading is too small.
 TEST(FrontEnd, TheLinksAmplifierHasToCatchUp) {
   Scenario s = held_at_5_A(CurrentMeasurement::dc_link, 20.48);
   s.sensors.current_bandwidth_Hz = 300e3;
@@ -104,7 +105,7 @@ TEST(FrontEnd, TheLinksAmplifierHasToCatchUp) {
   EXPECT_GT(mean, 5.01);
 }
 
-/// The sample is at the beginning of the pulse, which is the ripple's minimum.
+/// The sample is at the beginning of the pulse, at the minimum of the ripple.
 TEST(FrontEnd, TheProductDriveSeesTheSameAmplifier) {
   Scenario s = product_scenario(Mode::current, 3.0);
   s.duration_s = 40e-3;
@@ -118,8 +119,8 @@ TEST(FrontEnd, TheProductDriveSeesTheSameAmplifier) {
   EXPECT_NEAR(Ripple(mean_of(s), lag_s(30e3)).phase_at(0), 3.0, 1.01 * count / 2);
 }
 
-/// After a step from 24 V to 40 V the divider reads 40 - 16 exp(-t/tau). It exceeds 35 V after tau ln(16/5);
-/// the fault then counts its samples.
+/// After a step from 24 V to 40 V, the divider reads 40 - 16 exp(-t/tau). It exceeds 35 V after tau ln(16/5).
+/// From then on, the fault counts its samples.
 TEST(FrontEnd, ADividersCapacitorHidesAJumpOfTheBus) {
   for (const double bandwidth : {300.0, 1000.0}) {
     Scenario s = product_scenario(Mode::current, 3.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fit of a fundamental is compared with closed-form Fourier sums and with a QR decomposition in long
+// The fit of a fundamental is compared with closed-form Fourier sums, and with a QR decomposition in long
 // double.
 #include "sixstep/study/measure/fundamental_fit.hpp"
 
@@ -21,8 +21,8 @@ constexpr std::uint64_t seed = 20260417;
 constexpr long double pi = std::numbers::pi_v<long double>;
 constexpr int points = 8;
 
-/// QR decomposition of rows 1, cos, sin, signal by plane rotations (Golub, Van Loan 5.1.8), without squares
-/// and differences of large numbers.
+/// QR decomposition of the rows 1, cos, sin, signal by plane rotations (Golub, Van Loan 5.1.8). It avoids
+/// squares and differences of large numbers.
 class RotatedRows {
  public:
   void add(std::array<long double, 4> row) {
@@ -47,7 +47,7 @@ class RotatedRows {
 
 using Curve = std::function<long double(long double)>;
 
-/// Passes the signal over the phase from..to to the fit, at the nodes of a part.
+/// Passes the part of the signal between two phases to the fit, at the nodes of the part.
 void see(FundamentalFit& fit, long double from, long double to, const Curve& signal) {
   FittedPart<points> part;
   for (int k = 0; k < points; ++k) {
@@ -59,7 +59,7 @@ void see(FundamentalFit& fit, long double from, long double to, const Curve& sig
   fit.add(phase_of(static_cast<double>(std::fmod(from, 2 * pi))), part);
 }
 
-/// The fit, and the QR decomposition in long double as an independent check.
+/// The fit, and an independent check by the QR decomposition in long double.
 struct BothWays {
   FundamentalFit fit;
   RotatedRows rows;
@@ -78,13 +78,15 @@ TEST(Phase, KeepsItsDigitsWhereItIsSmall) {
   for (double p = 1e-12; p < 7.0; p *= 1.37) {
     const Phase found = phase_of(p);
     const long double half = std::sin(static_cast<long double>(p) / 2);
-    // beyond a quarter of a turn, cos has an error of one ulp of 1; before, the quotient rounds four times
+    // beyond a quarter of a turn, cos has an error of one ulp of 1; below it, the quotient is rounded four
+    // times
     EXPECT_NEAR(found.versine, static_cast<double>(2 * half * half), 4 * eps * found.versine) << p;
     EXPECT_NEAR(found.sin, static_cast<double>(std::sin(static_cast<long double>(p))), eps) << p;
   }
 }
 
-/// The series of a small turn has as many terms as its part has points: are these enough?
+/// The series of a small turn has as many terms as its part has points. The test checks that these terms are
+/// enough.
 template <int terms>
 void expect_small_turns(double largest) {
   for (double x = largest; x > 1e-9; x *= -0.61) {
@@ -117,13 +119,15 @@ TEST(FundamentalFit, LeavesNothingOfASine) {
       both.see(at, to, [&](long double p) { return mean + cos * std::cos(p) + sin * std::sin(p); });
       at = to;
     }
-    // The signal and the fit's values at each node are rounded: a few eps of the largest value.
+    // The signal and the fit's values are rounded at each node. The distortion is a few eps of the largest
+    // value.
     EXPECT_LE(both.fit.distortion(), 8 * eps * (std::fabs(mean) + 1) / std::hypot(cos, sin))
         << "seed " << seed << " sine " << n;
   }
 }
 
-/// The first part is much shorter than the others. Its accuracy must not limit the fit of the long parts.
+/// The first part is much shorter than the others. Its accuracy must not limit the accuracy of the fit of the
+/// long parts.
 TEST(FundamentalFit, LeavesNothingOfASineThatBeginsWithAnInstant) {
   for (const long double first : {1e-12L, 1e-9L, 1e-6L, 1e-3L}) {
     BothWays both;
@@ -156,8 +160,8 @@ TEST(FundamentalFit, DoesNotDriftOverTenThousandTurns) {
   EXPECT_NEAR(fit.distortion(), 1e-3, 8 * eps);
 }
 
-/// A chopped signal with jumps and pauses, over turns that need not be whole. The fit is compared with the QR
-/// decomposition.
+/// A chopped signal with jumps and pauses, over a number of turns that may be fractional. The fit is compared
+/// with the QR decomposition.
 TEST(FundamentalFit, AgreesWithRotatedRows) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> any(-1, 1), unit(0, 1);
@@ -180,7 +184,7 @@ TEST(FundamentalFit, AgreesWithRotatedRows) {
   }
 }
 
-/// The signal steps in the middle: the fit after the step differs greatly from the fit before it.
+/// The signal steps in the middle, so the fit after the step differs greatly from the fit before the step.
 TEST(FundamentalFit, AgreesWithRotatedRowsAcrossASwing) {
   for (const double before : {0.0, 1e-6, 1.0, 1e6}) {
     BothWays both;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of merit are compared with closed forms; the gauge receives Taylor polynomials of known curves.
+// Figures of merit are compared with closed forms. The gauge receives Taylor polynomials of known curves.
 #include "sixstep/study/measure/gauge.hpp"
 
 #include <gtest/gtest.h>
@@ -14,14 +14,16 @@ using namespace sixstep::study;
 constexpr double eps = 0x1p-52;
 constexpr int degree = 16;
 
-/// The curve re(amplitude e^{lambda t}) + offset over [0, to], fed in pieces of unequal length.
+/// The curve re(amplitude e^{lambda t}) + offset over [0, to]. It is passed to the gauge in pieces of unequal
+/// length.
 struct Curve {
   double offset = 0.0, amplitude = 1.0, rate = -1.0, frequency = 0.0;
 
   double operator()(double t) const {
     return offset + amplitude * std::exp(rate * t) * std::cos(frequency * t);
   }
-  /// The Taylor series at t0 over `length`: derivatives of e^{(r + i f) t} by complex powers.
+  /// The Taylor series at t0 over `length`. The derivatives of e^{(r + i f) t} are computed by complex
+  /// powers.
   Series at(double t0, double length) const {
     Series c{};
     double re = amplitude * std::exp(rate * t0) * std::cos(frequency * t0),
@@ -74,7 +76,8 @@ TEST(Gauge, ExtremesAndFinalValue) {
 }
 
 TEST(Gauge, SettlingAndReachTimeOfAnExponential) {
-  // The slope at the crossing is 0.02: an error of eps in the value moves the instant by eps/0.02.
+  // At the crossing, the slope is 0.02. An error of eps in the value therefore shifts the instant by
+  // eps/0.02.
   EXPECT_NEAR(gauged(MetricKind::settling_time, rise, 6.0, 1.0, 0.0), std::log(50.0), 64 * eps / 0.02);
   EXPECT_NEAR(gauged(MetricKind::reach_time, rise, 6.0, 1.0, 0.0), std::log(50.0), 64 * eps / 0.02);
   const auto half = [](Measure& m) {
@@ -86,7 +89,7 @@ TEST(Gauge, SettlingAndReachTimeOfAnExponential) {
 }
 
 TEST(Gauge, RiseTimeOfAnExponentialIsLnNine) {
-  // The rise lasts from -ln 0.9 to -ln 0.1. The slope at 90 % is 0.1.
+  // The rise is the time from -ln 0.9 to -ln 0.1. At 90 %, the slope is 0.1.
   EXPECT_NEAR(gauged(MetricKind::rise_time, rise, 6.0, 1.0, 0.0), std::log(9.0), 64 * eps / 0.1);
   const Curve fall{.offset = -1.0, .amplitude = 1.0, .rate = -1.0};  // 0 -> -1
   EXPECT_NEAR(gauged(MetricKind::rise_time, fall, 6.0, -1.0, 0.0), std::log(9.0), 64 * eps / 0.1);
@@ -95,7 +98,7 @@ TEST(Gauge, RiseTimeOfAnExponentialIsLnNine) {
 }
 
 TEST(Gauge, RippleIsTheRmsAboutTheMeanHoweverLargeThatIs) {
-  // cos over whole periods has the rms 1/sqrt(2). Each coefficient of the curve is rounded by eps/2 of the
+  // The rms of cos over whole periods is 1/sqrt(2). Each coefficient of the curve is rounded by eps/2 of the
   // offset.
   constexpr double offset = 1e6, to = 8 * 3.14159265358979323846;
   const Curve ripple{.offset = offset, .rate = 0.0, .frequency = 1.0};
@@ -129,7 +132,7 @@ TEST(Gauge, OvershootOfARingingStep) {
 }
 
 TEST(Gauge, SettlingCountsTheLastExcursion) {
-  // e^{-t/2} cos 3t: a scan finds the last crossing into the 10 % band.
+  // The curve is e^{-t/2} cos 3t. A scan finds the last crossing into the 10 % band.
   const Curve step{.offset = 1.0, .amplitude = -1.0, .rate = -0.5, .frequency = 3.0};
   double last = 0;
   for (int n = 0; n < 1200000; ++n)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scenarios run in the general kernel, its inputs, and the run's outputs: energy balance, figures of
-// merit, columns, checks.
+// Tests which scenarios run in the general kernel, what they need, and the outputs of these runs: energy
+// balance, figures of merit, columns and checks.
 #include "sixstep/study/compile/general_plant.hpp"
 
 #include <gmock/gmock.h>
@@ -46,8 +46,8 @@ TEST(GeneralPlant, RunsAllOfThemWithBooksThatClose) {
   }
 }
 
-/// The returned energy is stored in the capacitor, C (u^2 - U^2)/2, or becomes heat in the brake resistor.
-/// While the bus is at 24 V, the source supplies a small part.
+/// The capacitor stores a part of the returned energy, C (u^2 - U^2)/2. The rest becomes heat in the brake
+/// resistor. While the bus is at 24 V, the source supplies a small part.
 TEST(GeneralPlant, ABrakeResistorTakesWhatTheCapacitorDoesNotKeep) {
   Scenario s = maxon_scenario(control::Mode::current, -2.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -69,8 +69,8 @@ TEST(GeneralPlant, ABrakeResistorTakesWhatTheCapacitorDoesNotKeep) {
   EXPECT_NEAR(out->energy->brake_resistor, fed - out->energy->supplied - kept, 1e-5);
 }
 
-/// The current U/(2 R) determines the initial heating of the winding, before heat flows to the housing; the
-/// current then follows R.
+/// The current U/(2 R) determines the initial heating of the winding, before heat flows to the housing. Later
+/// the current follows R.
 TEST(GeneralPlant, ALockedRotorWarmsUpAsTheSheetSays) {
   Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   s.supply.voltage_V = 3;
@@ -123,8 +123,8 @@ TEST(GeneralPlant, TellsWhatTheSwitchesLose) {
   s.require.push_back(high);
   const auto out = study::run(s);
   ASSERT_TRUE(out) << base::to_string(out.problems()[0]);
-  // The rotor is locked in sector 0, and leg a is chopped softly: its upper switch turns on at the ripple's
-  // minimum and off at its maximum, once per period.
+  // The rotor is locked in sector 0, and leg a has soft chopping. Once per period, its upper switch turns on
+  // at the minimum of the ripple and off at the maximum.
   const double bottom = out->verdicts[1].measured, top = out->verdicts[2].measured, per = 24.0 / 48 / 10;
   EXPECT_NEAR(out->verdicts[0].measured, (35e-6 * bottom + 20e-6 * top) * per / 30e-6, 1e-9);
   ASSERT_EQ(out->devices.size(), 6u);

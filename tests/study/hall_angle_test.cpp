@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, position and commutation from the angle between Hall edges, in whole runs, and the refused cases.
+// Tests speed, position and commutation from the angle between Hall edges in whole runs, and the refused
+// cases.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +18,8 @@ using control::Mode;
 using rig::HallAngleFrom;
 using ::testing::HasSubstr;
 
-/// The speed is 100 rad/s. The probes have errors of up to 4 degrees, and the speed is measured over one
-/// sector.
+/// The speed is 100 rad/s. The angles of the probes have errors of up to 4 degrees, and the speed is measured
+/// over one sector.
 Scenario strayed(HallAngleFrom from) {
   Scenario s = cascade(0.25);
   s.control.speed = {.torque_limit_Nm = 0.78};
@@ -36,15 +37,15 @@ Scenario strayed(HallAngleFrom from) {
   return s;
 }
 
-// Readings of 60/55 and 60/66 of the true speed change the reference by the loop's gain. The angle of a
-// learned edge has an error of two counts of 1 us in a sector of at least 1.2 ms. The sector's time has an
-// error of one more count at either end.
+// Readings of 60/55 and 60/66 of the true speed change the reference by the gain of the loop. The angle of a
+// learned edge has an error of two counts of 1 us in a sector of at least 1.2 ms. The time of the sector adds
+// an error of one count at either end.
 TEST(HallAngle, PlacesThatWereLearnedNoLongerShakeTheLoop) {
   const double gain_A = 1.582e-3 * 0.78 / 33.5e-3, w = 100;
   EXPECT_GT(outcome_of(strayed(HallAngleFrom::sectors)).comparisons[0].measured,
             gain_A * w * (60.0 / 55 - 60.0 / 66));
   const double ripple = outcome_of(strayed(HallAngleFrom::learned_edges)).comparisons[0].measured;
-  // The bound covers both directions and the oscillation of the shaft.
+  // The bound contains both directions, and the oscillation of the shaft.
   EXPECT_LT(ripple, gain_A * (w * 2 * 2 * 3 / 1200.0 + 0.2));
 }
 
@@ -61,13 +62,13 @@ TEST(HallAngle, RunsACascadeInEveryArithmetic) {
       s.pwm.commutation = CommutationAt::sample;
       if (arithmetic == Arithmetic::q31) s.control.full_scale = {100, 80, 1600, 7200};
       ask(s, measure(MetricKind::final_value, Signal::speed));
-      // The bound is one count of 1 us in a sector of 1.3 ms, and the speed's ripple of 0.4 % within the
+      // The bound is one count of 1 us in a sector of 1.3 ms, plus the ripple of the speed of 0.4 % within a
       // sector.
       EXPECT_NEAR(outcome_of(s).comparisons[0].measured, 100, 1.0) << static_cast<int>(arithmetic);
     }
 }
 
-/// The lines are delayed, as by a filter. At the run's speed the delay is 14 degrees.
+/// The Hall lines are delayed, as by a filter. At the speed of this run, the delay is 14 degrees.
 double mean_torque_behind_a_filter(HallAngleFrom from, double delay_s) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.01};
@@ -87,8 +88,8 @@ double mean_torque_behind_a_filter(HallAngleFrom from, double delay_s) {
   return outcome_of(s).comparisons[0].measured;
 }
 
-// At 2 400 rad/s electrical, a delay of 100 us is 13.75 degrees and costs 13.75^2/7200 of the torque. A known
-// delay costs almost nothing.
+// At 2 400 electrical rad/s, a delay of 100 us is 13.75 degrees and reduces the torque by the part
+// 13.75^2/7200. If the drive corrects the delay, the torque is almost unchanged.
 TEST(HallAngle, ADelayThatIsKnownCostsNoTorque) {
   const double prompt = mean_torque_behind_a_filter(HallAngleFrom::sectors, 0);
   const double late = mean_torque_behind_a_filter(HallAngleFrom::sectors, 100e-6);

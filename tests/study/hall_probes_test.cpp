@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes with placement errors in whole runs: the lost torque, equivalent placements, the drive's
-// reaction to glitches, and refused placements.
+// Tests Hall probes with placement errors in whole runs: the loss of torque, equivalent placements, the
+// drive's reaction to glitches, and refused placements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ using control::HallArrangement;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// An external drive turns the motor slowly over six electrical turns: i follows d U - e, except during L/R =
-/// 0.56 ms after each edge. The effect of complementary chopping is linear, so that a slow PWM has the same
-/// means.
+/// An external drive turns the motor slowly over six electrical turns. The current follows d U - e, except
+/// during L/R = 0.56 ms after each edge. With complementary chopping, this relation is linear, so a slow PWM
+/// gives the same means.
 Scenario on_a_bench(double w_rad_s) {
   Scenario s = maxon_scenario(Mode::duty, 0.1);
   s.load.dynamometer_times_s = {0.0};
@@ -38,9 +38,10 @@ Scenario on_a_bench(double w_rad_s) {
 
 double mean_torque(Scenario s) { return outcome_of(s).comparisons[0].measured; }
 
-/// The mean torque over the sector in which a pair is driven, relative. f, the pair's back-EMF divided by K_e
-/// w, is 2 on the flat tops. At x degrees beyond the sector's end, or before its beginning, one phase is x/30
-/// down its ramp. The torque is proportional to f i, and i to d U - f K_e w.
+/// The relative mean torque over the sector in which a pair is driven. The back-EMF of the pair, divided by
+/// K_e w, is f, and f is 2 on the flat tops. At x degrees beyond the end of the sector, or before its
+/// beginning, one phase is x/30 down its ramp. The torque is proportional to f i, and the current i is
+/// proportional to d U - f K_e w.
 double torque_of(double offset_deg, double w_rad_s) {
   double sum = 0;
   constexpr int steps = 6000;
@@ -60,12 +61,12 @@ TEST(HallOffset, CostsWhatTheRampsTake) {
     s.sensors.hall_offset_deg = offset;
     EXPECT_TRUE(needs_general_plant(s));
     const double expected = torque_of(offset, w) / torque_of(0, w);
-    // L/R is 2e-3 of a sector; a commutation changes the result by less than half of this.
+    // L/R is 2e-3 of a sector. A commutation changes the result by less than half of this part.
     EXPECT_NEAR(mean_torque(s) / plain, expected, 1e-3) << offset;
   }
 }
 
-// At an offset of 90 degrees the torques over a sector sum to zero. At 180 degrees the torque acts backwards,
+// At an offset of 90 degrees, the torques over a sector sum to zero. At 180 degrees, the torque is reversed,
 // and the back-EMF increases the current.
 TEST(HallOffset, TurnsTheTorqueRound) {
   const double plain = mean_torque(on_a_bench(0.5));
@@ -77,7 +78,7 @@ TEST(HallOffset, TurnsTheTorqueRound) {
   EXPECT_NEAR(mean_torque(s) / plain, -(d_U + e) / (d_U - e), 1e-3);
 }
 
-// At constant speed a delay is an angle, and so is half of a hysteresis.
+// At constant speed, a delay is equivalent to an angle, and so is half of a hysteresis.
 TEST(HallDelay, IsAnOffsetAtConstantSpeed) {
   const double w = 200, delay_s = 50e-6, deg = 8 * w * delay_s * 180 / base::pi;
   Scenario late = on_a_bench(w);
@@ -93,7 +94,8 @@ TEST(HallDelay, IsAnOffsetAtConstantSpeed) {
   EXPECT_NEAR(mean_torque(sticky), torque, 1e-9);
 }
 
-/// Lists all probes with a placement error of zero: the run uses the general kernel.
+/// The same scenario with all probes listed and placement errors of zero, so that the run uses the general
+/// kernel.
 Scenario in_place(Scenario s) {
   s.sensors.hall_edges_deg = std::vector<double>(6, 0.0);
   return s;
@@ -130,7 +132,8 @@ TEST(HallGlitches, AreDrawnBySeedAndSeenByTheDrive) {
   EXPECT_EQ(first.digest, again.digest);
   s.sensors.seed = 1;
   EXPECT_NE(outcome_of(s).digest, first.digest);
-  // A glitch that the interrupt reads is an impossible code or a jump. Two stable samples suppress it.
+  // If the interrupt reads a glitch, the code is impossible or jumps. If two equal samples are required, the
+  // glitch has no effect.
   ASSERT_TRUE(first.trip);
   s.sensors.hall_stable_samples = 2;
   EXPECT_FALSE(outcome_of(s).trip);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents that follow the shape of the back-EMF, in a scenario. On the trapezoid machine the torque has no
-// ripple from the shape, and the copper loss is compared with its law.
+// Currents that follow the shape of the back-EMF, in a scenario. With a trapezoid machine, the shape causes
+// no torque ripple. The copper loss is compared with its law.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,11 +22,11 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr double I = 4.0, K_e = 0.01675, R = 0.515, L = 0.286e-3, T = 50e-6;
-/// The fundamental of the trapezoid with a flat top of 120 degrees: 4/pi sin(h)/h, h = pi/6.
+/// The fundamental of the trapezoid with a flat top of 120 degrees: 4/pi sin(h)/h with h = pi/6.
 const double fundamental = 4 / base::pi * 0.5 / (base::pi / 6);
 const double torque_Nm = 1.5 * K_e * fundamental * I;
 
-/// The 251601 with so large an inertia that its speed is nearly constant.
+/// The 251601 with an inertia so large that its speed is nearly constant.
 Scenario trapezoid(double speed_rad_s, bool harmonic) {
   Scenario s = maxon_scenario(Mode::current, I);
   s.control.drive = FirmwareKind::field;
@@ -54,7 +54,7 @@ Torque torque_of(const Scenario& s) {
 }
 
 /// Bound on the torque ripple from switching. The vector v that keeps the current acts in the middle of each
-/// period; before it, at most v T/4 is missing. The largest |g| of the shape is 4/3, divided by the
+/// period. Before it acts, at most v T/4 is missing. The largest |g| of the shape is 4/3 divided by the
 /// fundamental.
 double switching_Nm(double speed_rad_s) {
   const double v = std::hypot(R * I + K_e * std::fabs(speed_rad_s) * 4 / 3, speed_rad_s * 8 * L * I);
@@ -76,8 +76,9 @@ TEST(HarmonicCurrent, TheTrapezoidsTorqueLosesTheShapesRipple) {
   }
 }
 
-/// The mean of 1/|g|^2 along the hexagon is f_1^2 sqrt 3 pi/8: the copper loss is 0.55 % higher than with a
-/// constant i_q of the same torque. The switching ripple causes equal losses in both cases.
+/// The mean of 1/|g|^2 along the hexagon is f_1^2 sqrt 3 pi/8 (shape vector g, fundamental f_1). The copper
+/// loss is therefore 0.55 % higher than with a constant i_q of the same torque. The switching ripple causes
+/// equal losses in both cases.
 TEST(HarmonicCurrent, CostsNoMoreCopperLossThanTheClosedForm) {
   const double constant_W = 1.5 * R * I * I,
                part = fundamental * fundamental * std::numbers::sqrt3 * base::pi / 8;
@@ -90,10 +91,10 @@ TEST(HarmonicCurrent, CostsNoMoreCopperLossThanTheClosedForm) {
   }
 }
 
-/// Without decoupling there is no feed-forward: the loop follows with its bandwidth, and a lead compensates
-/// its lag. At a corner of the shape the slope of the reference changes by 4/pi 9/16 f_1 w_e I, in A/s. The
-/// lag tau with its lead leaves 1/e of tau times this change as current error. The torque error has the
-/// additional factor 4/3, divided by f_1.
+/// Without decoupling, there is no feed-forward. The loop follows with its bandwidth, and a lead compensates
+/// its lag tau. At a corner of the shape, the slope of the reference changes by 4/pi 9/16 f_1 w_e I, in A/s.
+/// The current error is 1/e of tau times this change. The torque error has the additional factor 4/3, divided
+/// by f_1.
 TEST(HarmonicCurrent, TheLoopAloneFollowsWithinItsLag) {
   const double z = std::exp(-base::pi / 10), lag_s = T / (z * (1 - z));
   for (const double w : {20.0, 50.0}) {
@@ -107,8 +108,8 @@ TEST(HarmonicCurrent, TheLoopAloneFollowsWithinItsLag) {
   }
 }
 
-/// A fifth harmonic of 5 %: with a constant i_q the torque has a ripple of 5 % as cos 6 theta; with the
-/// shape's current it has none. This machine runs in the general kernel.
+/// The back-EMF has a fifth harmonic of 5 %. With a constant i_q, the torque has a ripple of 5 %, as cos 6
+/// theta. With currents that follow the shape, it has no ripple. This machine runs in the general kernel.
 TEST(HarmonicCurrent, FollowsHarmonicsOfASineToo) {
   const auto fifth = [](bool harmonic) {
     Scenario s = trapezoid(20, harmonic);
@@ -142,7 +143,7 @@ TEST(HarmonicCurrent, DoubleAndFloatMakeTheSameTorque) {
   EXPECT_NEAR(narrow.ripple, wide.ripple, 1e-3 * torque_Nm);
 }
 
-/// The current of a cascade stays within its limit for any shape, and the loop keeps the speed.
+/// In a cascade, the current stays within its limit for any shape, and the loop keeps the speed.
 TEST(HarmonicCurrent, TheSpeedLoopKeepsTheLimitOfTheCurrent) {
   Scenario s = trapezoid(0.0, true);
   s.initial.speed_rad_s = 0;

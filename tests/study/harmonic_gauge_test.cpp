@@ -17,7 +17,8 @@ using control::Mode;
 
 constexpr double eps = 0x1p-52;
 
-/// The rotor coasts at constant speed: no friction, all gates off, and too slow for the diodes to conduct.
+/// The rotor coasts at constant speed. There is no friction, all gates are off, and the speed is too low for
+/// the diodes to conduct.
 Scenario coasting(design::BackEmfShape shape, double flat_deg, double speed) {
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.sheet.back_emf = shape;
@@ -27,16 +28,16 @@ Scenario coasting(design::BackEmfShape shape, double flat_deg, double speed) {
   return s;
 }
 
-/// Trapezoid with peak 1 and flat tops of width w; a is half the width of a ramp. The fundamental is 4/pi
-/// sin(a)/a, the mean square (w + 2 a/3)/pi.
+/// A trapezoid with the peak 1 and flat tops of width w. Half the width of a ramp is a. The fundamental is
+/// 4/pi sin(a)/a, and the mean square is (w + 2 a/3)/pi.
 double trapezoid_thd(double flat_deg) {
   const double w = flat_deg * base::pi / 180, a = (base::pi - w) / 2;
   const double fundamental = 4 / base::pi * std::sin(a) / a, square = (w + 2 * a / 3) / base::pi;
   return std::sqrt(square / (fundamental * fundamental / 2) - 1);
 }
 
-/// A fit of n rows has an error of a few roundings per row (Higham, 19.3); 20 ms have fewer rows than this
-/// number.
+/// A fit of n rows has an error of a few roundings per row (Higham, 19.3). A run of 20 ms has fewer rows than
+/// this number.
 constexpr double rows = 8 * 700;
 
 TEST(Distortion, OfASineIsNone) {
@@ -66,8 +67,9 @@ TEST(Distortion, OfATrapezoidIsItsSeries) {
     EXPECT_NEAR(thd[0], trapezoid_thd(flat), rows * eps) << flat;
     EXPECT_NEAR(thd[1], trapezoid_thd(flat), rows * eps) << flat;
   }
-  // The third harmonics of two trapezoids of 120 deg cancel. The line voltage has steps of 60 deg, 1, 2, 1,
-  // -1, -2, -1, connected by ramps. Its closed form is the same sum without the harmonics 3, 9, 15 ...
+  // The third harmonics of two trapezoids of 120 degrees cancel. The line voltage has steps of 60 degrees at
+  // 1, 2, 1, -1, -2, -1, with ramps between them. Its closed form is the same sum without the harmonics 3, 9,
+  // 15 ...
   Scenario s = coasting(design::BackEmfShape::trapezoid, 120.0, 250.0);
   ask(s, measure(MetricKind::thd, Signal::line_ab));
   double square = 0.0;  // harmonic n of the trapezoid divided by the fundamental: sin(n a)/(sin(a) n^2), a =

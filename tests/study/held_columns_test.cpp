@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The columns of the plant's slow states are the values at the row's instant, for any step of the slow
+// The columns of the plant's slow states contain the values at the row's instant, for any step of the slow
 // solution.
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ Scenario cools_down(double step_s) {
   return s;
 }
 
-/// Without losses each thermal step is exact: the record must not depend on the step.
+/// Without losses, each thermal step is exact. The record must therefore not depend on the step.
 TEST(HeldColumns, TemperaturesWithoutAPowerDoNotDependOnTheThermalStep) {
   const auto fine = rows_of(cools_down(1e-3));
   ASSERT_EQ(fine.size(), 15u);
@@ -52,7 +52,7 @@ TEST(HeldColumns, TemperaturesWithoutAPowerDoNotDependOnTheThermalStep) {
   }
 }
 
-/// The current is U/(2 R). At constant R the power warms the winding up to each instant, also within a
+/// The current is U/(2 R). At constant R, the power heats the winding up to each instant, even within a
 /// thermal step.
 TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
   const auto warmed = [](double step_s) {
@@ -68,13 +68,14 @@ TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
   ASSERT_EQ(fine.size(), coarse.size());
   const double rise = fine.back()[1] - 25;
   EXPECT_GT(rise, 0.2);
-  // R of copper rises by 0.4 % per K. With the coarse step R is constant over the step, which changes the
-  // power by less than this.
+  // The resistance R of copper rises by 0.4 % per K. In the coarse run, R is constant over a step. This
+  // changes the power by less than the rise of R.
   for (std::size_t n = 0; n < fine.size(); ++n)
     EXPECT_NEAR(coarse[n][1], fine[n][1], 0.00393 * rise * rise) << "row " << n;
 }
 
-/// C_1 dv_1/dt = i_src - v_1/R_1: the integral of the recorded source current i_src gives the recorded v_1.
+/// The integral of C_1 dv_1/dt = i_src - v_1/R_1, from the recorded source current i_src, gives the recorded
+/// voltage v_1.
 TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   Scenario s = maxon_scenario(control::Mode::duty, 0.5);
   for (const AsksForGeneral& ask : asks_for_general)
@@ -90,8 +91,8 @@ TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   EXPECT_EQ(rows[0][2], 0.0);
   last_A = rows[0][1];
   for (std::size_t n = 1; n < rows.size(); ++n) {
-    // The trapezoidal rule is exact enough: 1 us is short compared with R_1 C_1 = 5 ms and with the time
-    // constant of the bus capacitor.
+    // The error of the trapezoidal rule is negligible: 1 us is short compared with R_1 C_1 = 5 ms, and with
+    // the time constant of the bus capacitor.
     const double mean_A = (last_A + rows[n][1]) / 2, tau_s = 5e-3, h = 1e-6;
     v += h * (mean_A / 0.05 - v / tau_s) / (1 + h / (2 * tau_s));
     last_A = rows[n][1];

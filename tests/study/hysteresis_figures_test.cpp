@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The band's excess and shortfall are zero for a comparator on the board. For a comparator in the controller
-// they are up to the current's change per sample.
+// If the comparator is on the board, the excess and the shortfall of the band are zero. If it is in the
+// controller, they are at most the change of the current per sample.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ TEST(HysteresisFigures, EventComparatorsKeepTheBand) {
 }
 
 TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
-  // At standstill the current rises by 24 V * 30 us/0.572 mH = 1.26 A per sample: figures of the band would
-  // mislead.
+  // At standstill, the current rises by 24 V * 30 us/0.572 mH = 1.26 A per sample. Figures of the band would
+  // therefore be misleading.
   Scenario s = current_square();
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2, .comparator = Comparator::sampled};
   ask(s, measure(MetricKind::band_excess, Signal::current));
@@ -44,8 +44,9 @@ TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
   EXPECT_EQ(out.problems().front().where, "compare[0].metric");
 }
 
-/// The held rotor's current is between 4.8 and 5.2 A. L di/dt is U - R i when it rises, -R i when it falls,
-/// or -U - R i with hard chopping. One comparator switches at the same frequency as two.
+/// The rotor is locked, and the current is between 4.8 and 5.2 A. L di/dt is U - R i when the current rises.
+/// It is -R i when the current falls, or -U - R i with hard chopping. One comparator switches at the same
+/// frequency as two comparators.
 TEST(HysteresisFigures, TheFrequencyIsThatOfTheWindingInTheBand) {
   constexpr double U = 24, R = 1.03, L = 0.572e-3, low = 4.8, high = 5.2, from_s = 5e-3, to_s = 25e-3;
   for (const auto chopping : {control::Chopping::soft, control::Chopping::hard})

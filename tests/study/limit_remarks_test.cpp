@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A remark names each limit of the model that the run exceeds, with its numbers, and no other limit.
+// A remark names each limit of the model that the run exceeds, with its numbers. It names no other limit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The number after a text in the first remark that contains it.
+/// The number that follows the text `word` in the first remark with this text.
 double number_behind(const std::vector<std::string>& remarks, const std::string& word) {
   for (const std::string& text : remarks)
     if (const std::size_t at = text.find(word); at != std::string::npos)
@@ -31,7 +31,7 @@ double number_behind(const std::vector<std::string>& remarks, const std::string&
   return NAN;
 }
 
-/// A drive that keeps 20 A in a held rotor, with a battery of `Ah` ampere hours.
+/// A drive that controls 20 A with a locked rotor, supplied by a battery of `Ah` ampere hours.
 Scenario on_battery(double Ah, double charge) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.load.locked = true;
@@ -46,7 +46,8 @@ Scenario on_battery(double Ah, double charge) {
   return s;
 }
 
-/// At the reported instant the integral of the source's current must equal the battery's charge.
+/// At the instant in the remark, the integral of the source's current must be equal to the charge of the
+/// battery.
 TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   Scenario s = on_battery(1e-3, 0.5);
   const auto remarks = outcome_of(s).remarks;
@@ -58,15 +59,15 @@ TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
 }
 
-/// The band that a remark proposes must give the frequency that it states. A run with a slightly larger band
-/// has no remark.
+/// The remark proposes a band and states its frequency. The band must give this frequency. A run with a
+/// slightly larger band has no remark.
 TEST(LimitRemarks, AHysteresisThatNoBridgeSwitchesIsTold) {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
   s.duration_s = 20e-3;
   s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.01};
   const auto fast = outcome_of(s);
-  // The current rises and falls by two bands, at the rates (U - R I)/L and R I/L; the duty is R I/U.
+  // The current rises and falls by two bands, at the rates (U - R I)/L and R I/L. The duty is R I/U.
   const double d = 5.0 * 1.03 / 24, foretold_Hz = 24 / (0.572e-3 * 2 * 0.01) * d * (1 - d);
   const double told_Hz = 1e3 * number_behind(fast.remarks, "chop at ");
   EXPECT_NEAR(told_Hz / foretold_Hz, 1, 0.1);
@@ -80,8 +81,8 @@ TEST(LimitRemarks, AHysteresisThatNoBridgeSwitchesIsTold) {
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("comparators chop"))));
 }
 
-/// A run from cold. The winding withstands its mean loss by the sheet's values, but not at the worse ends of
-/// their ranges.
+/// The run starts with a cold winding. By the plain values of the sheet, the winding withstands its mean
+/// loss. At the worse ends of the ranges, it does not.
 TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   Scenario s = maxon_scenario(Mode::current, 10.0);
   s.load.locked = true;
@@ -92,7 +93,7 @@ TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   s.sheet.thermal_time_constant_winding_s = base::Quantity{10.0, "", ""};
   s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
   s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
-  // 206 J heat 2.5 J/K by less than 100 K, and 1 J/K by more.
+  // 206 J heat 2.5 J/K by less than 100 K, and 1 J/K by more than 100 K.
   const auto told = [&s] {
     const auto remarks = outcome_of(s).remarks;
     return std::any_of(remarks.begin(), remarks.end(), [](const auto& text) {
@@ -106,7 +107,7 @@ TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   EXPECT_FALSE(told());
 }
 
-/// A spinning rotor brakes into a small battery.
+/// A spinning rotor brakes and charges a small battery.
 TEST(LimitRemarks, ABatteryIsFullWhereItIsGivenMore) {
   Scenario s = on_battery(1e-5, 0.9);
   s.load.locked = false;
@@ -132,7 +133,7 @@ TEST(LimitRemarks, ARotorFasterThanItsSheetAllows) {
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("the sheet allows"))));
 }
 
-/// The rotor brakes into a capacitor: the capacitor's energy is at most C U^2/2 + J w^2/2.
+/// A braking rotor charges a capacitor. The energy of the capacitor is at most C U^2/2 + J w^2/2.
 TEST(LimitRemarks, ABusThatIsPumpedUp) {
   Scenario s = maxon_scenario(Mode::current, -5.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -162,7 +163,8 @@ TEST(LimitRemarks, ABusThatIsPumpedUp) {
   silent(chopper);
 }
 
-/// A lowered weight charges any capacitor: the remark names none, and ten times the capacitance only takes longer.
+/// A weight that is lowered charges any capacitor. The remark therefore proposes no capacitor, and ten times
+/// the capacitance only prolongs the charging.
 TEST(LimitRemarks, ALoadThatDrivesFillsAnyCapacitor) {
   Scenario s = maxon_scenario(Mode::speed, -200.0);
   s.initial.speed_rad_s = -200;
@@ -183,8 +185,9 @@ TEST(LimitRemarks, ALoadThatDrivesFillsAnyCapacitor) {
   }
 }
 
-/// The same run with a warming motor and held current shows when its winding passes the limit. The remark's
-/// copper grows warm, so that with R at the sheet's temperature the limit comes a little later.
+/// The same run with a motor that warms, and with constant current, shows when the winding passes its limit.
+/// The remark computes with warm copper. With R at the sheet's temperature, the limit is reached a little
+/// later.
 TEST(LimitRemarks, AWindingThatWouldNotStandIt) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.sheet = curve_sheet();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of current, speed and bus are kept in full switching simulation; unreachable limits are refused.
-// tests/fuzz/limits_test.cpp tests them with random scenarios.
+// In the full switching simulation, current, speed and bus stay within their limits. Unreachable limits are
+// refused. tests/fuzz/limits_test.cpp tests limits with random scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ std::string refusal(const Scenario& s) {
   return out ? "not refused" : to_string(out.problems()[0]);
 }
 
-/// Full current. If the sample is at the ripple's minimum of 0 A, the speed limit permits short pulses, which
-/// still drive the rotor.
+/// The setpoint is full current. If a sample is at the ripple's minimum of 0 A, the speed limit permits short
+/// pulses, which still drive the rotor.
 TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     Scenario s = maxon_scenario(Mode::current, 6.99);
@@ -53,7 +53,7 @@ TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   }
 }
 
-/// The rotor brakes at full current with a bus that cannot sink.
+/// The rotor brakes at full current, and the bus cannot sink the energy.
 Scenario braking(Chopping chopping) {
   Scenario s = maxon_scenario(Mode::current, -5.0);
   s.duration_s = 0.1;
@@ -72,14 +72,14 @@ TEST(Limits, TheBusStaysWithinItsBoundInEveryChopping) {
       s.pwm.delay_periods = delay;
       const double most = figure(s, MetricKind::maximum, Signal::bus_voltage);
       std::printf("limit 30 V, at most %.6g V\n", most);
-      // The bound adds two parts to 30 V for the switch-off of 6.25 A at the limit, with 20 V of back-EMF.
-      // The winding's energy raises the bus by sqrt((30 - 20)^2 + L I^2/C) - 10 V. One period of this current
-      // adds I T/C.
+      // The bound adds two terms to 30 V. At the limit, 6.25 A are switched off at a back-EMF of 20 V. The
+      // energy of the winding raises the bus by sqrt((30 - 20)^2 + L I^2/C) - 10 V. One period of this
+      // current adds I T/C.
       EXPECT_LE(most, 20 + std::sqrt(100 + 0.572e-3 * 6.25 * 6.25 / 10e-3) + 6.25 * 30e-6 / 10e-3);
     }
 }
 
-/// After a switch-off of 5 A at 30 V, with 20 V of back-EMF, the winding's energy charges the 220 uF to 20 V
+/// At 30 V, 5 A are switched off at a back-EMF of 20 V. The energy of the winding charges the 220 uF to 20 V
 /// + sqrt((30 - 20)^2 + L I^2/C) = 33 V.
 TEST(Limits, ABusThatCannotHoldItsLimitIsRefusedWithWhatWould) {
   Scenario s = braking(Chopping::hard);
@@ -107,8 +107,8 @@ TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
   EXPECT_TRUE(study::run(s));
 }
 
-/// A salient rotor runs, but the drive does not guarantee its limits, because the bounds are not proved for
-/// salient rotors. A message names each limit.
+/// A scenario with a salient rotor runs, but its limits are not guaranteed, because the bounds are not proved
+/// for salient rotors. A message names each limit.
 TEST(Limits, OfASalientRotorAreNotPromised) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.sheet.inductance_mH.reset();
@@ -183,7 +183,7 @@ TEST(Product, AThresholdBeyondTheConverterIsRefused) {
   EXPECT_EQ(study::check(s).size(), 1u);
 }
 
-/// While the windings are shorted, no loop runs.
+/// While the windings are shorted, no loop runs, so no reference is shown.
 TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.12;
@@ -196,8 +196,8 @@ TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   EXPECT_EQ(figure(s, MetricKind::maximum, Signal::speed_reference, 0.1002), 0.0);
 }
 
-/// If the line breaks just after one of its edges, the sector between this edge and the false edge is
-/// arbitrarily short, and the measured speed arbitrarily high. The drive must report the line, not
+/// If the line breaks just after one of its edges, the next edge is false. The sector between both edges may
+/// then be arbitrarily short, and the measured speed arbitrarily high. The drive must report the line, not
 /// over-speed.
 TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   Scenario s = product_scenario(Mode::speed, 100.0);
@@ -206,7 +206,7 @@ TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   int named = 0, runs = 0;
   for (int n = 0; n < 60; ++n)
     for (const int line : {1, 2, 3}) {
-      // A turn of 6 sectors lasts 7.85 ms.
+      // A turn of 6 sectors takes 7.85 ms.
       s.sensors.hall_break = {.at_s = 0.3 + n * 7.85e-3 / 60,
                               .line = line,
                               .level = n % 2 ? study::Level01::low : study::Level01::high};
@@ -223,7 +223,7 @@ TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   EXPECT_GT(named, runs * 9 / 10);
 }
 
-/// K e = 19 at the start, in a format whose range ends at 16 times the output.
+/// At the start, K e is 19 (gain K, error e). The range of the format ends at 16 times the output.
 TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.15;
@@ -240,7 +240,8 @@ TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   }
 }
 
-/// The derivative part is kp T_d a = 1.8 times full torque.
+/// The derivative part is kp T_d a, which is 1.8 times full torque (gain kp, derivative time T_d,
+/// acceleration a).
 TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scale with lines along a linear motor. The drive's position is exact within a quarter of a line pitch.
-// The refusals are tested too.
+// A linear motor with a scale of lines. The position of the drive is exact within a quarter of a line pitch.
+// The tests include refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ using ::testing::HasSubstr;
 
 constexpr double pitch_m = 20e-6, pole_pitch_m = 12e-3, p = base::pi / pole_pitch_m;
 
-/// The linear version of the cascade's motor. One period of its magnets, 24 mm, has 1200 lines of the scale.
+/// The linear version of the cascade's motor. One period of the magnets is 24 mm, which is 1200 lines of the
+/// scale.
 Scenario on_a_scale(Scenario s) {
   s.sheet = unrolled(s.sheet, pole_pitch_m / (base::pi / 8));
   s.sheet.pole_pitch_mm->value = 1e3 * pole_pitch_m;
@@ -35,12 +36,12 @@ Scenario on_a_scale(Scenario s) {
   return s;
 }
 
-/// The position reading for 1 m: one metre of the linear motor corresponds to one radian of the rotary motor,
-/// here in degrees.
+/// The factor from metres to the position reading. One metre of the linear motor corresponds to one radian of
+/// the rotary motor, and the reading is in degrees.
 constexpr double deg = 180 / base::pi;
 
-// At each sample, the position is that of the quarter of a line, the speed is measured between two edges, and
-// the sector is that of the magnets.
+// At each sample, the position is the position of the present quarter line. The speed is measured between two
+// edges, and the sector is the sector of the magnets.
 TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
   const Scenario s = on_a_scale(cascade());
   for (const double v : {0.11, -0.73}) {
@@ -65,19 +66,19 @@ TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
       rig::ShaftPorts copy = ports;
       indexes += copy.index_passed();
       decoder.sense(m, sample, ports, static_cast<std::uint32_t>(std::floor(t * config.capture_Hz)));
-      // Angles have steps of 2^-16 of a magnets' period; they are rounded down, as are the quarters.
+      // Angles have steps of 2^-16 of a period of the magnets. Angles and quarters are rounded down.
       const double below = x - m.position_deg / deg, unit = 2 * pole_pitch_m / 65536;
       ASSERT_GT(below, -1e-12) << n;
       ASSERT_LT(below, pitch_m / 4 + unit + 1e-12) << n;
       if (n > 20) {
-        // The bound is one timer count, divided by the time between the last edges of two samples. This time
-        // is at least the sampling period less the time between two edges.
+        // The bound is one timer count divided by the time between the last edges of two samples. This time
+        // is at least the sampling period minus the time between two edges.
         const double apart = h - pitch_m / 4 / std::fabs(v);
         if (apart > 0) {
           ASSERT_NEAR(m.speed_rad_s, v, std::fabs(v) * 2 / (apart * config.capture_Hz)) << n;
         }
       }
-      // 800 quarters of lines are a sixth of the magnets' period.
+      // 800 quarter lines are a sixth of the period of the magnets.
       const double quarter = std::floor((m.position_deg / deg + 0.999 * unit) / (pitch_m / 4));
       const auto seen = static_cast<int>(std::floor(quarter / 800));
       EXPECT_EQ(control::sector_of_hall(m.hall), (seen % 6 + 6) % 6) << n;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor is compared with the rotary motor of pi/tau pole pairs, with kg for kg m2 and N for N m: the
-// results have the same bits, and the texts have other terms.
+// A linear motor is compared with the rotary motor of pi/tau pole pairs (pole pitch tau), with kg for kg m2
+// and N for N m. The results have the same bits. The texts use other terms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using study::Scenario;
 
-/// The pole pitch is pi/8 m: pi/tau is exactly 8.
+/// The pole pitch is pi/8 m, so pi/tau is exactly 8.
 Scenario on_a_line(Scenario s) {
   s.sheet.kind = design::MotorKind::linear;
   s.sheet.pole_pairs.reset();
@@ -51,8 +51,8 @@ TEST(LinearMotor, RunsTheBitsOfTheTurningOne) {
 }
 
 TEST(LinearMotor, NeedNotHaveAWholeNumberOfPolePairsInAMetre) {
-  // The rotary motor with the radius r corresponds to v = r w, F = T/r, m = J/r^2. With powers of two, no
-  // rounding is added.
+  // The rotary motor of radius r has v = r w, F = T/r and m = J/r^2 (speed v, force F, mass m). With powers
+  // of two, this conversion adds no rounding.
   const double r = 0x1p-6;
   Scenario turning = maxon_scenario(control::Mode::duty, 0.5), linear = on_a_line(turning);
   linear.sheet.pole_pitch_mm->value = 1e3 * (base::pi / 8) * r;

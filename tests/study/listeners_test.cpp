@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run's listeners receive the run's events in order and do not change the run.
+// The listeners of a run receive the events in order and do not change the run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using control::Mode;
 double asked(const Outcome& out, std::size_t n = 0) { return out.comparisons.at(n).measured; }
 
 TEST(Listeners, KeepGoingDoesNotChangeABit) {
-  // A slice of the run that ends between two events restarts the expansion.
+  // If a slice of the run ends between two events, the expansion restarts.
   Scenario s = maxon_scenario(Mode::duty, 0.7);
   s.duration_s = 50e-3;
   ask(s, measure(MetricKind::final_value, Signal::speed));
@@ -42,8 +42,8 @@ TEST(Listeners, KeepGoingSwallowsNoSample) {
   EXPECT_EQ(asked(*alone), asked(*watched));
 }
 
-/// Rows of every event: the largest backward step of time, and the largest jump of u_a between rows with
-/// equal time.
+/// Checks the rows of every event. It records the largest backward step of time, and the largest jump of u_a
+/// between rows of equal time.
 struct Rows {
   double last = 0, worst_back = 0, jump = 0, u_before = 0, t_before = -1;
   void operator()(Row row) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference may have any number of steps: in a segment, only the figure of merit of the present step is
+// A reference may have any number of steps. In a segment, only the figure of merit of the present step is
 // computed.
 #include <gtest/gtest.h>
 
@@ -21,12 +21,12 @@ double cpu_seconds(const study::Scenario& s) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-/// The minimum of three runs: other load on the machine makes a run longer, never shorter.
+/// The minimum of three runs, because other programs on the machine make a run longer, never shorter.
 double least_cpu_seconds(const study::Scenario& s) {
   return std::min({cpu_seconds(s), cpu_seconds(s), cpu_seconds(s)});
 }
 
-// When each segment called all 4000 gauges, the run took forty times as long.
+// If each segment called all 4000 gauges, the run would take forty times as long.
 TEST(ManySteps, CostNoMoreThanTheRunBetweenThem) {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
   s.load.locked = true;

@@ -19,7 +19,8 @@ using control::Mode;
 
 constexpr double eps = 0x1p-52;
 
-/// The rotor is locked at 69 deg electrical, where only the pair a, c conducts, with R_tt and L_tt.
+/// The rotor is locked at 69 electrical degrees. At this angle, only the pair a, c conducts, with R_tt and
+/// L_tt.
 Scenario locked(double duty) {
   Scenario s = maxon_scenario(Mode::duty, duty);
   s.load.locked = true;
@@ -35,11 +36,12 @@ TEST(Measures, RiseOfAStalledMotorIsTauLnNine) {
   rise.level = U / R;
   rise.start = 0.0;
   ask(s, rise);
-  // The slope at 90 % is 0.1 of the full step, per tau.
+  // At 90 %, the slope is 0.1 of the full step per tau.
   EXPECT_NEAR(figures_of(s)[0], tau * std::log(9.0), 64 * eps * tau / 0.1);
 }
 
-/// The steady current of a chopped coil: it rises towards U/R for d T and falls towards 0 for the rest.
+/// The steady current of a chopped coil. It rises towards U/R for d T (bus voltage U, duty d, period T), and
+/// falls towards 0 for the rest of the period.
 struct ChoppedCoil {
   double d;
   double low = U / R * std::exp(-(1 - d) * T / tau) * std::expm1(-d * T / tau) / std::expm1(-T / tau);
@@ -64,12 +66,12 @@ TEST(Measures, RippleOfAChoppedCoilIsTheTriangles) {
     ask(s, over(MetricKind::ripple_rms, Signal::line_ca, 800 * T, 900 * T));
     const std::vector<double> figures = figures_of(s);
     const ChoppedCoil coil{d};
-    // The current has an error of some roundings of its size.
+    // The error of the current is some roundings of its size.
     EXPECT_NEAR(figures[0], coil.high - coil.low, 64 * eps * U / R);
     EXPECT_NEAR(figures[1], coil.rms(), 64 * eps * U / R);
     EXPECT_NEAR(figures[2], d * U / R, 64 * eps * U / R);
     EXPECT_NEAR(figures[3], U * std::sqrt(d * (1 - d)), 1e-9) << "edges on a grid of 1e-12 s in 3e-3 s";
-    // The textbook's straight lines give U d (1 - d) T/L. Their error is of second order in T/tau.
+    // The textbook's straight lines give the ripple U d (1 - d) T/L. Their error is of second order in T/tau.
     const double triangle = U * d * (1 - d) * T / L, missed = T / tau * T / tau;
     EXPECT_NEAR(figures[0], triangle, triangle * missed);
     EXPECT_NEAR(figures[1], triangle / std::sqrt(12.0), triangle * missed);
@@ -107,7 +109,7 @@ TEST(Measures, EnergiesAreTheBooks) {
   const double should[] = {
       book.supplied, book.supplied - book.devices, book.air_gap, book.load, book.copper, book.devices,
       book.friction};
-  // The gauge compensates its rounding. The mean is a plain sum with one rounding per segment.
+  // The gauge compensates its rounding. The mean is a plain sum, with one rounding per segment.
   const double bound = 16 * eps * book.moved, plain = static_cast<double>(out->segments) * eps * book.moved;
   const auto figure = [&](std::size_t n) { return out->comparisons[n].measured; };
   for (std::size_t n = 0; n < std::size(powers); ++n) {
@@ -116,8 +118,8 @@ TEST(Measures, EnergiesAreTheBooks) {
     EXPECT_NEAR(figure(4 * n + 2) + figure(4 * n + 3), should[n], 2 * bound) << fact_of(powers[n]).word;
     EXPECT_EQ(out->comparisons[4 * n].unit, "J");
   }
-  // The friction of the load is work on the load: in the energy balance, all output except the motor's
-  // friction counts.
+  // The friction of the load is work on the load. In the energy balance, all output counts as useful, except
+  // the motor's friction.
   EXPECT_GT(figure(4 * std::size(powers)), (book.load + book.kinetic) / book.supplied + 0.005);
 }
 
@@ -133,7 +135,8 @@ TEST(Measures, EfficiencyIsOutOverInWhicheverWayItFlows) {
   const auto [motor, forward] = efficiency(s);
   EXPECT_NEAR(forward, (motor.load + motor.kinetic) / motor.supplied, 64 * eps);
   EXPECT_GT(forward, 0.3);
-  // Complementary chopping with a duty below the back-EMF's share of the bus: energy returns to the bus.
+  // With complementary chopping, the mean voltage at this duty is below the back-EMF. Energy therefore
+  // returns to the bus.
   s.pwm.chopping = control::Chopping::complementary;
   s.load.torque_Nm = 0.0;
   s.initial.speed_rad_s = 600.0;
@@ -144,13 +147,13 @@ TEST(Measures, EfficiencyIsOutOverInWhicheverWayItFlows) {
   EXPECT_NEAR(back, brake.supplied / (brake.load + brake.kinetic), 64 * eps);
   EXPECT_GT(back, 0.3);
   EXPECT_LT(back, 1.0);
-  // The motor drives against its rotation: the energy of shaft and bus covers the losses.
+  // The drive acts against the rotation of the motor. The energy of shaft and bus covers the losses.
   s.reference.value = -1.0;
   const auto [plug, none] = efficiency(s);
   ASSERT_GT(plug.supplied, 0.0);
   ASSERT_LT(plug.kinetic, 0.0);
   EXPECT_EQ(none, 0.0);
-  // No energy flows: the efficiency has no value.
+  // No energy flows, so the efficiency has no value.
   s.control.mode = Mode::off;
   s.supply = {};
   s.initial.speed_rad_s = 0.0;
@@ -213,7 +216,8 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
     }
     largest = std::max({largest, figures[5 + 6 * n] - level, level - figures[6 + 6 * n]});
   }
-  // The windows' ends are times of some 2e-2 s, whose rounding is compared with windows of 5e-4 s.
+  // The ends of the windows are times of some 2e-2 s. The tolerance is their rounding relative to windows of
+  // 5e-4 s.
   EXPECT_NEAR(figures[0], error[0], 1e-11);
   EXPECT_NEAR(figures[1], largest, 1e-11);
   EXPECT_NEAR(figures[2], error[1], 1e-11);
@@ -223,8 +227,8 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
 }
 
 TEST(Measures, BandFiguresKeepToTheirWindow) {
-  // The rotor turns backwards, and the back-EMF drives the current while the bridge freewheels: the current
-  // is outside the band until the rotor stops.
+  // The rotor turns backwards, and the back-EMF drives the current while the bridge freewheels. The current
+  // is therefore outside the band until the rotor stops.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.initial.speed_rad_s = -600.0;
   s.duration_s = 40e-3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios whose values come from a program instead of a file: the same table checks the values.
+// A program can pass a scenario's values instead of a file. The same table of limits checks these values.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -81,7 +81,8 @@ TEST(Numbers, OfADesignsWishAreHeldToTheTable) {
   });
 }
 
-/// Every comparison with NaN is false: without a check, the extremes of the other values would be the figure.
+/// Every comparison with NaN is false. Without a check, the extremes of the other values would be returned as
+/// the figure.
 TEST(Numbers, AFigureOfWhichAPartIsNoNumberHasNoValue) {
   for (const study::MetricKind metric :
        {study::MetricKind::maximum, study::MetricKind::minimum, study::MetricKind::mean,

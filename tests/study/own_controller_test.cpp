@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's controller in a scenario. The library's drive through this interface equals the built-in drive bit
-// for bit. The controller's design receives its numbers and the board's values. An answer that no timer can
-// produce ends the run with a message.
+// A user's controller in a scenario. The library's drive through this interface is equal to the built-in
+// drive to the last bit. The controller's design receives its numbers and the values of the board. An answer
+// that no timer can produce ends the run with a message.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ TEST(OwnController, TheLibrarysDriveByThisDoorHasItsBits) {
   EXPECT_EQ(turned, 16);
 }
 
-/// The answer that a test sets, and the last inputs of the design and of the step.
+/// The answer that a test sets, and the last inputs of the design function and of the step function.
 sixstep_answer told{};
 sixstep_given last_given{};
 sixstep_measured last_seen{};
@@ -133,7 +133,8 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
       "control.own puppet cannot have five; change the scenario, or the controller's numbers in control.own.number");
 }
 
-/// The magnet's direction is as exact as the sensors: Hall codes determine it within a sector of 60 degrees.
+/// The magnet's direction has the accuracy of the sensors. Hall codes determine it only within a sector of 60
+/// degrees.
 TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   told = {};
   const auto electrical_deg = [](study::RotorSensing rotor, rig::HallAngleFrom angle) {
@@ -154,7 +155,7 @@ TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   EXPECT_NEAR(electrical_deg(study::RotorSensing::hall, rig::HallAngleFrom::angle), is, 0.5);
 }
 
-/// The run checks the first answer in step 1. The message has the field and the value of the answer.
+/// The run checks the first answer in step 1. The message names the field of the answer and its value.
 TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   const auto fault = [](const sixstep_controller& is, const sixstep_answer& answer) {
     told = answer;
@@ -206,8 +207,8 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   EXPECT_EQ(fault(legs_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
 }
 
-/// The remark appears from a quarter above the given limit. With the rotor held, the current is the duty
-/// times U/R.
+/// The remark is printed if the current exceeds the given limit by a quarter or more. With a locked rotor,
+/// the current is the duty times U/R.
 TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
   const auto remarks = [](double duty, std::optional<double> range_A) {
     Scenario s = with(&pair_puppet, cascade());
@@ -234,8 +235,8 @@ TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
   EXPECT_EQ(remarks(0.303, 0.3 * stall_A), std::pair(0, 1));
 }
 
-/// A remark names each key that affects no value for the controller: the controller receives the same values
-/// with and without the key.
+/// A remark names each key that has no effect on the controller. With and without such a key, the controller
+/// receives the same values.
 TEST(OwnController, KeysThatNothingReachesItFromAreNamed) {
   told = {};
   const auto remarks = [](const Scenario& s) {
@@ -306,7 +307,8 @@ TEST(OwnController, WhatItSaysOfItselfIsLookedAt) {
             (Places{"parameter[0].name", "parameter[1].meaning", "parameter[1].preset"}));
 }
 
-/// A copied session continues equally: the controller's state and configuration are copied as bytes.
+/// A copied session continues like the original, because the controller's state and configuration are copied
+/// as bytes.
 TEST(OwnController, ASessionIsCutWhereOneLikes) {
   const Scenario s = with(sixstep_own_controller(), cascade());
   auto session = study::Session::open(s);

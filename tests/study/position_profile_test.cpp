@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop with a profile on the simulated motor: its lag with and without feed-forward, the end of
-// the move, the shaft's jerk, the defaults from the sheet, and the refusals.
+// The position loop with a profile on the simulated motor. The tests check its lag with and without
+// feed-forward, the end of the move, the jerk of the shaft, the defaults from the sheet, and the refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ using ::testing::HasSubstr;
 
 constexpr double J = 1.35e-5, B = 7.3e-6, K_t = 0.0335, degrees = 180 / base::pi;
 constexpr double v = 100.0, a = 3000.0, smoothing = 5e-3, gain = 0.5, way_deg = 3600.0;
-/// The move lasts d/v + v/a + a/j (distance d, jerk j; a/j is the smoothing). It cruises from v/a + a/j after
-/// its start to v/a + a/j before its end.
+/// The move lasts d/v + v/a + a/j (distance d, speed v, acceleration a, jerk j; a/j is the smoothing). The
+/// speed is constant from v/a + a/j after its start until v/a + a/j before its end.
 constexpr double cruises_from_s = 0.0384, cruises_to_s = 0.628, lands_s = 0.6667;
 
 Scenario move(bool feed_forward, FirmwareKind drive = FirmwareKind::lean) {
@@ -68,8 +68,8 @@ Moved moved(Scenario s) {
   return {f[0], f[1], f[2], f[3], f[4], f[5]};
 }
 
-/// A proportional position loop moves at v only with an error of v/K_p. With feed-forward only the losses
-/// that the sheet omits cause an error.
+/// A proportional position loop needs an error of v/K_p to move at the speed v (gain K_p). With feed-forward,
+/// only losses that the sheet does not state cause an error.
 TEST(PositionProfile, ALagOfVOverTheGainWithoutFeedForwardAndNoneWithIt) {
   for (const FirmwareKind drive : {FirmwareKind::lean, FirmwareKind::field}) {
     const Moved without = moved(move(false, drive)), with = moved(move(true, drive));
@@ -86,7 +86,8 @@ TEST(PositionProfile, ALagOfVOverTheGainWithoutFeedForwardAndNoneWithIt) {
   }
 }
 
-/// The feed-forward supplies the torque J a + B w before the speed loop has an error.
+/// The feed-forward supplies the torque J a + B w before the speed loop has an error (inertia J, acceleration
+/// a, friction B, speed w).
 TEST(PositionProfile, TheSpeedLoopIsLeftWithNothing) {
   const Moved without = moved(move(false)), with = moved(move(true));
   const double mean_w = 0.5 * a * (8e-3 + 0.03 - smoothing);
@@ -109,8 +110,8 @@ struct SpeedWatch {
   }
 };
 
-/// The largest change of the shaft's acceleration from one window to the next, divided by the window. The
-/// acceleration is the difference of speeds 2 ms apart.
+/// The largest change of the shaft's acceleration from one window to the next, divided by the length of a
+/// window. The acceleration is the difference of two speeds that are 2 ms apart.
 double jerk_of_shaft(const Scenario& s) {
   const auto compiled = compile(s);
   EXPECT_TRUE(compiled);
@@ -139,8 +140,8 @@ TEST(PositionProfile, TheShaftKeepsTheJerk) {
   EXPECT_GT(stepped, 10 * profiled);
 }
 
-/// The profile with single precision, in the product drive with registers, and with a duty instead of a
-/// current as output.
+/// The profile runs in single precision, in the product drive with registers, and with a duty instead of a
+/// current as output of the speed loop.
 TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   Scenario single = move(true);
   single.control.arithmetic = Arithmetic::float32;
@@ -160,8 +161,8 @@ TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   }
 }
 
-/// The defaults: the acceleration uses four fifths of the torque limit; the speed is nine tenths of the speed
-/// that the bus allows at this torque; the smoothing is the speed loop's settling time.
+/// Defaults of the profile. The acceleration uses four fifths of the torque limit. The speed is nine tenths
+/// of the speed that the bus allows at this torque. The smoothing is the settling time of the speed loop.
 TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   Scenario s = move(true);
   s.control.position.profile = {};
@@ -183,7 +184,8 @@ TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   EXPECT_FALSE(compile(s)->drive.extras.position.on) << "a speed is not its to shape";
 }
 
-/// The limits change during the move. Position and speed must not jump, and the move must reach its end.
+/// The limits change during the move. Position and speed must not jump, and the move must still reach its
+/// end.
 TEST(PositionProfile, OtherLimitsInFlight) {
   Scenario s = move(true, FirmwareKind::field);
   s.control.position.profile.speed_rad_s.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product drive changes the pair before the Hall edge, at the edge, or after the delay of its filter,
-// which suppresses glitches. Full switching simulation.
+// The product drive changes the pair before the Hall edge, at the edge, or after the delay of its Hall
+// filter, which suppresses glitches. The tests use the full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr double edge_s = base::pi / 24 / w;  // duration of a sector with 8 pol
 constexpr double tick = T / edge_s;           // a control period, in sectors
 constexpr double count = 1e-6 / edge_s;       // a count of the capture timer, in sectors
 
-/// The inertia keeps the speed at full duty: gates change only with the pair.
+/// Gates change only with the driven pair, because the duty is 1. The large inertia keeps the speed constant.
 Scenario flywheel() {
   Scenario s = product_scenario(Mode::duty, 1.0);
   s.initial.speed_rad_s = w;
@@ -34,8 +34,8 @@ Scenario flywheel() {
   return s;
 }
 
-/// Positions of the pair's changes, in sectors after the Hall edge; negative before the edge. The first turn
-/// is omitted, because its direction is not known yet.
+/// Positions of the changes of the pair, in sectors after the Hall edge; negative before the edge. The first
+/// turn is omitted, because the drive does not know the direction of rotation yet.
 std::vector<double> changes(const Scenario& s) {
   static const std::size_t gates = column("gate_T1"), angle = column("angle_rad");
   std::vector<double> after;
@@ -60,10 +60,10 @@ TEST(ProductCommutation, WithoutAdvanceThePairChangesAtTheEdge) {
 }
 
 TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
-  // The advance is a constant angle plus a gain times the speed, up to a limit; the pair changes at the first
-  // tick after this angle. The angle since the last edge is a ratio of counts, each the difference of two
-  // rounded-down counts. 16-bit fixed point rounds this angle and the advance to a digit of 2^-14 each. Q14
-  // represents the duty 1.
+  // The advance is a constant angle plus a gain times the speed, up to a limit. The pair changes at the first
+  // tick after this angle is reached. The angle since the last edge is a ratio of two counts, and each count
+  // is the difference of two rounded-down counts. In 16-bit fixed point, this angle and the advance are each
+  // rounded to a digit of 2^-14. Q14 is used because it represents the duty 1.
   struct Case {
     double angle_deg, gain, limit_deg, expected_deg;
   };
@@ -73,7 +73,8 @@ TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
       Scenario s = flywheel();
       s.control.arithmetic = a;
       s.control.advance = {c.angle_deg, c.gain, c.limit_deg};
-      // The gain multiplies the measured speed, which is w within one count in a sector.
+      // The gain multiplies the measured speed. This speed is w, apart from an error of one count in a
+      // sector.
       const double wanted = c.expected_deg / 60, of_speed = c.gain * w / 60 * count;
       const double error = 2 * count + of_speed + 0x1p-13;
       const std::vector<double> after = changes(s);
@@ -98,7 +99,8 @@ TEST(ProductCommutation, TheHallFilterDelaysAnEdgeByItsSamplesLessOne) {
   }
 }
 
-/// At 100 rad/s, H1 is high for 50 us in sector 3. The code 111 is not the code of any sector.
+/// A run at 100 rad/s. With a glitch, the line H1 is high for 50 us in sector 3, so the code is 111, which is
+/// not the code of any sector.
 Scenario glitch(bool there, int samples) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.2;
@@ -131,7 +133,7 @@ Scenario glitch(bool there, int samples) {
 }
 
 TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
-  // A control period is 30 us: 50 us contain at most two samples.
+  // A control period is 30 us, so at most two samples are within 50 us.
   const auto taken = study::run(glitch(true, 1));
   ASSERT_TRUE(taken && taken->fault);
   EXPECT_THAT(taken->fault->limit, HasSubstr("Hall"));
@@ -144,9 +146,9 @@ TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
   ASSERT_FALSE(study::run(filtered, {.on_record = keep(with)})->fault);
   ASSERT_FALSE(study::run(whole, {.on_record = keep(without)})->fault);
   ASSERT_EQ(with.size(), without.size());
-  // The runs are equal except for rounding, because the glitch's two edges split segments. The bound of the
-  // reference cases is 2e-13 of the largest value; a fault or a wrong pair would change the currents by
-  // amperes.
+  // Both runs are equal, apart from rounding: the two edges of the glitch split segments. The bound is the
+  // bound of the reference cases, 2e-13 of the largest value. A fault or a wrong pair would change the
+  // currents by amperes.
   for (std::size_t c = 0; c < 5; ++c) {
     double largest = 0.0;
     for (const std::vector<double>& row : without) largest = std::max(largest, std::fabs(row[c]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product drive, from registers to command, in full switching simulation.
+// Tests the product drive from registers to command, in the full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ using study::Signal;
 using ::testing::HasSubstr;
 
 constexpr double T = 30e-6;
-// 64 samples of calibration after the first tick, at which the drive receives the request to run.
+// The drive receives the request to run at the first tick. Then the calibration takes 64 samples.
 constexpr double calibrated_s = 64 * T;
 
-/// Runs with a witness, which checks that no leg has both switches on.
+/// Runs the scenario with a witness. The witness checks that no leg has both switches on.
 study::Outcome run_watched(const Scenario& s, Witness& w) {
   auto out = study::run(s, {.on_event = [&w](study::Row row) { w(row); }});
   if (!out) {
@@ -55,8 +55,8 @@ TEST(Product, StartsByCalibrationAndAlignmentAndHoldsTheSpeed) {
     EXPECT_FALSE(out.fault) << to_string(*out.fault);
     EXPECT_DOUBLE_EQ(w.first_on(), calibrated_s)
         << "off until the offsets are known, then the pair that pulls";
-    // The bound is that of the lean drive (sensors_test.cpp): one timer count in 1309 per sector, and the
-    // speed ripple within a sector.
+    // The bound is the same as for the lean drive (sensors_test.cpp): one timer count in 1309 per sector,
+    // plus the speed ripple within a sector.
     EXPECT_NEAR(out.comparisons[0].measured, 100.0, 100.0 * (1.0 / 1309 + 0.004));
   }
 }
@@ -78,7 +78,7 @@ TEST(Product, ARotorThatDoesNotComeWherePulledIsAFault) {
   EXPECT_NEAR(w.off_for_good(), calibrated_s + 5e-3, 2 * T);
 }
 
-/// The recorded values of controller and plant from a time on.
+/// The recorded values of controller and plant from the time `from_s` on.
 std::vector<double> recorded(const Scenario& s, double from_s) {
   std::vector<double> all;
   const auto out = study::run(s, {.on_record = [&](study::Row row) {
@@ -91,10 +91,11 @@ std::vector<double> recorded(const Scenario& s, double from_s) {
 }
 
 TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
-  // After the calibration of the offsets the speed steps from rest to 100 rad/s, later to 102. During the
-  // calibration one bridge is off and the other has duty 0 with a rotor at rest: both have no current.
-  // Afterwards both drives run the same loops on the same counts and captured edges: any difference is an
-  // error in one of the two programs. (The rows are on a grid; the bus voltage is stiff.)
+  // After the calibration of the offsets, the speed reference steps from rest to 100 rad/s, and later to 102
+  // rad/s. During the calibration, the product's bridge is off, and the lean drive has duty 0 with a rotor at
+  // rest. Neither drive has a current. After the calibration, both drives run the same loops on the same
+  // counts and captured edges, so any difference is an error in one of the two programs. (The rows are on a
+  // grid, and the bus voltage is stiff.)
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32}) {
     Scenario product = product_scenario(Mode::speed, 0.0);
     product.duration_s = 0.3;
@@ -113,9 +114,9 @@ TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
 }
 
 TEST(Product, FollowsTheStepsOf74AsTheIdealDrive) {
-  // The speeds are 100, 102, 104 and 102 rad/s; each mean begins after the transient. The mean of a speed by
-  // edges is exact within a timer count in a sector of 1309 counts (100 rad/s) and the ripple within a
-  // sector, as above. The current has 16 bits, 0.6 mA per count.
+  // The speeds are 100, 102, 104 and 102 rad/s, and each mean begins after the transient. The mean of a speed
+  // by edges has two errors: a timer count in a sector of 1309 counts (at 100 rad/s), and the ripple within a
+  // sector. The converter of the current has 16 bits, 0.6 mA per count.
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.duration_s = 1.6;
   s.sensors.adc_bits = 16;
@@ -160,7 +161,7 @@ TEST(Product, ABrokenHallLineStopsTheBridgeAndIsNamed) {
 }
 
 TEST(Product, OverCurrentOfAHeldRotorStopsTheBridge) {
-  // Full duty into a held rotor: i = U/R (1 - exp(-t/tau)) exceeds 15 A after tau ln(1/(1 - 15 R/U)).
+  // With full duty and a locked rotor, i = U/R (1 - exp(-t/tau)) exceeds 15 A after tau ln(1/(1 - 15 R/U)).
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::q14}) {
     Scenario s = product_scenario(Mode::duty, 1.0);
     s.control.arithmetic = a;
@@ -172,14 +173,15 @@ TEST(Product, OverCurrentOfAHeldRotorStopsTheBridge) {
     EXPECT_THAT(out.fault->limit, HasSubstr("over-current"));
     const double passes_s = 0.572e-3 / 1.03 * std::log(1 / (1 - 15.0 * 1.03 / 24.0));
     const double since = w.off_for_good() - w.first_on(), rise_A = (24.0 - 15.0 * 1.03) / 0.572e-3 * T;
-    // A reading is rounded by half a count of 10 mA, which is 1 us. The trip then waits for the next sample.
+    // A reading is rounded by half a count of 10 mA, which corresponds to 1 us. The trip then waits for the
+    // next sample.
     EXPECT_GE(since, passes_s - 1e-6);
     EXPECT_LE(since, passes_s + T + 1e-6);
     EXPECT_LE(w.most_A, 15.005 + rise_A);
   }
 }
 
-/// A flywheel brakes from 600 rad/s with a bus whose source cannot sink.
+/// A flywheel brakes from 600 rad/s, and the source of the bus cannot sink the energy.
 Scenario braking() {
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.duration_s = 0.1;
@@ -202,9 +204,9 @@ TEST(Product, OverVoltageByRegenerationLetsTheMotorCoast) {
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("over-voltage"));
-  // The bound has half a count of 10 mV, and three samples in which 5 A with the design's overshoot and a
-  // period's ripple charge 10 mF. After the trip the winding's energy L i^2/2 goes to the bus too: it equals
-  // C U dU.
+  // The bound contains half a count of 10 mV, and three samples. In these samples, 5 A plus the design's
+  // overshoot and a period's ripple charge 10 mF. After the trip, the winding's energy L i^2/2 also returns
+  // to the bus, where it is C U dU.
   const double i_A = 5.0 + 0.375 + (30.0 + 0.0335 * 600.0) / 0.572e-3 * T;
   const double late = 3 * T * i_A / 10e-3 + 0.005, rest = 0.572e-3 / 2 * i_A * i_A / (10e-3 * 30.0);
   EXPECT_GT(out.comparisons[0].measured, 30.0 - 0.005);
@@ -216,7 +218,8 @@ TEST(Product, OverVoltageByRegenerationLetsTheMotorCoast) {
 }
 
 TEST(Product, UnderVoltageOfASaggingSourceStopsTheBridge) {
-  // 10 A through 1 ohm while the drive accelerates: the bus falls towards 24 V - d 10 A (d duty), below 20 V.
+  // While the drive accelerates, 10 A flow through 1 ohm. The bus falls towards 24 V - d 10 A (duty d), which
+  // is below 20 V.
   Scenario s = product_scenario(Mode::speed, 300.0);
   s.duration_s = 0.2;
   s.supply = {.voltage_V = 24.0, .resistance_ohm = 1.0, .capacitance_F = 1e-3};
@@ -228,8 +231,8 @@ TEST(Product, UnderVoltageOfASaggingSourceStopsTheBridge) {
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("under-voltage"));
   EXPECT_LT(out.comparisons[0].measured, 20.0 + 0.005);
-  // In three samples, at most 10 A plus overshoot discharge 1 mF. The other threshold bounds this current to
-  // 15 A.
+  // In three samples, at most 10 A plus the overshoot discharge 1 mF. The over-current threshold limits this
+  // current to 15 A.
   EXPECT_GT(out.comparisons[0].measured, 20.0 - 3 * T * 15.0 / 1e-3 - 0.005);
 }
 
@@ -243,7 +246,8 @@ TEST(Product, StallIsToldWithinItsTime) {
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("stall"));
-  // The time is 20 ms from the first sample above 3 A; the current loop exceeds 3 A within its settling time.
+  // The stall time is 20 ms, from the first sample above 3 A. The current loop exceeds 3 A within its
+  // settling time.
   const double since = w.off_for_good() - w.first_on();
   EXPECT_GE(since, 20e-3 - T);
   EXPECT_LE(since, 20e-3 + 1e-3 + T);
@@ -266,8 +270,8 @@ TEST(Product, OverSpeedOfADrivingLoadStopsTheBridge) {
   for (const Witness::Instant& n : w.seen)
     if (n.any_gate) fastest = std::max(fastest, n.speed);
   EXPECT_GE(fastest, 150.0);
-  // An edge shows the mean speed over the sector before it: the trip is late by up to one and a half sectors
-  // and a sample.
+  // An edge shows the mean speed over the sector before the edge. The trip is therefore late by up to one and
+  // a half sectors and a sample.
   const double rad_s2 = 0.3 / 1.35e-5;
   EXPECT_LE(fastest, 150.0 + rad_s2 * (1.5 * M_PI / 24 / 150.0 + T));
 }
@@ -288,9 +292,9 @@ TEST(Product, BrakesThenLetsGoWhenTheRequestEnds) {
   EXPECT_FALSE(out.fault);
   EXPECT_LT(out.comparisons[1].measured, -4.0) << "against the turning";
   EXPECT_NEAR(w.last_speed, 0.0, 1.0);
-  // The drive brakes with 5 A down to 154 rad/s, where the short circuit conducts 5 A, or at most to
-  // standstill. Then w' = -w/tau - c, with tau = J R/K_t^2 and c from the friction, and then the time-out of
-  // the edges.
+  // The drive brakes with 5 A to 154 rad/s, where the short circuit conducts 5 A, or at most to standstill.
+  // Then the speed follows w' = -w/tau - c, with tau = J R/K_t^2 and c from the friction, until the edges
+  // time out.
   const double J = 1.135e-4, K_t = 0.0335, tau = J * 1.03 / (K_t * K_t), c = 0.002 / J,
                from = 5.0 * 1.03 / K_t;
   EXPECT_GT(w.off_for_good(), 0.4 + J * (200.0 - from) / (K_t * 5.0 + 0.002) + 0.05);

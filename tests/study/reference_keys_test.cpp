@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every key of a reference has an effect: it changes the reference over time, or a message names the key and
+// Every key of a reference has an effect. It changes the reference over time, or a message names the key and
 // refuses it.
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ std::vector<Reference> one_of_each_shape() {
           {.shape = Shape::csv, .times_s = {0.0, 1e-3}, .values = {1.0, 2.0}}};
 }
 
-/// Visits the description, counts the keys, and sets the n-th key to another valid value.
+/// Visits the keys of a description and counts them. It sets the key with the number `wanted` to another
+/// valid value.
 class AnotherValue final : public base::Visitor {
  public:
   explicit AnotherValue(std::size_t wanted) : wanted_(wanted) {}
@@ -97,7 +98,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
       AnotherValue walk(n);
       describe(walk, changed);
       keys = walk.n;
-      // The file's content is read before this visit, and the shape selects which of the other keys are used.
+      // The content of the file is read before this visit. The shape selects which other keys are used.
       if (walk.key == "shape" || (walk.key == "file" && good.shape == Shape::csv)) continue;
       const base::Problems problems = study::check(with(changed));
       SCOPED_TRACE(walk.key + " of " + std::string(base::word(study::shape_choices, good.shape)));
@@ -113,7 +114,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
   }
 }
 
-/// Each key of the description has a row in the table of good references.
+/// The table of good references has a row for each key of the description.
 TEST(ReferenceKeys, TheTableHasAllOfThem) {
   std::vector<std::string> described, rows;
   for (std::size_t n = 0, keys = 1; n < keys; ++n) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// References that change over time: the controller's value at its ticks is compared with the closed form.
+// The controller's value of a reference that changes over time. At each tick, it is compared with the closed
+// form.
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 #include <gtest/gtest.h>
@@ -32,8 +33,8 @@ double at(const std::vector<Stretch>& stretches, double t_s) {
   return stretches[n].at(t_s);
 }
 
-/// Each section begins at the end of the section before it, within the rounding of a few products of the size
-/// of `way`.
+/// Expects that each section begins at the end of the section before it. The tolerance is the rounding of a
+/// few products of the size of `way`.
 void expect_no_jump(const std::vector<Stretch>& stretches, double way) {
   for (std::size_t n = 0; n + 1 < stretches.size(); ++n)
     EXPECT_NEAR(stretches[n].at(stretches[n + 1].at_s), stretches[n + 1].value, 8 * 0x1p-52 * way) << n;
@@ -59,15 +60,15 @@ TEST(ReferenceCourse, ASineCountsItsTurns) {
       {.shape = Shape::sine, .offset = 1.0, .amplitude = 3.0, .frequency_Hz = 1000.0, .phase_deg = 90.0}));
   ASSERT_EQ(stretches.size(), 1u);
   EXPECT_EQ(stretches[0].at(0.0), 4.0);
-  // The bits are equal 1e9 periods later: 1000 Hz times 1e6 s is a whole number.
+  // A time of 1e9 periods later gives the same bits, because 1000 Hz times 1e6 s is a whole number.
   EXPECT_EQ(stretches[0].at(1e6), stretches[0].at(0.0));
   for (const double t : {1e-4, 3.3e-4, 7.7e-4})
     EXPECT_NEAR(stretches[0].at(t), 1.0 + 3.0 * std::cos(2 * M_PI * 1000.0 * t), 8 * 0x1p-52 * 4.0);
 }
 
 TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
-  // 90 deg at 30 deg/s and 60 deg/s^2: 0.5 s of acceleration over 7.5 deg, 2.5 s at constant speed, 0.5 s of
-  // deceleration.
+  // A move of 90 degrees at 30 deg/s and 60 deg/s^2: 0.5 s of acceleration over 7.5 degrees, 2.5 s at
+  // constant speed, 0.5 s of deceleration.
   const Reference far{
       .shape = Shape::trapezoid, .begin_s = 1.0, .end = 90.0, .slope = 30, .acceleration = 60};
   const std::vector<Stretch> stretches = reference_waveform(with(far));
@@ -78,8 +79,8 @@ TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
   EXPECT_EQ(at(stretches, 4.0), 82.5);
   EXPECT_EQ(at(stretches, 4.5), 90.0);
   EXPECT_EQ(at(stretches, 9.0), 90.0);
-  // 3.75 deg in the other direction: 0.25 s of acceleration to 15 deg/s and 0.25 s of deceleration; 30 deg/s
-  // is not reached.
+  // A move of 3.75 degrees in the other direction: 0.25 s of acceleration to 15 deg/s, and 0.25 s of
+  // deceleration. It does not reach 30 deg/s.
   Reference near = far;
   near.end = -3.75;
   const std::vector<Stretch> there = reference_waveform(with(near));
@@ -91,8 +92,8 @@ TEST(ReferenceCourse, ATrapezoidKeepsRateAndAcceleration) {
 }
 
 TEST(ReferenceCourse, TheChipsOwnProfileOfTheSameLimitsIsThereNoLater) {
-  // control/profile.hpp moves in whole ticks. Its documentation says that it is at least as fast as the
-  // continuous profile.
+  // The profile of control/profile.hpp moves in whole ticks. Its documentation states that it is at least as
+  // fast as the continuous profile.
   const double T = 1e-3;
   for (const double way : {0.001, 0.37, 3.75, 12.0, 90.0}) {
     const std::vector<Stretch> stretches =
@@ -133,7 +134,8 @@ TEST(ReferenceCourse, RestsWhereItsLastWayEnds) {
   EXPECT_EQ(rests({.shape = Shape::steps, .times_s = {0.0, 9.0}, .values = {5.0, 7.0}}), 0.0);
   EXPECT_EQ(rests({.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 1e-3}), 0.0);
   EXPECT_EQ(rests({.shape = Shape::sine, .amplitude = 1.0, .frequency_Hz = 1.0}), std::nullopt);
-  // The last reference decides. Of the reference before it, only the value at the change matters.
+  // The last reference determines the result. Of the reference before it, only the value at the change has an
+  // effect.
   Scenario s = with({.shape = Shape::sine, .amplitude = 1.0, .frequency_Hz = 1.0});
   s.at.push_back({.time_s = 5.0, .reference = Reference{.value = 1.0}});
   EXPECT_EQ(reference_rests_from_s(s), 5.0);
@@ -143,7 +145,7 @@ TEST(ReferenceCourse, RestsWhereItsLastWayEnds) {
 
 TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   Scenario s = with({.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 2.0});
-  // Times count from the event; its reference replaces the rest of the square.
+  // The times of the new reference count from the event. This reference replaces the rest of the square.
   s.at.push_back({.time_s = 5.5, .reference = Reference{.shape = Shape::ramp, .end = 6.0, .slope = 5.0}});
   s.at.push_back({.time_s = 8.0, .reference = Reference{.value = 1.0}});
   const std::vector<Stretch> stretches = reference_waveform(s);
@@ -152,13 +154,13 @@ TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   EXPECT_EQ(at(stretches, 7.9), 6.0);
   EXPECT_EQ(at(stretches, 9.0), 1.0);
   EXPECT_EQ(largest_reference(s), 6.0);
-  // If a run ends during a ramp, its largest reference is the largest value reached.
+  // If a run ends during a ramp, the largest reference is the largest value that was reached.
   s.at.pop_back();
   s.duration_s = 6.5;
   EXPECT_EQ(largest_reference(s), 4.0);
 }
 
-/// Records a column `parts` times in each PWM period.
+/// Records the column `column`, with `parts` rows in each PWM period.
 std::vector<double> recorded(Scenario s, const char* column, int parts = 1) {
   s.record.grid_s = s.pwm.period_s / parts;
   s.record.columns = {column};
@@ -168,7 +170,7 @@ std::vector<double> recorded(Scenario s, const char* column, int parts = 1) {
   return seen;
 }
 
-/// The value in the middle of each period, which is the value from the period's tick.
+/// The value in the middle of each period. It is constant from the tick of the period on.
 std::vector<double> held(const Scenario& s, const char* column) {
   const std::vector<double> rows = recorded(s, column, 2);
   std::vector<double> middles;
@@ -191,7 +193,7 @@ TEST(ReferenceCourse, TheControllerSeesTheClosedFormAtItsTicks) {
   ASSERT_EQ(wide.size(), 667u);
   for (std::size_t n = 0; n < wide.size(); ++n) {
     const double expected = at(stretches, static_cast<double>(n) * 30'000'000 / 1e12);
-    // The rig's clock resolves the time since the section's start to a picosecond.
+    // The rig's clock resolves the time since the start of the section to a picosecond.
     EXPECT_NEAR(wide[n], expected, 2 * 3.0 * 2 * M_PI * 333.0 * 1e-12) << n;
     EXPECT_EQ(narrow[n], static_cast<double>(static_cast<float>(wide[n]))) << n;
     EXPECT_NEAR(fixed[n], wide[n], 8.0 * 0x1p-31) << n << ": one digit of at most 8 A full scale";
@@ -204,8 +206,8 @@ TEST(ReferenceCourse, EventComparatorsFollowItFromTickToTick) {
   s.reference = {.shape = Shape::ramp, .begin_s = 1e-3 + 1e-6, .start = 2.0, .end = 5.0, .end_s = 12e-3};
   const std::vector<Stretch> stretches = reference_waveform(s);
   const std::vector<double> seen = held(s, "i_ref_A");
-  // The step at the ramp's start, between two ticks, acts at once. The ramp then acts at each tick, with the
-  // time since its start to a picosecond.
+  // The step at the start of the ramp is between two ticks and acts at once. Then the ramp acts at each tick.
+  // The time since its start is accurate to a picosecond.
   for (std::size_t n = 0; n < seen.size(); ++n)
     EXPECT_NEAR(seen[n], at(stretches, static_cast<double>(n) * 30'000'000 / 1e12), 2 * 3.0 / 11e-3 * 1e-12)
         << n;
@@ -222,8 +224,8 @@ TEST(ReferenceCourse, ARampOutOfAFullDutyIsSeenThoughItsTicksWereSkipped) {
 }
 
 TEST(ReferenceCourse, ADutyRampDrivesTheHeldMotorAsTheSamplesSay) {
-  // Soft chopping drives the held rotor from zero current. In a period with duty d the source phase is on for
-  // d T, and then the current freewheels. The chip's duty is constant between two ticks.
+  // The rotor is locked, and the current starts at zero with soft chopping. In a period with the duty d, the
+  // source phase is on for d T; then the current freewheels. The chip's duty is constant between two ticks.
   Scenario s = maxon_scenario(Mode::duty, 0.0);
   s.load.locked = true;
   s.initial.angle_rad = 0.02;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each remark appears only where it is true, with the numbers of a hand calculation.
+// Each remark is printed only if it is true. Its numbers are compared with a hand calculation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,14 +31,16 @@ std::vector<std::string> remarks_on(const Scenario& s) {
   return out->remarks;
 }
 
-/// A drive of any mode without the torque limit, which would cause a remark in modes without a speed loop.
+/// A drive of any mode. If the mode has no speed loop, the torque limit is removed, because it would cause a
+/// remark.
 Scenario drive_of(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   if (mode != Mode::speed && mode != Mode::position) s.control.speed.torque_limit_Nm.reset();
   return s;
 }
 
-/// The held maxon 251601: 1.03 ohm and 0.572 mH between two terminals, 24 V, 30 us.
+/// The maxon 251601 with a locked rotor: 1.03 ohm and 0.572 mH between two terminals, 24 V, and a period of
+/// 30 us.
 Scenario held(double amps) {
   Scenario s = drive_of(Mode::current, amps);
   s.load.locked = true;
@@ -75,7 +77,7 @@ TEST(Remarks, ValuesOfTheReferenceBehindTheEnd) {
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("2 of the 4 values")));
 }
 
-/// The drive controls 0.3 A; one shunt is sampled in the middle of a centred pulse.
+/// The drive controls 0.3 A. One shunt is sampled in the middle of a centred pulse.
 Scenario on_one_shunt() {
   Scenario s = held(0.3);
   s.pwm.alignment = study::Alignment::centre;
@@ -87,7 +89,8 @@ Scenario on_one_shunt() {
 
 TEST(Remarks, AShuntThatSeesNoPulse) {
   Scenario s = on_one_shunt();
-  // The current is visible above a duty of 2 us/30 us; at standstill this is 24 V/1.03 ohm/15 = 1.553 A.
+  // The shunt measures the current above a duty of 2 us/30 us. At standstill, this duty gives 24 V/1.03
+  // ohm/15 = 1.553 A.
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("this duty gives 1.55 A"))));
   s.pwm.chopping = control::Chopping::complementary;
@@ -99,7 +102,7 @@ TEST(Remarks, AShuntThatSeesNoPulse) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// The voltage drops of the bridge's devices reduce the current, and a delayed reading needs a longer pulse.
+/// The voltage drops of the bridge's devices reduce the current. A delayed reading needs a longer pulse.
 TEST(Remarks, AShuntBehindARealBridge) {
   Scenario s = on_one_shunt();
   const double R = 1.03 / 2, d = 2e-6 / 30e-6;
@@ -121,14 +124,15 @@ TEST(Remarks, AShuntBehindARealBridge) {
   EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 0.1 / 1.03, 1e-12);
   s.pwm.minimum_pulse_s = 0.0;
   s.sensors.current_bandwidth_Hz = 2e4;
-  // 1 - exp(-1 us 2 pi 20 kHz) = 0.118, and ln 10/(2 pi 20 kHz) = 18.3 us
+  // 1 - exp(-1 us 2 pi 20 kHz) is 0.118, and ln 10/(2 pi 20 kHz) is 18.3 us.
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("shows 11.8 %"), HasSubstr("after 18.3 us the sensor shows 90 %"))));
   s.sensors.current_bandwidth_Hz.reset();
 }
 
-/// Complementary chopping turns the upper switch on after a dead time: of a pulse of 4 us around its sample,
-/// 3 us remain. After the dead time, 1 us remains before the sample, the settling time of the amplifier.
+/// With complementary chopping, the upper switch turns on after the dead time, so of a pulse of 4 us around
+/// its sample, 3 us are left. After the dead time, 1 us is left before the sample, which is the settling time
+/// of the amplifier.
 TEST(Remarks, AShuntBehindADeadTime) {
   Scenario s = on_one_shunt();
   s.pwm.chopping = control::Chopping::complementary;
@@ -136,7 +140,7 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 4.0 / 30, 1e-15);
   const double hidden_A = study::unseen_at_rest_A(s, 1.03 / 2);
   EXPECT_NEAR(hidden_A, 24 * 3e-6 / 30e-6 / 1.03, 1e-12);
-  // A current above hidden_A is measured and can be controlled; a smaller current is not measured.
+  // A current above hidden_A is measured and can be controlled. A smaller current is not measured.
   s.reference.value = 1.1 * hidden_A;
   EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("the shunt"))));
   s.reference.value = 0.5 * hidden_A;
@@ -147,8 +151,8 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 2.0 / 30, 1e-15);
 }
 
-/// The drive omits pulses below 3 us. The sample of such a pulse would be valid from 2 us on, but half of 3
-/// us is the configured settling time.
+/// The drive omits pulses below 3 us. The sample of a pulse would be valid from 2 us on, because half of the
+/// pulse is the configured settling time.
 TEST(Remarks, SamplesThatTheDriveTakesTooSoon) {
   Scenario s = on_one_shunt();
   s.pwm.minimum_pulse_s = 3e-6;
@@ -163,8 +167,8 @@ TEST(Remarks, HallEdgesRarerThanTheTimeout) {
   Scenario s = drive_of(Mode::speed, 2.0);
   s.duration_s = 10e-3;
   s.sensors.rotor = study::RotorSensing::hall;
-  // With eight pole pairs at 2 rad/s an edge occurs each (pi/3)/(8 x 2) = 65.4 ms. The slowest speed is
-  // (pi/3)/8/50 ms = 2.618 rad/s.
+  // With eight pole pairs at 2 rad/s, an edge occurs every (pi/3)/(8 x 2) = 65.4 ms. The slowest measurable
+  // speed is (pi/3)/8/50 ms = 2.618 rad/s.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("every 65.4 ms"), HasSubstr("timeout_s = 50 ms"),
                                             HasSubstr("slowest measurable speed is 2.62 rad/s"))));
   s.reference.value = 5.0;
@@ -173,7 +177,7 @@ TEST(Remarks, HallEdgesRarerThanTheTimeout) {
 
 TEST(Remarks, GainsPerSecondTakenForGainsPerSample) {
   Scenario s = held(5.0);
-  // The gains are per second, as in other tools: kp = L 1000/s, ki = R 1000/s.
+  // The gains are per second, as in other programs: kp = L 1000/s and ki = R 1000/s.
   s.control.current.kp = 0.572;
   s.control.current.ki = 1030.0;
   const std::vector<std::string> told = remarks_on(s);
@@ -207,8 +211,9 @@ TEST(Remarks, ASettlingTimeThatIsSlowerThanTheRotorItself) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// The proportional gain at which the loop becomes unstable, by hand: z - a + b kp = 0 at z = -1 gives kp =
-/// (1 + a)/b. With one period of delay, z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
+/// The proportional gain at which the loop becomes unstable is computed by hand. Without delay, z - a + b kp
+/// = 0 at z = -1 gives kp = (1 + a)/b. With one period of delay, z^2 - a z + b kp = 0 has |z| = 1 at kp =
+/// 1/b.
 TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   const double R = 1.03, L = 0.572e-3, T = 30e-6, a = std::exp(-R * T / L), b = (1 - a) / R;
   for (const bool delayed : {false, true}) {
@@ -227,7 +232,7 @@ TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   }
 }
 
-/// Each of the keys without effect on the drive gives a remark; a key that has an effect gives none.
+/// Each key without an effect on the drive causes a remark. A key with an effect causes no remark.
 TEST(Remarks, KeysWithoutEffectAreNamed) {
   const std::pair<const char*, void (*)(Scenario&)> keys[] = {
       {"sensors.current_noise_A (sensors.currents is ideal)",
@@ -274,7 +279,7 @@ TEST(Remarks, KeysWithoutEffectAreNamed) {
   EXPECT_THAT(remarks_on(s), ::testing::Not(Contains(HasSubstr("without effect"))));
 }
 
-/// Each law of a load, on a held rotor, changes no figure of the run, and is named.
+/// With a locked rotor, no law of a load changes a figure of the run. A remark names each such law.
 TEST(Remarks, LawsOfALoadThatCannotMoveAreNamed) {
   const std::pair<const char*, void (*)(study::Load&)> keys[] = {
       {"load.torques_Nm",
@@ -316,7 +321,8 @@ TEST(Remarks, LawsOfALoadThatCannotMoveAreNamed) {
   }
 }
 
-/// A held rotor's speed loop is designed with the load's inertia, which changes its gains.
+/// The rotor is locked, but its speed loop is designed with the inertia of the load. This inertia changes the
+/// gains.
 TEST(Remarks, TheInertiaOfAHeldRotorCountsInTheDesignOfItsSpeedLoop) {
   Scenario s = drive_of(Mode::speed, 0.5);
   s.load.locked = true;
@@ -331,7 +337,7 @@ TEST(Remarks, TheInertiaOfAHeldRotorCountsInTheDesignOfItsSpeedLoop) {
   EXPECT_THAT(with->remarks, Not(Contains(HasSubstr("without effect"))));
 }
 
-/// A comparator switches by the current alone, wherever a PWM would have its pulses.
+/// A comparator switches only by the current, whatever the keys of PWM pulses say.
 TEST(Remarks, PulsesThatComparatorsDoNotMakeAreNamed) {
   const std::pair<const char*, void (*)(Scenario&)> keys[] = {
       {"pwm.alignment", [](Scenario& s) { s.pwm.alignment = study::Alignment::centre; }},
@@ -357,7 +363,7 @@ TEST(Remarks, ABackEmfAboveTheBus) {
   Scenario s = drive_of(Mode::off, 0.0);
   s.duration_s = 2e-3;
   s.initial.speed_rad_s = 800.0;
-  // 33.5 mV s/rad give 26.8 V between two terminals at 800 rad/s.
+  // At 800 rad/s, 33.5 mV s/rad give 26.8 V between two terminals.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("back-EMF of 26.8 V"), HasSubstr("bus of 24 V"))));
   s.initial.speed_rad_s = 700.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
@@ -378,8 +384,8 @@ TEST(Remarks, AWindingAboveItsLimit) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// A winding is just below its limit by the sheet's values, but above it at the ends of their ranges. A
-/// winding far below its limit has no remark.
+/// By the values of the sheet, the winding is just below its limit. At the ends of their ranges, it is above
+/// its limit. A winding that is far below its limit causes no remark.
 TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
   Scenario s = held(10.0);
   s.duration_s = 2.0;
@@ -391,7 +397,8 @@ TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
   s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
   s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
   s.heat.motor = true;
-  // 10 A in 1.03 ohm over two seconds are 206 J, for a heat capacity of 2.5 J/K or of 1 J/K.
+  // 10 A in 1.03 ohm for two seconds are 206 J. The heat capacity is 2.5 J/K, or 1 J/K at the ends of the
+  // ranges.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("the winding stayed below 125 degC"),
                                             HasSubstr("thermal_time_constant_winding_s = 4"))));
   s.duration_s = 0.2;
@@ -403,13 +410,14 @@ TEST(Remarks, FewSamplesInACommutationStep) {
   s.duration_s = 2e-3;
   s.pwm.period_s = 300e-6;
   s.initial.speed_rad_s = 100.0;
-  // (pi/3)/(8 x 100) = 1.309 ms: 4.36 periods of 300 us.
+  // (pi/3)/(8 x 100) = 1.309 ms are 4.36 periods of 300 us.
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("lasts 4.36 control periods")));
   s.initial.speed_rad_s = 70.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// Three legs switch in each period; no current is transferred from one phase to another at an edge.
+/// In a field-oriented drive, three legs switch in each period. At an edge, no current is transferred from
+/// one phase to another.
 TEST(Remarks, AFieldOrientedDriveHasNoCommutationSteps) {
   Scenario s = drive_of(Mode::current, 0.0);
   s.sheet.back_emf = design::BackEmfShape::sine;

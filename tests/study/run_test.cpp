@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Complete runs of scenarios that are built in C++.
+// Tests complete runs of scenarios that are built in C++.
 #include "sixstep/study/run/run.hpp"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(Run, GridHasARowPerPointAndOneAtTheEnd) {
 }
 
 TEST(Run, GridRowsAreRightLimits) {
-  // The duty steps on a grid point: the row at this point shows the gates after the step.
+  // The duty steps at a grid point. The row at this point shows the gates after the step.
   Scenario s = maxon_scenario(Mode::duty, 0.0);
   s.reference.shape = Shape::steps;
   s.reference.times_s = {0.0, 3e-3};
@@ -127,7 +127,7 @@ TEST(Run, GridRowsAreRightLimits) {
 }
 
 TEST(Run, AGridRowOnATickIsBehindItWhereverTheLastEdgeWas) {
-  // Edges fall between picoseconds, so that the time from an edge to the tick is rounded. The row at the tick
+  // Edges are between two picoseconds, so the time from an edge to the tick is rounded. The row at the tick
   // must show the tick's command: each period begins with the upper switch on.
   Scenario s = current_square();
   s.record.grid_s = s.pwm.period_s;
@@ -148,8 +148,8 @@ TEST(Run, SinglePrecisionControlFollowsDouble) {
   s.control.arithmetic = Arithmetic::float32;
   const auto narrow = run(s);
   ASSERT_TRUE(wide && narrow);
-  // 667 samples have a few single-precision roundings of 24 V each. An error in the loop decays faster than
-  // this sum grows.
+  // In each of 667 samples, a few values of 24 V are rounded in single precision. An error in the loop decays
+  // faster than this sum grows.
   const double bound = 667 * 4 * 0x1p-23 * 24.0 / 1.03;
   EXPECT_NEAR(asked(*wide, 1), asked(*narrow, 1), bound);
   EXPECT_NEAR(asked(*wide, 2), asked(*narrow, 2), bound);
@@ -177,7 +177,7 @@ TEST(Run, StallFollowsTheClosedForm) {
 }
 
 TEST(Run, NoLoadSteadyStateIsTheReferences) {
-  // The expected values are the means of R2 over [0.2, 0.3] s.
+  // The expected values are the means of the reference trajectory R2 over [0.2, 0.3] s.
   Scenario s = maxon_scenario(Mode::duty, 1.0);
   s.duration_s = 0.3;
   for (const Signal signal : {Signal::speed, Signal::current_magnitude}) {
@@ -247,8 +247,8 @@ TEST(Run, APulseOrGapBelowTheMinimumIsNotSwitched) {
   }
 }
 
-/// The switching frequency of a pair and of three legs equals the PWM frequency: the period that begins at
-/// the end of the run does not count.
+/// The switching frequency of a pair and of three legs is equal to the PWM frequency. The period that begins
+/// at the end of the run does not count.
 TEST(Run, APwmReadsItsOwnFrequency) {
   Scenario pair = maxon_scenario(control::Mode::duty, 0.5);
   pair.duration_s = 3e-3;  // 100 periods

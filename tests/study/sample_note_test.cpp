@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A note appears if a figure of merit of the controller's samples differs from the figure of the whole
-// signal. Its advice removes the difference.
+// A note is printed if a figure of merit of the controller's samples differs from the figure of the whole
+// signal. After its advice is followed, the figures agree.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ using namespace sixstep::testing;
 using study::MetricKind;
 using study::Scenario;
 
-/// The drive controls 2 A in the held rotor at a duty of 0.14: the ripple is 24 V 0.12 30 us/(2 0.286 mH) =
+/// The drive controls 2 A with a locked rotor at a duty of 0.14. The ripple is 24 V 0.12 30 us/(2 0.286 mH) =
 /// 0.15 A.
 Scenario held(MetricKind metric) {
   Scenario s = maxon_scenario(control::Mode::current, 2.0);
@@ -36,7 +36,7 @@ study::Outcome ran(const Scenario& s) {
   return *outcome;
 }
 
-/// The requirement is the figure of the samples, within a fortieth of the current.
+/// A scenario whose requirement is the figure of the samples, within a fortieth of the current.
 Scenario asked_of_its_samples(MetricKind metric) {
   Scenario s = held(metric);
   s.require[0].min = -1e9;
@@ -73,7 +73,8 @@ TEST(SampleNote, ItsAdviceMakesItGoAway) {
   }
 }
 
-/// Wherever the sample is in the period, it does not show the ripple on top of an overshoot at the start.
+/// At the start, the ripple is added to an overshoot. No position of the sample in the period shows this
+/// ripple.
 TEST(SampleNote, WhereTheSampleStandsAlreadyTheWholeSignalIsLeft) {
   Scenario s = asked_of_its_samples(MetricKind::maximum);
   s.pwm.alignment = study::Alignment::centre;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive that detects its rotor by pulses, in a scenario. A wheel hub motor with a salient
-// rotor and iron that saturates starts from many angles; pulses cannot detect the round rotor of 251601. The
-// refusals are tested too.
+// A scenario in which the sensorless drive finds its rotor by pulses. A wheel hub motor with a salient rotor
+// and iron that saturates starts from many angles. Pulses cannot find the angle of the round rotor of the
+// 251601. The tests include refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 
 constexpr int pairs = 15;
 
-/// The motor library's hub motor with two inductances in its sheet, and iron that saturates at 40 A.
+/// The motor library's hub motor, with two inductances in its sheet and iron that saturates at 40 A.
 Scenario hub(double electrical_deg, double speed_rad_s) {
   Scenario s;
   s.sheet.name = "hub";
@@ -81,8 +81,8 @@ void run_pulses(GeneralRig<Firmware>& rig) {
   FAIL() << "no pulses";
 }
 
-/// The bounds come from the design: the angle by five times the noise, the rotation by the sum of impulses,
-/// the signals by the block's measurement.
+/// The design gives the bounds: for the angle five times the noise, for the rotation the sum of impulses. The
+/// signals are compared with the block's measurement.
 TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
   double worst_off = 0, worst_turn = 0, most_off = 0, most_turn = 0;
   for (double deg = 2.5; deg < 360; deg += 7.5) {
@@ -106,7 +106,7 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
     EXPECT_LT(std::fabs(off), most_off + most_turn)
         << deg << ": it is asked over all the rounds, while it turns";
     EXPECT_LT(std::fabs(turned), most_turn) << deg;
-    // The chip measures its noise: 48 readings determine the variance within a fifth.
+    // The chip measures its noise. From 48 readings, the variance is accurate to a fifth.
     EXPECT_NEAR(found.north_16 / 16.0, step_of(*compiled, "north"), 0.25 * step_of(*compiled, "north"))
         << deg;
     EXPECT_GE(found.north_16 / 16.0, 6.0);
@@ -115,9 +115,9 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
               worst_turn, most_turn);
 }
 
-/// The speed is 25 rad/s, 0.3 of the no-load speed: at 12 rad/s the drive loses the crossings of such a
-/// salient hub motor with any kind of start. After the pulses the ramp moves the rotor in the requested
-/// direction. The rotor turns back by no more than the rotation from the pulses and the angle's error; an
+/// The speed is 25 rad/s, 0.3 of the no-load speed. At 12 rad/s, the drive would lose the crossings of such a
+/// salient hub motor after any kind of start. After the pulses, the ramp moves the rotor in the requested
+/// direction. The rotor may turn back by at most the rotation from the pulses plus the error of the angle. An
 /// alignment would turn it back by up to half a turn.
 TEST(SensorlessPulses, StartsWithoutTurningBack) {
   for (const double way : {1.0, -1.0})
@@ -134,7 +134,7 @@ TEST(SensorlessPulses, StartsWithoutTurningBack) {
       EXPECT_LT(back, step_of(*compiled, "turned")) << deg << " " << way;
       EXPECT_NEAR(out.comparisons[1].measured, way * 25.0, 0.02 * 25.0) << deg << " " << way;
     }
-  // An alignment exceeds this bound: the angle of its pair is 120 degrees.
+  // With an alignment, the rotor exceeds this bound: the angle of the aligning pair is 120 degrees.
   Scenario aligned = hub(242.0, 25.0);
   aligned.control.sensorless.starts_by = StartsBy::alignment;
   ask(aligned, over(MetricKind::minimum, Signal::position, 0.0, 1.5));
@@ -155,8 +155,8 @@ TEST(SensorlessPulses, StartsInEveryArithmetic) {
   }
 }
 
-/// Pulses cannot detect the round rotor of 251601: the drive aligns the rotor and starts it, and a note says
-/// why.
+/// Pulses cannot find the angle of the round rotor of the 251601. The drive aligns the rotor and starts it,
+/// and a note states the reason.
 TEST(SensorlessPulses, AlignsWhatShowsNothingAndSaysSo) {
   Scenario s = maxon_scenario(Mode::speed, 100.0);
   s.sheet.nominal_current_A = {2.33, "terminal", ""};

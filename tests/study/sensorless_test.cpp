@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive in a scenario: starts in every arithmetic, handover during the run, a dead Hall line,
-// a rotor that does not follow, and the refusals.
+// The sensorless drive in a scenario: starts in every arithmetic, the hand-over during the run, a dead Hall
+// line, a rotor that does not follow, and the refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,8 +43,8 @@ TEST(SensorlessScenario, StartsAndHoldsItsSpeedInEveryArithmetic) {
     const Outcome out = outcome_of(s);
     ASSERT_FALSE(out.fault) << to_string(*out.fault);
     EXPECT_TRUE(out.notes.empty()) << out.notes[0];
-    // Linear interpolation gives the crossings between two samples; the timer's error is one count of 1 MHz
-    // in 1.3 ms.
+    // Linear interpolation gives the crossings between two samples. The error of the timer is one count of 1
+    // MHz in 1.3 ms.
     EXPECT_NEAR(out.comparisons[0].measured, 100.0, 0.5) << static_cast<int>(a);
   }
 }
@@ -56,8 +56,8 @@ TEST(SensorlessScenario, StartsByACurrentInDutyToo) {
     ask(s, over(MetricKind::mean, Signal::speed, 2.1, 2.2));
     const Outcome out = outcome_of(s);
     ASSERT_FALSE(out.fault) << to_string(*out.fault);
-    // K_t w = d U - R I - 3/pi p w L_s I, where I is the current for the friction. The last term is the
-    // voltage drop of a rectifier whose current commutates between phases. The ripple from the PWM is
+    // K_t w = d U - R I - 3/pi p w L_s I (symbols of model.md), with the friction current I. The last term is
+    // the voltage drop of a rectifier whose current commutates between phases. The ripple from the PWM is
     // neglected.
     const double I = (0.01 + 7.3e-6 * 268) / 0.0335;
     const double w = (0.4 * 24 - 1.03 * I) / (0.0335 + 3 / base::pi * 8 * 0.286e-3 * I);
@@ -83,7 +83,7 @@ TEST(SensorlessScenario, GoesOverFromHallToTheBackEmfAndBack) {
   const Outcome out = outcome_of(s);
   ASSERT_FALSE(out.fault);
   for (const std::size_t n : {0, 2, 4}) EXPECT_NEAR(out.comparisons[n].measured, 100.0, 0.5) << n;
-  // With probes the commutation error is zero; with crossings it is the interpolation's error.
+  // With probes, the commutation error is zero. With crossings, it is the error of the interpolation.
   EXPECT_LT(out.comparisons[1].measured, 1e-6);
   EXPECT_GT(out.comparisons[3].measured, 1e-6);
   EXPECT_LT(out.comparisons[3].measured, 5.0);
@@ -206,7 +206,7 @@ TEST(SensorlessScenario, FollowsComparators) {
   }
 }
 
-/// The bandwidth that the cure names must pass the check.
+/// The message names a bandwidth. This bandwidth must pass the check.
 TEST(SensorlessScenario, SaysTheBandwidthThatComparatorsNeed) {
   for (const auto against : {rig::CrossingReference::virtual_star, rig::CrossingReference::half_bus})
     for (const std::optional<double> wrong : {std::optional<double>{}, std::optional<double>(100.0)}) {
@@ -231,8 +231,8 @@ TEST(SensorlessScenario, ComparatorsThatHideTheBackEmfAreRefused) {
   EXPECT_EQ(refused.problems()[0].where, "sensors.comparators");
 }
 
-/// A divider that reads zero while its terminal has another voltage causes a loss of the rotor under one of
-/// several names. The drive starts again, and may give up.
+/// A divider reads zero while its terminal has another voltage. The drive then loses the rotor, and the loss
+/// has one of several names. The drive starts again, and may give up.
 TEST(SensorlessScenario, ADividerBreaksAtAnInstant) {
   for (const Wire leg : {Wire::a, Wire::b, Wire::c})
     for (const bool comparators : {false, true}) {

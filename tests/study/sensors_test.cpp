@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive with a board's sensors in the loop, in full switching simulation.
+// Tests the drive with the sensors of a board in its loops, in the full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using study::Scenario;
 using study::Signal;
 using ::testing::HasSubstr;
 
-/// The drive controls 5 A in the held rotor: only the measurement changes the result.
+/// The drive controls 5 A with a locked rotor, so only the measurement changes the result.
 Scenario held_at_5_A() {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
@@ -46,8 +46,8 @@ double mean_of(const Scenario& s) {
 }
 
 TEST(Sensors, ConverterHoldsTheCurrentWithinHalfACount) {
-  // The integral controls the mean reading to 5 A, which is a whole number of counts. Every reading is within
-  // half a count of its current.
+  // The integral controls the mean reading to 5 A, which is a whole number of counts. Every reading differs
+  // from its current by at most half a count.
   const double ideal = mean_of(held_at_5_A());
   for (const int bits : {8, 10, 12, 16}) {
     const double lsb = 2 * 20.48 / (1 << bits);
@@ -59,7 +59,7 @@ TEST(Sensors, AGainErrorIsTheCurrentsOwn) {
   Scenario s = with_phases(held_at_5_A(), 16);
   const double ideal = mean_of(held_at_5_A());
   s.sensors.current_gain_error = 0.05;
-  // The loop controls a reading that is 5 % too large to 5 A: the sampled current is 5 A/1.05. The mean is
+  // The loop controls to 5 A a reading that is 5 % too large, so the sampled current is 5 A/1.05. The mean is
   // half a ripple above the samples. A change of the duty by 2 % changes the ripple by at most 2 %.
   EXPECT_NEAR(mean_of(s), ideal - 5.0 * (1 - 1 / 1.05), 0.05 * (ideal - 5.0) + 20.48 / (1 << 15));
 }
@@ -67,7 +67,8 @@ TEST(Sensors, AGainErrorIsTheCurrentsOwn) {
 TEST(Sensors, CalibrationTakesTheOffsetAway) {
   Scenario s = with_phases(held_at_5_A());
   const double plain = mean_of(s);
-  // i_m = (i_a - i_b)/2: equal offsets cancel even without calibration. A shunt has only one offset (below).
+  // The motor current is (i_a - i_b)/2, so equal offsets cancel even without calibration. A shunt has only
+  // one offset, which does not cancel.
   s.sensors.current_offset_A = 0.5;
   EXPECT_NEAR(mean_of(s), plain, 20.48 / (1 << 11));
 }
@@ -88,8 +89,8 @@ study::At drifts(double at_s, std::optional<double> offset_A, std::optional<doub
   return at;
 }
 
-/// The drive measured its zero before the drift. After the drift its readings equal those with an offset that
-/// was never calibrated.
+/// The drive measured its zero before the drift. After the drift, its readings are equal to readings with an
+/// offset that was never calibrated.
 TEST(Sensors, AnAmplifierThatDriftsShiftsEverySampleByJustThat) {
   for (Scenario drifted : {with_phases(held_at_5_A()), with_shunt(held_at_5_A())}) {
     Scenario never_measured = drifted;
@@ -150,8 +151,8 @@ TEST(Sensors, ShuntsOffsetShowsUntilItIsCalibrated) {
 }
 
 TEST(Sensors, OneShuntHoldsTheCurrentOfPhaseSensing) {
-  // The rotor is held, and the pulses are long enough to sample: both kinds of measurement give the same
-  // sample within one count of the converter.
+  // The rotor is locked, and the pulses are long enough to sample. Both kinds of measurement give the same
+  // sample, within one count of the converter.
   Scenario ideal = held_at_5_A();
   ideal.pwm.alignment = study::Alignment::centre;
   ideal.pwm.sample = study::SampleAt::middle;
@@ -177,8 +178,8 @@ TEST(Sensors, IdealOnesLeaveTheRunAsItIs) {
 }
 
 TEST(Sensors, ErrorsOfTheBusConverterAreTheDutys) {
-  // The duty is divided by the bus reading. A reading that is 5 % and 1 V too high reduces the voltage by 5 %
-  // and by 1/25.2. The integral restores the voltage, and the steady current is unchanged.
+  // The duty is divided by the bus reading. A reading that is too high by 5 % and 1 V reduces the voltage by
+  // 5 % and by 1/25.2. The integral restores the voltage, so the steady current is unchanged.
   Scenario s = with_phases(held_at_5_A(), 16);
   s.control.current.measured_bus_from_V = 10.0;
   s.sensors.bus = study::BusSensing::adc;
@@ -190,8 +191,8 @@ TEST(Sensors, ErrorsOfTheBusConverterAreTheDutys) {
   const double right = mean_of(s);
   s.sensors.bus_gain_error = 0.05;
   s.sensors.bus_offset_V = 1.0;
-  // The current is the on-time times U/L. R reduces it only slightly: 30 us are short compared with 0.56 ms.
-  // Half a count of 16 bits, 0.3 mV, is negligible.
+  // The current is the on-time times U/L. R reduces the current only slightly, because 30 us are short
+  // compared with 0.56 ms. Half a count of 16 bits, 0.3 mV, is negligible.
   EXPECT_NEAR(mean_of(s) / right, 24.0 / (24.0 * 1.05 + 1.0), 0.03);
 }
 
@@ -206,15 +207,16 @@ Scenario at_100_rad_s() {
 }
 
 TEST(Sensors, SpeedFromHallEdgesHoldsTheSpeed) {
-  // The speed loop is slow: the exact pole placement assumes a speed without delay, but the speed from edges
-  // is a sector late.
+  // The speed loop is slow, because the exact pole placement assumes a speed without delay, but the speed
+  // from edges is a sector late.
   Scenario s = at_100_rad_s();
   s.control.speed.settle_s = 0.1;
   s.control.speed.damping = 0.9;
   s.sensors.rotor = study::RotorSensing::hall;
   s.sensors.speed_edges = 1;
-  // The mean of 1/T over equal sectors is exact within a timer count, 1 in 1309 at 1 MHz. The integral
-  // controls the time mean of the reading to 100 rad/s; the ripple within a sector, 0.4 %, remains.
+  // The mean of 1/T over equal sectors is exact, apart from a timer count, which is 1 in 1309 at 1 MHz. The
+  // integral controls the time mean of the reading to 100 rad/s. The ripple within a sector, 0.4 %, is not
+  // corrected.
   EXPECT_NEAR(mean_of(s), 100.0, 100.0 * (1.0 / 1309 + 0.004));
 }
 
@@ -229,8 +231,8 @@ TEST(Sensors, CoarseTimerShowsInTheSpeed) {
 }
 
 TEST(Sensors, PositionFromHallEdgesComesToItsTarget) {
-  // The target is the middle of a sector, which is 7.5 degrees wide. A rotor at rest anywhere in the sector
-  // reads as the middle.
+  // The target is the middle of a sector, which is 7.5 degrees wide. If a rotor is at rest anywhere in the
+  // sector, its reading is this middle.
   Scenario s = maxon_scenario(Mode::position, 363.75);
   s.duration_s = 0.6;
   s.control.speed.settle_s = 0.05;
@@ -240,13 +242,13 @@ TEST(Sensors, PositionFromHallEdgesComesToItsTarget) {
   ask(s, measure(MetricKind::final_value, Signal::position));
   const auto out = study::run(s);
   ASSERT_TRUE(out);
-  // Without friction the rotor drifts until it passes an edge, and then turns back: the error is up to half a
-  // sector plus one sector.
+  // Without friction, the rotor drifts until it passes an edge, and then turns back. The error is therefore
+  // up to half a sector plus one sector.
   EXPECT_NEAR(out->comparisons[0].measured, 363.75, 1.5 * 7.5);
 }
 
 TEST(Sensors, FixedPointReadsTheSameCounts) {
-  // One count of 12 bits over +-20.48 A is 10 mA. A digit of Q15 with the scenario's bases is 0.46 mA.
+  // One count of 12 bits over +-20.48 A is 10 mA. With the bases of the scenario, a digit of Q15 is 0.46 mA.
   Scenario s = with_phases(held_at_5_A());
   const double wide = mean_of(s);
   for (const Arithmetic a : {Arithmetic::q15, Arithmetic::q31, Arithmetic::float32}) {
@@ -265,13 +267,14 @@ TEST(Sensors, ABrokenLineStopsTheBridgeAndIsNamed) {
       ASSERT_TRUE(out->fault) << line;
       EXPECT_THAT(out->fault->limit, HasSubstr("line H" + std::to_string(line)));
       // A line that breaks just after one of its edges reverses this edge. Its next edge, three sectors
-      // later, is missing. One sector later an edge of another line makes the code impossible. This is within
-      // five sectors of 1.31 ms at 100 rad/s, less the slowing by the wrong pair.
+      // later, is missing. One sector later, an edge of another line makes the code impossible. This happens
+      // within five sectors, each 1.31 ms at 100 rad/s. The wrong pair slows the rotor, so the time may be 5
+      // % longer.
       EXPECT_LE(out->simulated_s, 0.1 + 5 * 1.31e-3 * 1.05);
     }
 }
 
-/// Time between the first and the last event with an impossible code on the pins.
+/// Time between the first event and the last event at which the pins have an impossible code.
 double impossible_for(const Scenario& s) {
   std::size_t column = 0;
   while (study::all_columns()[column].name != "hall") ++column;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session on the general kernel has the bits of the uninterrupted run there, for each reason to use it.
+// A session runs on the general kernel. For each reason to use this kernel, the session has the bits of the
+// uninterrupted run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,8 +62,8 @@ struct LineChange {
   std::uint8_t lines = 0;  ///< lines that change
 };
 
-/// Changes of the Hall lines of a rotor that is turned at constant speed: each edge of a sector, late by the delay, and
-/// both ends of each glitch of the timeline.
+/// Changes of the Hall lines of a rotor that turns at constant speed. They are the edges of the sectors, late
+/// by the delay, and both ends of each glitch of the timeline.
 std::vector<LineChange> line_changes(const Scenario& s, double first_angle_rad) {
   std::vector<LineChange> out;
   const double electrical_rad_s = 8 * s.load.dynamometer_rad_s[0],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session's slices, readings and copies do not change a bit. A scenario with the session's changes replays
-// its run.
+// Slices, readings and copies of a session do not change a bit. A scenario with the session's changes repeats
+// the session's run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,8 @@ At gains(double settle_s) {
   return at;
 }
 
-/// A run and a session both refuse a drive that its arithmetic cannot represent.
+/// Returns whether a session opens. If the arithmetic cannot represent the drive, both a run and a session
+/// must refuse the scenario.
 bool can_run(const Scenario& s) {
   const auto session = Session::open(s);
   EXPECT_EQ(bool(session), bool(run(s)));
@@ -127,7 +128,8 @@ TEST(Session, ListenersHearTheSame) {
   }
 }
 
-/// At instants between any two events, the values equal the grid record of the uninterrupted run.
+/// At instants between any two events, the session's values are equal to the grid record of the uninterrupted
+/// run.
 TEST(Session, ShowsTheInstantAskedForWithoutCuttingASegment) {
   Scenario s = cascade();
   s.record.grid_s = 7.301e-6;  // never on a PWM edge
@@ -178,8 +180,8 @@ TEST(Session, ACopyIsASavedState) {
   }
 }
 
-/// In open loop at full duty the rig skips ticks: its polynomials extend far ahead. A change must act
-/// although it comes during such a segment.
+/// In open loop at full duty, the rig skips ticks, so its polynomials extend far ahead. A change during such
+/// a segment must still act.
 TEST(Session, AChangeAtSteadyDutyIsSeen) {
   for (const double after_s : {0.0, 1e-3, 3.33e-3}) {
     Session session = opened(full_duty());
@@ -300,8 +302,8 @@ TEST(Session, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(closed(session).digest, outcome(s).digest);
 }
 
-/// The largest reference of the run determines the current's scaling under a limit. A larger reference would
-/// change the drive from the start of the run; it is refused.
+/// Under a limit, the largest reference of the run determines the scaling of the current. A larger reference
+/// would change the drive from the start of the run, so it is refused.
 TEST(Session, TheLimitsThatWereFeltStay) {
   Scenario s = maxon_scenario(Mode::current, 4.0);
   s.control.limits.speed_rad_s = 300.0;

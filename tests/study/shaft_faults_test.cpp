@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers that fail during a run, and sensors on the load's side of a shaft: the drive's
+// Encoders and resolvers that fail during a run, and sensors on the load's side of a shaft. The drive's
 // reaction is compared with physical laws.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ Scenario positioned(double to_deg) {
   return s;
 }
 
-// Until the index corrects the count, the shaft turns too far by the missed counts.
+// Until the index corrects the count, the shaft's position is too large by the missed counts.
 TEST(EncoderFault, MissedEdgesShiftThePositionUntilTheIndexPasses) {
   Scenario s = positioned(180);
   s.at.push_back(event(0));
@@ -58,8 +58,8 @@ TEST(EncoderFault, MissedEdgesShiftThePositionUntilTheIndexPasses) {
   EXPECT_NEAR(out.comparisons[1].measured, 450, 2 * count_deg);
 }
 
-// The missed edges follow a Poisson process: their number is the mean within three standard deviations. The
-// same seed gives the same edges.
+// The missed edges follow a Poisson process. Their number is within three standard deviations of the mean.
+// The same seed gives the same edges.
 TEST(EncoderFault, EdgesAreMissedAtTheRateAskedFor) {
   Scenario s = positioned(90);
   s.sensors.encoder.missed_Hz = 2000;
@@ -78,7 +78,8 @@ TEST(EncoderFault, EdgesAreMissedAtTheRateAskedFor) {
   EXPECT_TRUE(missed(7).empty());
 }
 
-/// The drive controls 2 A in a rotor held at an electrical angle. A sensor fails in the middle of the run.
+/// The drive controls 2 A, with the rotor locked at an electrical angle. A sensor fails in the middle of the
+/// run.
 Scenario held_at(double electrical_deg) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.duration_s = 10e-3;
@@ -93,8 +94,8 @@ Scenario held_at(double electrical_deg) {
   return s;
 }
 
-// Track 11 of 14 (bit 10), with 8 pole pairs, mirrors each electrical turn: 270 degrees read as 90, three
-// sectors away, and the torque reverses.
+// With 8 pole pairs, track 11 of 14 (bit 10) mirrors each electrical turn. An angle of 270 degrees reads as
+// 90 degrees, three sectors away, so the torque reverses.
 TEST(AbsoluteFault, ABadTrackOfTheElectricalTurnBrakesWithFullTorque) {
   Scenario s = held_at(270);
   s.sensors.rotor = RotorSensing::absolute;
@@ -105,8 +106,9 @@ TEST(AbsoluteFault, ABadTrackOfTheElectricalTurnBrakesWithFullTorque) {
   EXPECT_NEAR(out.comparisons[1].measured, -2 * K_t, 0.01 * K_t);
 }
 
-// A resolver without its cosine reads as 90 degrees at all angles from 0 to 180. At 150 degrees the drive's
-// sector is one off, and the back-EMF of one driven phase is zero: the torque is half.
+// Without its cosine winding, a resolver reads 90 degrees at all angles from 0 to 180 degrees. At 150
+// degrees, the drive's sector is therefore one sector off. The back-EMF of one driven phase is zero, so the
+// torque is half.
 TEST(ResolverFault, ABrokenWindingLeavesHalfTheTorque) {
   for (const auto reading : {rig::ResolverReading::sampled, rig::ResolverReading::tracking}) {
     Scenario s = held_at(150);
@@ -131,8 +133,8 @@ Scenario tracked(Scenario s, int bits) {
   return s;
 }
 
-// A count of 10 bits is 2.8 electrical degrees in this motor. The position comes to rest within one count,
-// plus one count to which the loop may not react.
+// In this motor, a count of 10 bits is 2.8 electrical degrees. The rotor rests within one count of the
+// target, plus one count to which the loop may not react.
 TEST(ConverterChip, HoldsAPositionToItsResolution) {
   for (const int bits : {10, 12, 16}) {
     Scenario s = tracked(cascade(0.8), bits);
@@ -146,7 +148,7 @@ TEST(ConverterChip, HoldsAPositionToItsResolution) {
   }
 }
 
-/// A load behind a gear and a coupling, with a position reference.
+/// A load behind a gear and a coupling. The drive controls the position.
 Scenario on_the_load(SensorShaft shaft, double torque_Nm) {
   Scenario s = positioned(90);
   s.sensors.rotor = RotorSensing::absolute;
@@ -165,10 +167,10 @@ Scenario on_the_load(SensorShaft shaft, double torque_Nm) {
   return s;
 }
 
-// At rest the coupling is twisted by T/k. With the encoder on the motor the drive positions the motor; with
-// the encoder on the load it positions the load, and the motor is ahead by the twist times the gear. A speed
-// below one count in eight samples reads as zero or as one count: the shaft oscillates by the position loop's
-// reaction to this reading.
+// At rest, the coupling is twisted by T/k (torque T, stiffness k). An encoder on the motor positions the
+// motor. An encoder on the load positions the load, and the motor is ahead by the twist times the gear. A
+// speed below one count in eight samples reads as zero or as one count, so the shaft oscillates by the
+// reaction of the position loop to this reading.
 TEST(LoadSideSensor, HoldsTheLoadWhateverTwistsTheCoupling) {
   const double told_rad_s = 2 * base::pi / 0x1p20 / (8 * 30e-6),
                hunts_deg = 2 * 360 / 0x1p16 + told_rad_s / 0.3;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outputs of encoders and resolvers, as columns of the trace and as logic lines, equal model.md 10 to the
-// last digits, for the angle in the same row. The edges are at the instants of a uniform rotation.
+// The outputs of encoders and resolvers are recorded as columns of the trace and as logic lines. For the
+// angle in the same row, they are equal to the equations of model.md 10 to the last digits. The edges are at
+// the instants of a uniform rotation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +49,8 @@ int for_each_row(const Scenario& s, Look&& look) {
   return rows;
 }
 
-/// Whether the angle is on a border between two counts, where the last digit of theta decides.
+/// Returns whether the angle is on a border between two counts. On a border, the last digit of theta
+/// determines the count.
 bool near_border(double parts) { return std::fabs(parts - std::floor(parts + 0.5)) < 1e-9; }
 
 TEST(RawColumns, AnEncodersLinesAreThoseOfTheirEquation) {
@@ -75,8 +77,8 @@ TEST(RawColumns, AnAbsoluteCodeIsThatOfItsEquation) {
   });
 }
 
-// If the drive samples, the excitation has its peaks at the samples; if a converter chip excites, the
-// excitation starts at t = 0.
+// If the drive samples, the peaks of the excitation are at the samples. If a converter chip generates the
+// excitation, it starts at t = 0.
 TEST(RawColumns, AResolversVoltagesAreThoseOfTheirEquations) {
   for (const auto reading : {rig::ResolverReading::sampled, rig::ResolverReading::tracking}) {
     Scenario s = turned(RotorSensing::resolver);
@@ -89,7 +91,7 @@ TEST(RawColumns, AResolversVoltagesAreThoseOfTheirEquations) {
       if (of(ColumnId::t) == 0) return;
       const double carrier = two_pi * r.excitation_Hz * of(ColumnId::t) + quarter,
                    phi = 2 * of(ColumnId::angle);
-      // A period of the excitation is 60 us; the row's instant is a whole number of ps.
+      // A period of the excitation is 60 us, and the instant of a row is a whole number of picoseconds.
       const double tolerance = 1.7 * (two_pi * r.excitation_Hz * 1e-12 + 1e-11);
       EXPECT_NEAR(of(ColumnId::resolver_cos_V), 1.7 * std::sin(carrier + 8 * deg) * std::cos(phi), tolerance);
       EXPECT_NEAR(of(ColumnId::resolver_sin_V),
@@ -138,8 +140,8 @@ TEST(RawColumns, AreRecordedWhereTheSensorIsFitted) {
   EXPECT_EQ(names(RotorSensing::resolver), "resolver_cos_V resolver_sin_V ");
 }
 
-// In the logic record each edge has its own picosecond, not that of the next event: theta_0 + w t = n 2 pi/(4
-// N).
+// In the logic record, each edge has its own picosecond, not the picosecond of the next event. The edge is at
+// theta_0 + w t = n 2 pi/(4 N), with N lines.
 TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
   const Scenario s = turned(RotorSensing::encoder);
   std::int64_t n = static_cast<std::int64_t>(std::floor(2000 * theta_0 / two_pi));
@@ -153,7 +155,7 @@ TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
                          if (pins != last && last != 8) {
                            ++edges;
                            ++n;
-                           // The bound is one picosecond plus the rounding of theta, 1e-15 of a few rad,
+                           // The bound is one picosecond, plus the rounding of theta (1e-15 of a few rad)
                            // divided by w.
                            EXPECT_NEAR(static_cast<double>(ps),
                                        (static_cast<double>(n) * two_pi / 2000 - theta_0) / w * 1e12, 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers in whole runs. The drive uses their decoders' values, and its results are compared
-// with those of ideal sensors. Impossible scenarios are refused.
+// Encoders and resolvers in whole runs. The drive uses the values of their decoders, and its results are
+// compared with the results of ideal sensors. Impossible scenarios are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(ShaftSensors, ACascadeRunsOnEachAsOnIdealOnes) {
     const Outcome out = outcome_of(sensed(s, kind));
     EXPECT_NE(out.digest, ideal.digest);
     EXPECT_NEAR(out.comparisons[0].measured, ideal.comparisons[0].measured, 1.0) << static_cast<int>(kind);
-    // The resolver's 12-bit converter adds noise to the current.
+    // The 12-bit converter of the resolver adds noise to the current.
     EXPECT_NEAR(out.comparisons[1].measured / ideal.comparisons[1].measured, 1, 0.35)
         << static_cast<int>(kind);
   }
@@ -78,7 +78,7 @@ TEST(ShaftSensors, AnEncoderWithoutItsIndexIsCommutatedByTheProbesUntilItPasses)
   EXPECT_NEAR(outcome_of(s).comparisons[0].measured, 100, 1.0);
 }
 
-// The decoders' values for a rotor at constant speed, sample by sample.
+// The values of the decoders for a rotor at constant speed, sample by sample.
 TEST(RotorDecoders, TellSpeedAngleAndSectorOfASteadyRotor) {
   for (const RotorSensing kind : kinds)
     for (const double w : {20.0, -300.0}) {
@@ -120,12 +120,12 @@ TEST(RotorDecoders, TellSpeedAngleAndSectorOfASteadyRotor) {
         ports.follow(rig::ShaftMotion<double>{y, sample.shaft.sector, 8, 1.0, sim::to_instant(t),
                                               sim::to_instant(t + T), sim::to_instant(t + T)});
       }
-      // The decoders show a sector edge up to 0.2 degrees late; a sector has 7.5 degrees.
+      // The decoders show a sector edge up to 0.2 degrees late. A sector has 7.5 degrees.
       EXPECT_LT(wrong_sectors, 1500 * 0.2 / 7.5) << static_cast<int>(kind) << " at " << w;
     }
 }
 
-/// Unequal windings shift the angle by a closed form; a calibrated drive subtracts it.
+/// Unequal windings shift the angle by a closed form. A calibrated drive subtracts this shift.
 TEST(RotorDecoders, TakeOffWhatAResolverIsKnownToBeWrongBy) {
   constexpr double deg = base::pi / 180;
   for (const bool calibrated : {false, true})
@@ -156,7 +156,7 @@ TEST(RotorDecoders, TakeOffWhatAResolverIsKnownToBeWrongBy) {
       const double shown = std::atan2(1.05 * std::cos(20 * deg) * std::sin(theta + 2 * deg),
                                       std::cos(10 * deg) * std::cos(theta));
       const double error_deg = std::remainder(shown - theta, 2 * base::pi) / deg;
-      // One count of 12 bits, with 0.8 of the range used, is 0.035 degrees.
+      // One count of 12 bits is 0.035 degrees if the signal uses 0.8 of the range.
       EXPECT_NEAR(m.position_deg - theta / deg, calibrated ? 0.0 : error_deg, 0.07) << n << " " << calibrated;
     }
 }

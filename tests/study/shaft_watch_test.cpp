@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive that monitors its encoder or resolver names the fault at the time of the closed form. It reports no
-// fault for a sound sensor with any allowed errors and noise. An external drive turns the shaft at constant
-// speed, so that angles have a closed form.
+// A drive that monitors its encoder or resolver names the fault at the time that the closed form gives. If
+// the sensor is sound, the drive reports no fault, with any allowed errors and noise. An external drive turns
+// the shaft at constant speed, so that angles have a closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr double w = turned_rad_s, theta_0 = turned_from_rad, deg = base::pi / 180;
 
-/// The time, s, at which the shaft passes an angle in its first turn.
+/// The time, in s, at which the shaft passes an angle in its first turn.
 double time_at(double angle_deg) { return (angle_deg * deg - theta_0) / w; }
 
 Scenario turned(RotorSensing rotor, double to_deg) {
@@ -49,8 +49,8 @@ constexpr rig::ResolverReading readings[] = {rig::ResolverReading::sampled, rig:
 
 std::string fault_of(const Outcome& out) { return out.fault ? to_string(*out.fault) : "none"; }
 
-// Without the cosine, the sum of squares is only the sine's square. It falls below one half 45 degrees before
-// the sine is zero.
+// Without the cosine, the sum of squares is only the square of the sine. It falls below one half at 45
+// degrees before the sine is zero.
 TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 200);
@@ -58,8 +58,8 @@ TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
     s.at.back().sensors.broken_winding = Winding::cosine;
     const Outcome out = outcome_of(s);
     EXPECT_THAT(fault_of(out), HasSubstr("cosine winding shows nothing"));
-    // A count of the converter moves the instant at which the square falls below its limit. The fault needs
-    // two results, each of which is half a period of the excitation late.
+    // One count of the converter shifts the instant at which the square falls below its limit. The fault
+    // needs two results, and each result is half a period of the excitation late.
     EXPECT_NEAR(out.simulated_s, time_at(135), 2.5 * s.pwm.period_s + 1.25 / 2048 / w);
     s.at.back().sensors.broken_winding = Winding::sine;
     const Outcome sine = outcome_of(s);
@@ -74,7 +74,8 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     double part;
     const char* text;
   };
-  // Half of the square is an amplitude of 0.707; a quarter more than the square is 1.118.
+  // Half of the square is an amplitude of 0.707. A square that is larger by a quarter is an amplitude of
+  // 1.118.
   const Case cases[] = {{0.0, "excitation is lost"},
                         {0.5, "50 % of its amplitude, less"},
                         {0.69, "69 % of its amplitude, less"},
@@ -94,7 +95,7 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     }
 }
 
-// During the gap the loop keeps its speed. After the gap the angle follows the windings again.
+// While the signal is missing, the loop keeps its speed. Afterwards, the angle follows the windings again.
 TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 300);
@@ -113,8 +114,8 @@ TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   }
 }
 
-// The resolver has the largest allowed errors and noise and turns by more than a turn. The drive reports a
-// loss only after the excitation fails.
+// The resolver has the largest allowed errors and noise, and turns by more than a turn. The drive must not
+// report a loss before the excitation fails.
 TEST(ShaftWatch, AWholeResolverIsNeverLost) {
   for (const auto reading : readings)
     for (const bool calibrated : {false, true}) {
@@ -134,14 +135,14 @@ TEST(ShaftWatch, AWholeResolverIsNeverLost) {
     }
 }
 
-/// The number in "came with N counts missing".
+/// The number N in the message "came with N counts missing".
 int missing_of(const Outcome& out) {
   const std::string text = fault_of(out), before = "came with ";
   const std::size_t at = text.find(before);
   return at == std::string::npos ? 0 : std::atoi(text.c_str() + at + before.size());
 }
 
-// At the index the drive finds the number of counts missing since the line stuck, counted in the shorter
+// At the index, the drive computes how many counts are missing since the line became stuck, in the shorter
 // direction. It reports the fault at the next sample.
 TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
   for (const EncoderLine line : {EncoderLine::A, EncoderLine::B})
@@ -157,8 +158,8 @@ TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
     }
 }
 
-// A disturbance causes an index that is too early by the rest of the turn. If this error is within the counts
-// of a sector, the drive corrects its count, wrongly.
+// A disturbance causes an index that is too early by the rest of the turn. If this error is less than a
+// sector, the drive corrects its count, although the count was right.
 TEST(ShaftWatch, AFalseIndexIsNamedWhereItIsMoreThanASectorOff) {
   Scenario s = turned(RotorSensing::encoder, 340);
   s.at.push_back(at_angle(250));
@@ -169,7 +170,8 @@ TEST(ShaftWatch, AFalseIndexIsNamedWhereItIsMoreThanASectorOff) {
   s.at.back().sensors.false_index = true;
   s.duration_s = time_at(358);
   EXPECT_EQ(fault_of(outcome_of(s)), "none");
-  // The true index then finds the same number of counts too many, and the drive corrects them.
+  // At the true index, the same number of counts is wrong in the other direction, and the drive corrects
+  // them.
   s.duration_s = time_at(362);
   EXPECT_EQ(fault_of(outcome_of(s)), "none");
 }

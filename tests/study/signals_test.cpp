@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cheap bounds of a signal, which make the search for extremes unnecessary in most segments.
+// Tests the bounds of a signal that are quick to compute. In most segments, they make the search for extremes
+// unnecessary.
 #include "sixstep/study/measure/signals.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +35,8 @@ struct WithinBounds {
                                      b = signal_bounds(segment_view(rig), signal);
       ++segments;
       breaches += !(b.low <= e.low && e.high <= b.high);
-      // For a straight line the bounds are the line on one side and its mirror image on the other: twice as
-      // wide as necessary.
+      // For a straight line, one bound is an end of the line, and the other bound is its mirror image. The
+      // interval is then twice as wide as necessary.
       useful += b.high - b.low <= 2.5 * (e.high - e.low) + 1e-9;
     }
   }
@@ -64,7 +65,8 @@ TEST(SignalBounds, NoneForWhatHasNoneAtHand) {
   EXPECT_EQ(signal_bounds(segment_view(rig), Signal::torque).low, -std::numeric_limits<double>::infinity());
 }
 
-/// Compares every signal with the trace's values at the same instant: columns by name, and the powers.
+/// Compares every signal with the values of the trace at the same instant: the columns by their names, and
+/// the powers.
 struct AgainstTheTrace {
   double worst = 0.0;  ///< difference divided by the signal's natural size
   std::string where;
@@ -107,7 +109,7 @@ struct AgainstTheTrace {
       }
     derived(rig, fact, value, s);
   }
-  /// Compares a signal that has no column with its formula.
+  /// Compares a signal without a column with its formula.
   template <class Rig>
   void derived(const Rig& rig, const SignalFact& fact, double value, double s) {
     const auto& c = rig.plant().constants();
@@ -160,7 +162,7 @@ struct AgainstTheTrace {
 };
 
 TEST(Signals, AreWhatTheTraceShows) {
-  // Both computations have some 50 roundings of the signal's size, and they omit products below 2^-53.
+  // Both computations have some 50 roundings of the size of the signal, and they omit products below 2^-53.
   constexpr double bound = 256 * 0x1p-53;
   const auto watched = [&](Board b, double to_s) {
     b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
@@ -196,7 +198,7 @@ TEST(Signals, AreWhatTheTraceShows) {
 }
 
 /// Time, codes and the outputs of a rotor sensor change at edges that do not begin a segment. Segments
-/// therefore have no polynomials for these columns.
+/// therefore contain no polynomials for these columns.
 TEST(Signals, EveryColumnThatIsACurveHasOne) {
   const std::set<std::string_view> no_curves = {"t_s",           "hall",           "sector",
                                                 "encoder_A",     "encoder_B",      "encoder_Z",

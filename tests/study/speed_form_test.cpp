@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controller's two forms, its derivative, and its torque limit, in full switching simulation.
+// Tests the two forms of the speed controller, its derivative, and its torque limit, in the full switching
+// simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 
 constexpr double T = 30e-6, K_t = 0.0335, J = 1.35e-5, B = 7.3e-6;
 
-/// The speed at every tick. Any difference between two controllers remains visible in it.
+/// The speed at every tick. Any difference between two controllers appears in it.
 std::vector<double> course(Scenario s) {
   s.record.columns = {"speed_rad_s"};
   std::vector<double> all;
@@ -51,8 +52,8 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// The reference is 900 rad/s, which the drive cannot reach at 24 V, then 300 rad/s. The torque limit is 0.1
-/// N m, 2.985 A.
+/// The reference is first 900 rad/s, which the drive cannot reach at 24 V, and then 300 rad/s. The torque
+/// limit is 0.1 N m, which is 2.985 A.
 Scenario out_of_reach() {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.2;
@@ -64,8 +65,8 @@ Scenario out_of_reach() {
   return s;
 }
 
-// Bound on the difference of two controllers that compute the same values in another order: some ten
-// roundings of 1.1e-16 per tick, in at most 6700 ticks, all of the same sign.
+// Bound on the difference of two controllers that compute the same values in another order. It is some ten
+// roundings of 1.1e-16 per tick, in at most 6700 ticks, if all have the same sign.
 constexpr double rounding = 10 * 6700 * 1.1e-16;
 
 TEST(SpeedForm, ShortOfTheLimitBothFormsAreOneController) {
@@ -76,8 +77,8 @@ TEST(SpeedForm, ShortOfTheLimitBothFormsAreOneController) {
 }
 
 TEST(SpeedForm, AnIntegralThatFollowsAtOnceIsTheIncrementalForm) {
-  // With K_b = 1, I[n+1] = K_i e + u - K e. Therefore u[n+1] = u + K (e[n+1] - e) + K_i e, with and without a
-  // limit.
+  // With K_b = 1, the integral is I[n+1] = K_i e + u - K e (output u, error e, gains K and K_i). Therefore
+  // u[n+1] = u + K (e[n+1] - e) + K_i e, with and without a limit.
   Scenario s = out_of_reach();
   Scenario positional = s;
   positional.control.speed.form = SpeedForm::positional;
@@ -88,9 +89,10 @@ TEST(SpeedForm, AnIntegralThatFollowsAtOnceIsTheIncrementalForm) {
 }
 
 TEST(SpeedForm, AFreeIntegralMakesUpForEveryDegreeItLost) {
-  // The integral ends at the torque for 300 rad/s, B 300/0.1 N m of the limit. The sum of all errors is this
-  // value divided by K_i, for any course. Between two samples, 0.1 N m changes the speed by at most 0.1 T/J:
-  // for 0.8 s, the sum equals the angle within half of this change.
+  // The integral ends at the torque for 300 rad/s, which is B 300/0.1 N m of the limit. For any course of the
+  // speed, the sum of all errors is this value divided by K_i. Between two samples, 0.1 N m changes the speed
+  // by at most 0.1 T/J. Over 0.8 s, the sum of the errors is therefore equal to the missing angle, within
+  // half of this change.
   Scenario s = out_of_reach();
   s.duration_s = 0.8;  // the speed oscillates until 0.5 s
   s.control.speed.form = SpeedForm::positional;
@@ -105,8 +107,8 @@ TEST(SpeedForm, AFreeIntegralMakesUpForEveryDegreeItLost) {
 }
 
 TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
-  // J w' = T_max K (w_ref - w - T_d w') - B w gives the time constant tau = J/(T_max K + B) + T_d T_max
-  // K/(T_max K + B). The current follows within the settling time of its loop, 1 ms.
+  // The equation J w' = T_max K (w_ref - w - T_d w') - B w gives the time constant tau = J/(T_max K + B) +
+  // T_d T_max K/(T_max K + B). The current follows within the settling time of its loop, 1 ms.
   const double T_max = 0.78, K = J / 20e-3 / T_max, share = T_max * K / (T_max * K + B);
   Scenario s = maxon_scenario(Mode::speed, 300.0);
   s.duration_s = 0.1;
@@ -131,9 +133,9 @@ TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
 }
 
 TEST(SpeedForm, ALimitOfTheCurrentIsTheSpeedControllersOwn) {
-  // The torque at full output is 0.1 N m in one scenario. In the other, the current limit is 0.1 N m/K_t,
-  // which is below the stall current. The design scales the gains by the torque, so that both controllers are
-  // equal.
+  // In one scenario, the torque at full output is 0.1 N m. In the other scenario, the current limit is 0.1 N
+  // m/K_t, which is below the stall current. The design scales the gains by the torque, so both controllers
+  // are equal.
   Scenario by_torque = out_of_reach(), by_current = by_torque;
   by_current.control.speed.torque_limit_Nm = 0.78;
   by_current.control.current.limit_A = 0.1 / K_t;

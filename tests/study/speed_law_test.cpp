@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controllers other than the PI controller, in full switching simulation. Each settles as its
-// design rule says and controls the speed against a load. Keys that a law does not have are refused.
+// Tests the speed controllers other than the PI controller in the full switching simulation. Each controller
+// settles as its design rule states, and controls the speed against a load. Keys that a law does not have are
+// refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ constexpr double T = 30e-6, J = 1.35e-5, B = 7.3e-6, T_max = 0.1, settle = 20e-3
 constexpr SpeedLaw laws[] = {SpeedLaw::state_feedback, SpeedLaw::disturbance_rejection,
                              SpeedLaw::sliding_mode};
 
-/// The reference is 100 rad/s, and 108 rad/s from 0.05 s on. From 0.1 s on, a load of 30 mN m acts. The
+/// The reference is 100 rad/s, and from 0.05 s on 108 rad/s. From 0.1 s on, a load of 30 mN m acts. The
 /// torque limit is 100 mN m.
 Scenario loaded(SpeedLaw law) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
@@ -67,7 +68,7 @@ double largest_step(const Course& c, double from_s, double to_s, double level) {
   return apart;
 }
 
-/// The last instant at which the speed deviates from 108 by more than a hundredth of the step.
+/// The last instant at which the speed deviates from 108 rad/s by more than a hundredth of the step.
 double settled_after(const Course& c) {
   double last = 0;
   for (std::size_t n = 0; n < c.t.size(); ++n)
@@ -75,8 +76,9 @@ double settled_after(const Course& c) {
   return last;
 }
 
-/// The error of a step of 8 rad/s is 8 exp(-4.6 t/settle). It is below 0.08 rad/s at the design's time, apart
-/// from a ripple, for which the deviation before the step is a bound. The torque's lag adds to the time.
+/// The error of a step of 8 rad/s is 8 exp(-4.6 t/settle). At the design's settling time, it is below 0.08
+/// rad/s plus a ripple. The deviation before the step is a bound of this ripple. The lag of the torque is
+/// added to the time.
 void expect_settled_as_designed(const Course& c, double lag_s) {
   const double ripple = largest_step(c, 0.045, 0.05, 100), per_s = 4.6 / settle;
   EXPECT_LT(ripple, 0.03);
@@ -84,9 +86,9 @@ void expect_settled_as_designed(const Course& c, double lag_s) {
   EXPECT_LT(settled_after(c), std::log(8 / (0.08 - ripple)) / per_s + lag_s + T);
 }
 
-/// The mean is over eight whole sectors: the ripple of commutation changes it by at most the effect of one
-/// missing sector. In fixed precision, a number near 108 that moves by (1 - p) of the error per sample stops
-/// when this movement is below its last digit.
+/// The mean is over eight whole sectors. The ripple of commutation changes it by at most the effect of one
+/// missing sector. In single precision, a number near 108 changes by (1 - p) of the error per sample (pole
+/// p). It stops changing when this change is below its last digit.
 void expect_no_error_left(const Course& c, double digit_rad_s = 0.0) {
   const double sectors_s = 8 * (3.14159265358979 / 3 / 8 / 108);
   double sum = 0, ripple = 0;
@@ -101,8 +103,8 @@ void expect_no_error_left(const Course& c, double digit_rad_s = 0.0) {
   EXPECT_NEAR(sum / count, 0.0, ripple / 8 + digit_rad_s / (1 - std::exp(-4.6 * T / settle)));
 }
 
-/// The deepest dip of the speed with the same law on a linear drive. The torque follows with a lag of
-/// `lag_periods` samples, and the shaft's torque is constant between samples.
+/// The deepest dip of the speed of a linear drive with the same law. The torque lags by `lag_periods`
+/// samples, and the torque of the shaft is constant between samples.
 double deepest_in_theory(const Scenario& s, double lag_periods) {
   const auto compiled = study::compile(s);
   const control::DriveConfig<double>& d = compiled->drive;
@@ -138,7 +140,7 @@ TEST(SpeedLaw, EachSettlesAsItsRuleSaysAndBearsALoad) {
   }
 }
 
-/// Runs every law in single precision, in the six-step drive and in the field-oriented drive.
+/// Runs every law in single precision, both in the six-step drive and in the field-oriented drive.
 TEST(SpeedLaw, EachRunsInEveryDriveThatHasASpeedLoop) {
   for (const SpeedLaw law : laws)
     for (const bool field : {false, true}) {
@@ -153,14 +155,14 @@ TEST(SpeedLaw, EachRunsInEveryDriveThatHasASpeedLoop) {
       }
       const Course c = course(s);
       SCOPED_TRACE(std::to_string(static_cast<int>(law)) + (field ? " in the field" : " in six steps"));
-      // The current lags by a twentieth of the control frequency, or by 1 ms: at most by six periods.
+      // The current lags by a twentieth of the control frequency, or by 1 ms. This is at most six periods.
       expect_settled_as_designed(c, 6 * T);
       expect_no_error_left(c, 0x1p-17);
     }
 }
 
-/// The drive accelerates at full torque towards a speed that it cannot reach. Then the reference falls, and
-/// the output must leave its limit at once.
+/// The drive accelerates at full torque towards a speed that it cannot reach. When the reference falls, the
+/// output must leave its limit at once.
 TEST(SpeedLaw, NoneWindsUpAgainstItsLimit) {
   for (const SpeedLaw law : laws) {
     Scenario s = loaded(law);
@@ -172,7 +174,7 @@ TEST(SpeedLaw, NoneWindsUpAgainstItsLimit) {
     double least = 1e9;
     for (std::size_t n = 0; n < c.t.size(); ++n)
       if (c.t[n] > 0.06) least = std::fmin(least, c.w[n]);
-    // In 50 ms, 0.1 N m accelerates the rotor to 369 rad/s. The speed may then fall below 300 rad/s by at
+    // In 50 ms, 0.1 N m accelerates the rotor to 369 rad/s. Then the speed may fall below 300 rad/s by at
     // most a hundredth of the 69 rad/s.
     EXPECT_GT(least, 300 - 0.7) << static_cast<int>(law);
     EXPECT_LT(largest_step(c, 0.19, 0.2, 300), 0.1) << static_cast<int>(law);

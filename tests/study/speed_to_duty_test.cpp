@@ -41,9 +41,9 @@ TEST(SpeedToDuty, PlacesThePolesOfTheWindingsFirstOrder) {
   EXPECT_NEAR(out->gains[0].d0, (magnitude_2 + a0) / b0, 1e-11 / b0);
 }
 
-/// The integral leaves no error, with and without a load, forwards and backwards. A window that is no whole
-/// number of sectors leaves the mean of a commutation's ripple: K_t i/J over a sector is below 1 rad/s, and a
-/// window of 40 sectors contains one incomplete sector.
+/// The integral removes the error, with and without a load, forwards and backwards. If the window is not a
+/// whole number of sectors, the ripple of commutation changes the mean. K_t i/J over a sector is below 1
+/// rad/s, and a window of 40 sectors contains one incomplete sector.
 TEST(SpeedToDuty, HoldsTheSpeedUnderLoad) {
   for (const double reference : {200.0, -200.0}) {
     Scenario s = direct(reference, 0.4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives of a series: the values that vary, the values that do not vary, and the refusals.
+// Tests the drives of a spread: the values that vary, the values that do not vary, and the refusals.
 #include "sixstep/study/scenario/spread.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr std::uint64_t seed = 7;
-// The product, sum and quotient of numbers near 1 have an error of half a bit each.
+// The product, sum and quotient of numbers near 1 each have an error of half a bit.
 constexpr double rounding = 4 * 0x1p-52;
 
 Spread relative(const char* key, double part, Distribution distribution = Distribution::uniform) {
@@ -102,7 +102,7 @@ TEST(Spread, StaysWithinItsWidthAndFillsIt) {
 }
 
 /// A normal distribution that is cut at one sigma has the variance 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 -
-/// 0.4839414/0.6826895 = 0.2911251, in units of sigma^2.
+/// 0.4839414/0.6826895 = 0.2911251, in units of sigma^2 (density phi, distribution Phi).
 TEST(Spread, ACutNormalHasItsVariance) {
   constexpr int count = 20000;
   Scenario s = current_square();
@@ -114,7 +114,7 @@ TEST(Spread, ACutNormalHasItsVariance) {
     EXPECT_LE(std::fabs(x), 1.0 + rounding / 0.1);
     squares += x * x;
   }
-  // x^2 is in [0, 1]; its standard deviation is therefore at most 1/2.
+  // x^2 is in [0, 1], so its standard deviation is at most 1/2.
   EXPECT_NEAR(squares / count, 0.2911251, 5 * 0.5 / std::sqrt(double{count})) << "seed " << seed;
 }
 
@@ -156,7 +156,7 @@ TEST(Spread, FrictionDoesNotFollowTheTorqueConstant) {
   ASSERT_TRUE(nominal && one);
   EXPECT_GT(nominal->shaft.B_Nm_s, 0.0);
   EXPECT_EQ(nominal->shaft.B_Nm_s, one->shaft.B_Nm_s);
-  // A derived friction may also vary itself.
+  // A friction that is derived from other values may also have a spread itself.
   s.spread = {relative("motor_override.viscous_friction_Nm_s", 0.4)};
   ASSERT_EQ(check(s), base::Problems{});
   EXPECT_NE(compile(varied(s, seed, 0))->shaft.B_Nm_s, nominal->shaft.B_Nm_s);
@@ -177,7 +177,8 @@ TEST(Spread, TorqueConstantAndBackEmfStayOneFact) {
 }
 
 TEST(Spread, StandardKeysStrayWhateverTheSheetPrints) {
-  // The sheet has a flux linkage instead of the torque constant, and L_d = L_q instead of the inductance.
+  // Instead of the torque constant, the sheet has a flux linkage. Instead of the inductance, it has L_d =
+  // L_q.
   Scenario s = current_square();
   s.sheet.torque_constant_mNm_A.reset();
   s.sheet.flux_linkage_mWb = base::Quantity{2.1, "", ""};
@@ -228,8 +229,8 @@ TEST(Spread, EachHallEdgeIsMountedByItself) {
     product += edges[0] * edges[1];
     squares += edges[0] * edges[0];
   }
-  // A uniform value in +-3 has the mean 0 and the variance 3; neighbours are not correlated. The bounds are
-  // five standard deviations.
+  // A uniform value in +-3 has the mean 0 and the variance 3, and neighbouring values are not correlated. The
+  // bounds are five standard deviations.
   EXPECT_NEAR(sum / drives, 0.0, 5 * std::sqrt(6.0 / drives));
   EXPECT_NEAR(squares / drives, 3.0, 5 * std::sqrt(7.2 / drives));
   EXPECT_NEAR(product / drives, 0.0, 5 * std::sqrt(9.0 / drives));

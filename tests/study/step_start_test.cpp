@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The start that a figure of merit derives for a reference's steps (docs/reference/figures.md) is compared
-// with windows whose start is given.
+// A figure of merit derives its start from the steps of a reference (docs/reference/figures.md). It is
+// compared with windows whose start is given.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using namespace sixstep::study;
 
-/// The largest figure of the steps 0, 5, -5, 5, -5 A, each measured in a separate window with the start that
-/// `start_of` returns.
+/// The largest figure of the steps 0, 5, -5, 5, -5 A. Each step is measured in a separate window, with the
+/// start that `start_of` returns.
 template <class StartOf>
 double slowest(MetricKind metric, StartOf start_of) {
   Scenario s = current_square();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs with a tabulated back-EMF, and the iron's part of the friction.
+// Tests runs with a tabulated back-EMF, and the iron's part of the friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,15 +73,15 @@ TEST(TableRun, OfSampledHarmonicsApproachesTheirs) {
     value.push_back(base::cos(x) + 0.05 * base::cos(5 * x));
   }
   give_table(table, angle, value);
-  // The chords of 1.5 degrees deviate from the curve by at most 2e-4 of its peak.
+  // The chords of 1.5 degrees deviate from the curve by at most 2e-4 of the curve's peak.
   EXPECT_LT(apart(rows_of(wave), rows_of(table)), 2e-3);
 }
 
 TEST(TableRun, WithoutSymmetryKeepsItsBooksInStarAndDelta) {
   for (const auto connection : {design::WindingConnection::star, design::WindingConnection::delta}) {
     Scenario s = maxon_scenario(control::Mode::duty, 0.6);
-    // The table's mean over a turn must be zero. The areas of the trapezia between the points are 63 + 52.5 -
-    // 20 - 42 - 35 - 2, so that 16.5/360 is subtracted.
+    // The mean of the table over a turn must be zero. The areas of the trapezoids between the points are 63 +
+    // 52.5 - 20 - 42 - 35 - 2, so 16.5/360 is subtracted.
     const double mean = 16.5 / 360;
     give_table(s, {10, 80, 150, 200, 260, 330},
                {0.5 - mean, 1.3 - mean, 0.2 - mean, -1.0 - mean, -0.4 - mean, -0.6 - mean});
@@ -95,7 +95,7 @@ TEST(TableRun, WithoutSymmetryKeepsItsBooksInStarAndDelta) {
   }
 }
 
-/// A rotor that coasts: the bridge is off, and friction dissipates the rotor's energy.
+/// A rotor that coasts with the bridge off. Friction dissipates the energy of the rotor.
 Scenario coasting(double viscous, double coulomb_mNm, double iron_viscous, double iron_coulomb_mNm) {
   Scenario s = maxon_scenario(control::Mode::off, 0.0);
   s.sheet.viscous_friction_Nm_s = base::Quantity{viscous, "", ""};
@@ -125,8 +125,8 @@ TEST(IronDrag, TakesItsShareOfASpinDown) {
 }
 
 TEST(IronDrag, OfBothKindsIsWhatTheLawsOfASpinDownSay) {
-  // J w' = -(B w + T) gives w = (w_0 + T/B) exp(-t B/J) - T/B until the rotor stops at t_1. The iron
-  // dissipates B_i w^2 + T_i w over this time.
+  // The equation J w' = -(B w + T) gives w = (w_0 + T/B) exp(-t B/J) - T/B until the rotor stops at t_1
+  // (inertia J, friction B and T). Over this time, the iron dissipates the power B_i w^2 + T_i w.
   const double J = 135e-7, B = 5e-6, T = 2e-3, w_0 = 300, B_i = 2e-6, T_i = 0.5e-3;
   const double rate = B / J, c = T / B, t_1 = base::log((w_0 + c) / c) / rate;
   const double e = base::exp(-rate * t_1), a = w_0 + c;

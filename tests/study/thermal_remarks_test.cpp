@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A remark says for how long a winding withstands the current that the drive keeps up at the run's end. The same run with
-// temperatures passes the winding's limit then.
+// At the end of a run, the drive keeps a current. A remark states for how long the winding withstands this
+// current. If temperatures are simulated, the same run passes the winding's limit at that time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::Not;
 
 constexpr const char* told_word = "the winding loses a steady ";
 
-/// A motor whose winding warms up within seconds.
+/// The sheet of a motor whose winding becomes warm within seconds.
 design::Sheet quick_sheet() {
   design::Sheet s = curve_sheet();
   s.nominal_current_A->frame = "terminal";
@@ -32,7 +32,7 @@ design::Sheet quick_sheet() {
   return s;
 }
 
-/// The number after a word in the remark on the kept current; empty without this remark.
+/// The number after a word in the remark on the kept current. Empty if there is no such remark.
 std::optional<double> told(const Scenario& s, const std::string& word) {
   for (const std::string& text : outcome_of(s).remarks)
     if (text.find(told_word) != text.npos)
@@ -41,7 +41,7 @@ std::optional<double> told(const Scenario& s, const std::string& word) {
   return {};
 }
 
-/// A speed cascade that holds a weight: 0.123 N m need 3.7 A for as long as it is held.
+/// A speed cascade that carries a weight. As long as the weight is carried, 0.123 N m need 3.7 A.
 Scenario lift() {
   Scenario s = maxon_scenario(Mode::speed, 200.0);
   s.sheet = quick_sheet();
@@ -65,7 +65,7 @@ Scenario with_current(double reference) {
   return s;
 }
 
-/// A weight, a fan against a current, a held rotor and a field-oriented drive.
+/// Four drives: a weight, a fan that a current drives, a locked rotor, and a field-oriented drive.
 std::vector<Scenario> drives_that_keep_a_current() {
   std::vector<Scenario> all{lift(), with_current(4.0), with_current(4.0), lift()};
   all[1].load.torque_Nm = 0.0;
@@ -92,13 +92,15 @@ TEST(ThermalRemarks, ACurrentThatIsKeptPassesTheWindingsLimitWhenItIsTold) {
         return text.find("the winding reached ") != text.npos;
       });
     };
-    // A warm winding has less ripple, and commutations take less of its speed: the loss is less by some per cent.
+    // In a warm winding, the ripple is smaller, and commutations reduce the speed less. The loss is therefore
+    // lower by some per cent.
     EXPECT_TRUE(passes(1.12 * *within_s)) << *within_s;
     EXPECT_FALSE(passes(0.95 * *within_s)) << *within_s;
   }
 }
 
-/// 2 R I^2 of the named current is the named loss, and the torque that it makes is load and friction.
+/// The copper loss 2 R I^2 of the named current is the named loss. The torque of this current is equal to
+/// load and friction.
 TEST(ThermalRemarks, TheNamedCurrentCarriesTheLoad) {
   const double loss_W = *told(lift(), told_word), ampere = *told(lift(), "as with ");
   EXPECT_NEAR(1.03 * ampere * ampere, loss_W, 0.01 * loss_W);
@@ -126,7 +128,7 @@ TEST(ThermalRemarks, OnlyWhatIsKeptAndTooMuchIsTold) {
   EXPECT_THAT(no_books->remarks, Not(Contains(HasSubstr(told_word))));
 }
 
-/// Without thermal values a printed nominal current is the bound.
+/// Without thermal values, the nominal current of the sheet is the bound.
 TEST(ThermalRemarks, ANominalCurrentAloneIsABoundToo) {
   for (const double nominal_A : {2.33, 5.0}) {
     Scenario s = lift();
@@ -136,7 +138,8 @@ TEST(ThermalRemarks, ANominalCurrentAloneIsABoundToo) {
   }
 }
 
-/// A given ambient temperature that no remark uses is named, and one that a remark uses changes its number.
+/// If no remark uses the given ambient temperature, a remark names it as unused. If a remark uses it, it
+/// changes the number of this remark.
 TEST(ThermalRemarks, AnAmbientTemperatureCountsWhereARemarkUsesIt) {
   const auto unused = [](Scenario s) {
     s.heat.ambient_degC = 60.0;

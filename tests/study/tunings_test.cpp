@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[at]] with gains, limits, mode, chopping and dead time: the instant of the change, equivalent scenarios,
-// and the refusals.
+// Changes [[at]] of gains, limits, mode, chopping and dead time. The tests check the instant of the change,
+// equivalent scenarios, and the refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Outcome outcome(const Scenario& s) {
   return out ? *out : Outcome{};
 }
 
-/// A change at t = 0 equals a scenario that has these values.
+/// A change at t = 0 is equivalent to a scenario that has the changed values from the start.
 TEST(Tunings, AtTheStartTheyAreTheScenariosOwn) {
   for (const Arithmetic arithmetic : {Arithmetic::float64, Arithmetic::float32})
     for (Scenario plain : {cascade(12e-3), product_scenario(Mode::speed, 100.0)}) {
@@ -53,7 +53,8 @@ TEST(Tunings, AModeAtTheStartIsTheScenariosOwn) {
   EXPECT_EQ(outcome(told).digest, outcome(own).digest);
 }
 
-/// A change between two samples acts at the next sample, also if samples are in the middle of a period.
+/// A change between two samples acts at the next sample. This is also true if the samples are in the middle
+/// of a period.
 TEST(Tunings, ActFromTheNextSampleOn) {
   for (const SampleAt sample : {SampleAt::start, SampleAt::middle}) {
     Scenario s = cascade(12e-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crossed wires in whole runs: values of converters, one shunt, columns, figures of merit and logic.
+// Tests crossed wires in whole runs: values of converters, one shunt, columns, figures of merit and logic.
 // tests/rig/wiring_test.cpp tests directions and torques.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ Scenario straight(Scenario s) {
   return s;
 }
 
-/// The wires of phases and of probes are shifted by one place, and the rotor is turned by 120 degrees: the
-/// board receives the same signals.
+/// Both phases and probes are exchanged cyclically, and the rotor is turned by 120 degrees. The board then
+/// receives the same signals.
 Scenario moved_on(Scenario s) {
   s.bridge.phases = s.sensors.hall_lines = WireOrder::bca;
   s.initial.angle_rad = (120 + 17) * base::pi / 180 / 8;

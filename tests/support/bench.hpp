@@ -15,7 +15,7 @@ inline analysis::Bench maxon_bench() {
   return b;
 }
 
-/// The same motor with another shape of the back-EMF and the same K_t.
+/// The same motor with another shape of the back-EMF, but with the same K_t.
 inline analysis::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   design::Sheet sheet = maxon_sheet();
   sheet.back_emf = shape;
@@ -25,8 +25,8 @@ inline analysis::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   return b;
 }
 
-/// The reference motor's sheet with its nominal point and with the thermal values of the sister winding
-/// 339286.
+/// The sheet of the reference motor with its nominal point, and with the thermal values of the similar
+/// winding 339286.
 inline design::Sheet curve_sheet() {
   design::Sheet s = maxon_sheet();
   const auto given = [](double value) { return base::Quantity{value, "", ""}; };

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor on the virtual board, as used by many tests.
+// The reference motor on the virtual board. Many tests use this board.
 #pragma once
 #include "sixstep/rig/lean_rig.hpp"
 #include "tests/support/maxon.hpp"
 
 namespace sixstep::testing {
 
-/// A motor on a board. The configs select open or closed loop. Each rig receives a copy of the timeline.
+/// A motor on a board. The configurations select open or closed loop. Each rig receives a copy of the
+/// timeline.
 struct Board : Drivetrain {
   control::DriveConfig<double> drive{.mode = control::Mode::duty, .nominal_bus_V = 24.0};
   rig::BoardConfig board{};
@@ -18,7 +19,7 @@ struct Board : Drivetrain {
     s.setpoint(0, d);
     return s;
   }
-  /// Event hysteresis on the motor current.
+  /// Hysteresis control of the motor current by event comparators.
   static Board hysteresis(double i_ref, double band, control::Chopping chopping) {
     Board s;
     s.drive.mode = control::Mode::current;

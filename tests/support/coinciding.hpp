@@ -16,8 +16,8 @@ inline Board locked(Board b) {
   return b;
 }
 
-/// The speed is constant, because no torque changes it (2 K_e w = 10 V). The edge from sector 0 to sector 1
-/// is at `edge_s`.
+/// No torque changes the speed, so it is constant (2 K_e w = 10 V). The edge from sector 0 to sector 1 is at
+/// `edge_s`.
 inline Board turning(Board b, double edge_s) {
   b.shaft.J_kg_m2 = 1e9;
   b.shaft.B_Nm_s = 0.0;
@@ -26,7 +26,8 @@ inline Board turning(Board b, double edge_s) {
   return b;
 }
 
-/// On-time after which a current, which rises by U - E and falls by U + E, is zero again at `zero_s`.
+/// A current rises by U - E and falls by U + E (bus voltage U, back-EMF E). Returns the on-time after which
+/// the current is zero again at `zero_s`.
 inline double on_time_for_zero(const Drivetrain& d, double E, double zero_s) {
   const double U = 24.0, R = d.R_tt(), tau = d.tau();
   double low = 0, high = zero_s;

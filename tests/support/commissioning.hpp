@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motors of the motor library on a board that identifies them.
+// Motors of the motor library on a board that identifies their parameters.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -23,13 +23,13 @@ struct CommissionedMotor {
   double range_A;  ///< range of the board's current converter, 12 bits
 };
 
-/// Three different kinds of motors: flat with a trapezoidal back-EMF, a drone's outer runner, a wheel hub
-/// motor.
+/// Three different kinds of motors: a flat motor with a trapezoidal back-EMF, a drone motor with an outer
+/// rotor, and a wheel hub motor.
 inline constexpr CommissionedMotor commissioned_motors[] = {{"maxon-251601", 24.0, 30e-6, 5.0, 10.24},
                                                             {"dji-2212-920kv", 12.0, 20e-6, 15.0, 30.0},
                                                             {"hoverboard-hub", 36.0, 50e-6, 12.0, 25.0}};
 
-/// One motor on the bench; change members before rig().
+/// One motor on the bench. Its members may be changed before rig() is called.
 struct CommissioningBench {
   using Rig = rig::Rig<double, rig::CommissioningDrive<double>, general::Plant<double>>;
 
@@ -75,8 +75,8 @@ struct CommissioningBench {
     wish.test_A = from.test_A;
   }
 
-  /// Flux linkage of the fundamental, V s. For a trapezoid with ramps of width 2 g, the fundamental has the
-  /// factor c_1 = 4 sin g/(pi g) (model.md 1).
+  /// Flux linkage of the fundamental, in V s. For a trapezoid with ramps of width 2 g, the fundamental has
+  /// the factor c_1 = 4 sin g/(pi g) (model.md 1).
   double flux_linkage() const {
     const double g = (180.0 - machine.shape.flat_deg) / 2 * base::pi / 180;
     const double c_1 = machine.shape.harmonics.empty() ? 4 * std::sin(g) / (base::pi * g) : 1.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks gates: within a leg, each turn-on must be at least the dead time after the turn-off of the other
-// switch. For the first turn-on, the dead time counts from the start of the run.
+// Checks the gates of each leg. A switch may turn on only if the dead time has passed since the turn-off of
+// the other switch. At the first turn-on, the dead time counts from the start of the run.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ struct TickWatch {
 
 }  // namespace detail
 
-/// Calls look(rig) at each tick and returns the results in order.
+/// Calls look(rig) at each tick. Returns the results in the order of the ticks.
 template <class Scalar = double, class Look>
 auto field_ticks(const study::Scenario& s, Look look) {
   using Firmware = rig::FieldDrive<Scalar>;

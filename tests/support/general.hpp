@@ -8,8 +8,8 @@ namespace sixstep::testing {
 
 namespace general = plant::general;
 
-/// A star winding with a trapezoid, which the lean kernel could also simulate. A test changes the members
-/// that it is about.
+/// A star winding with a trapezoid, which the lean kernel could also simulate. Each test changes only the
+/// members that it tests.
 struct GeneralSetup {
   general::Machine machine{.R_ohm = {0.515, 0.515, 0.515},
                            .K_e_V_s = {0.01675, 0.01675, 0.01675},
@@ -32,7 +32,7 @@ inline GeneralRig general_rig(const GeneralSetup& setup, const Board& board) {
   return GeneralRig(setup.plant(), board.drive, board.board, board.timeline, {}, {}, setup.probes);
 }
 
-/// The general plant without a board, with constant gates, as a System for sim::run.
+/// The general plant without a board and with constant gates. It is a System for sim::run().
 class HeldGeneral : public rig::UnscheduledPlant<double, general::Plant<double>> {
  public:
   explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes after which a scenario of the reference motor requires the general kernel.
+// Changes after which only the general kernel can simulate a scenario of the reference motor.
 #pragma once
 #include <functional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that have a harmful effect if they are not escaped, for every test of code that shows or writes a
-// name. The tests of the program read the same file.
+// Names that cause harm if they are not escaped. Every test of code that shows or writes a name uses them.
+// The tests of the program read the same file.
 #pragma once
 #include <fstream>
 #include <string>

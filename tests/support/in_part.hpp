@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects a part of many similar cases. Under the sanitizers a simulation takes ten times as long; they
-// therefore run one case in seven if the cases differ only in numbers. ./test and .ci/run run a part of the
-// cases; ctest --preset long runs all cases.
+// Selects a part of many similar cases. Under the sanitizers, a simulation takes ten times as long. If the
+// cases differ only in numbers, the sanitizers therefore run one case in seven. ./test and .ci/run run a part
+// of the cases; ctest --preset long runs all cases.
 #pragma once
 #include <cstdlib>
 
@@ -17,7 +17,7 @@ inline constexpr int one_in = 1;
 
 class InPart {
  public:
-  /// Returns true if the test must skip this case. The first case always runs.
+  /// Returns true if the test must skip this case. The first case is never skipped.
   bool leaves_out() { return n_++ % one_in != 0; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of model.md 5, which hold for every run, as an observer for any system with a plant. It checks
-// instants inside the segments, not only their ends.
+// An observer that checks the laws of model.md 5, which apply to every run, for any system with a plant. It
+// checks instants within the segments, not only their ends.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace sixstep::testing {
 
-/// The energy balance of the kernel that the run uses.
+/// The energy balance of the kernel with which the run is simulated.
 template <class Real>
 struct BooksOfEither {
   plant::Audit<Real> lean;
@@ -49,24 +49,28 @@ class LawChecker {
 
   const plant::Audit<Real>& audit() const { return audit_.lean; }
   double highest_current_A() const { return highest_current_; }
-  /// Number of times at which a free shaft stopped abruptly: a clamp gripped it and released it at one
+  /// Counts how often a free shaft stopped abruptly because a clamp gripped it and released it at one
   /// instant.
   int stops() const { return stops_; }
 
-  /// A law, and the largest deviation of the run as a fraction of the deviation that rounding allows.
+  /// A law, and the largest deviation of the run from the law, divided by the allowed deviation.
   struct Used {
     const char* law;
     double part;
   };
 
-  /// Limits from rounding. Sums are exact by construction. Diodes and rails may deviate by twice the guards'
-  /// noise of 64 eps of scale (the evaluation has the same noise), times the mode's widening factor. Currents
-  /// and speed may deviate by the same amount from one segment to the next. The energy balance closes to
-  /// 1e-11 after the energy of these steps has been added. A step d of a current i changes the energy by L i
-  /// d; if i is far below the scale, this is large compared with the energy so far. Within a segment a
-  /// current is rounded by some eps of the scale (8, as in the sum of the currents): L i times this rounding
-  /// is allowed too. The sum of three currents has a rounding error, which times the bus voltage is also
-  /// allowed as energy.
+  /// Deviations that rounding causes, divided by their limits:
+  /// - Sums are exact by construction.
+  /// - Diodes and rails may deviate by twice the noise of the guards, 64 eps of scale, times the widening
+  ///   factor of the mode. The factor of two is needed because the evaluation has the same noise.
+  /// - Currents and speed may deviate by the same amount from one segment to the next.
+  /// - The energy balances to 1e-11 after the energy of these steps has been added. A step d of a current i
+  ///   changes the energy by L i d. If i is far below the scale, this is large compared with the energy so
+  ///   far.
+  /// - Within a segment, a current is rounded by some eps of the scale (8, as in the sum of the currents). L
+  ///   i times this rounding is also allowed.
+  /// - The sum of three currents has a rounding error. This error times the bus voltage is also allowed as
+  ///   energy.
   std::array<Used, 9> used(double energy_tolerance = 1e-11) const {
     const plant::EnergyBook book = audit_.energy();
     const double rounded_A = 8 * 0x1p-52 * amp_scale_;
@@ -91,11 +95,12 @@ class LawChecker {
  private:
   static constexpr double noise = 128 * 0x1p-52;
 
-  /// Raises `worst` to v if v is larger. A NaN remains.
+  /// Raises `worst` to v if v is larger. If `worst` is NaN, it remains NaN.
   static void raise(double& worst, double v) {
     if (!(v <= worst) && worst == worst) worst = v;
   }
-  /// Checks that currents and speed have no steps between segments except rounding. A clamp may stop a shaft.
+  /// Checks that the steps of currents and speed between two segments are not larger than rounding. A clamp
+  /// may stop the shaft.
   void join(const auto& p) {
     const plant::Snapshot<Real> now = p.at(Real(0));
     const auto d = [](Real v) { return static_cast<double>(v); };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The linear version of a rotary motor, and the terms that no text on a linear motor may contain.
+// Converts a rotary motor to its linear version. Lists the terms that no text about a linear motor may
+// contain.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,10 +13,11 @@
 
 namespace sixstep::testing {
 
-/// The radius is a power of two, so that v = r w, F = T/r and m = J/r^2 cause no rounding.
+/// The radius r is a power of two, so that v = r w, F = T/r and m = J/r^2 cause no rounding (speed v, force
+/// F, mass m).
 inline constexpr double unrolled_at_m = 0x1p-6;
 
-/// The linear version of a sheet: at the radius r, rotation at w corresponds to motion at v = r w.
+/// The linear version of a sheet. At the radius r, rotation at the speed w corresponds to motion at v = r w.
 inline design::Sheet unrolled(design::Sheet s, double r = unrolled_at_m) {
   const auto times = [](std::optional<base::Quantity>& q, double factor) {
     if (q) q->value *= factor;
@@ -34,8 +36,8 @@ inline design::Sheet unrolled(design::Sheet s, double r = unrolled_at_m) {
   return s;
 }
 
-/// Terms of a rotary motor in a text; must be empty for a text on a linear motor. Units count only as whole
-/// words.
+/// Terms of a rotary motor in a text. The list must be empty for a text about a linear motor. Units count
+/// only as whole words.
 inline std::vector<std::string> turning_words(const std::string& text) {
   std::vector<std::string> found;
   for (const char* word :

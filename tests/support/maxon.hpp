@@ -12,7 +12,7 @@ namespace sixstep::testing {
 
 inline constexpr double eps = 0x1p-52;
 
-/// maxon EC 45 flat 251601 on 24 V, no load, ideal devices, at rest at theta = 0.
+/// maxon EC 45 flat 251601 at 24 V, without load, with ideal devices, at rest at theta = 0.
 struct Drivetrain {
   plant::Machine machine{.R_ohm = 0.515, .L_H = 0.572e-3 / 2, .K_e_V_s = 0.01675, .pole_pairs = 8};
   plant::Shaft shaft{.J_kg_m2 = 1.35e-5, .B_Nm_s = 7.3e-6};
@@ -30,7 +30,7 @@ struct Drivetrain {
   }
 };
 
-/// Mechanical angle, rad, for an electrical angle in degrees; the motor has eight pole pairs.
+/// Mechanical angle, in rad, for an electrical angle in degrees. The motor has eight pole pairs.
 inline double at_electrical_deg(double deg) { return deg * base::pi / 180.0 / 8; }
 
 inline plant::Gates gates(std::array<bool, 3> high, std::array<bool, 3> low) {
@@ -42,7 +42,7 @@ inline plant::Gates all_off() { return {}; }
 inline plant::Gates a_to_b() { return gates({true, false, false}, {false, true, false}); }
 inline plant::Gates all_low() { return gates({}, {true, true, true}); }
 
-/// The plant with constant gates, as a System for sim::run. It records every located event.
+/// The plant with constant gates, as a System for sim::run(). It records every located event.
 template <class RealType = double>
 class Held : public rig::UnscheduledPlant<RealType> {
   using rig::UnscheduledPlant<RealType>::plant_;

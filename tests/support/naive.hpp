@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A textbook simulation of soft chopping by RK4. The sign of the current selects the diode, and a leg without
-// gate and current remains off. The simulation ignores that such a leg starts to conduct when its terminal
-// would exceed a rail (model.md 2).
+// A textbook simulation of soft chopping by RK4. The sign of the current selects the diode. A leg without
+// gate and without current remains off, although its terminal may exceed a rail. In reality, such a leg
+// starts to conduct (model.md 2).
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@ class NaiveSoftChopper {
  public:
   NaiveSoftChopper(const Drivetrain& d, double step_s) : d_(d), h_(step_s) {}
 
-  /// One step, with the source's upper switch on or off. The step is split where a diode's current reaches
-  /// zero or a sector ends, so that the step size does not cause the deviation.
+  /// One step, with the upper switch of the source on or off. The step is split at the end of a sector, or
+  /// when a diode's current reaches zero, so that the step size does not cause the deviation.
   void step(bool on) {
     double left = h_;
     for (int cuts = 0; left > 0 && cuts < 20; ++cuts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sensorless drive with an observer on the bench of sensorless.hpp, and the angle errors of its
-// commutations relative to the rotor's sector edge.
+// A sensorless drive with an observer, on the bench of sensorless.hpp. The functions measure the angle errors
+// of its commutations relative to the sector edge of the rotor.
 #pragma once
 #include "sixstep/design/loops/sensorless_observer.hpp"
 #include "sixstep/design/scaling/observer_scaling.hpp"
@@ -26,7 +26,7 @@ inline void follow(SensorlessBench& bench, control::Follow follow) {
   bench.chip.observer = observer->chip;
 }
 
-/// Angle errors of the timer's commutations, in electrical degrees after the rotor's edge.
+/// Angle errors of the timer's commutations, in electrical degrees after the sector edge of the rotor.
 struct CommutationError {
   int count = 0;
   double sum = 0.0, squares = 0.0, worst = 0.0;
@@ -34,8 +34,8 @@ struct CommutationError {
   double mean() const { return count == 0 ? 0.0 : sum / count; }
 };
 
-/// Continues the run to `to_s` and measures the error at each compare match. `forward`: the rotor turns
-/// forward.
+/// Continues the run to `to_s` and measures the error at each compare match. `forward`: true if the rotor
+/// turns forward.
 template <class Rig>
 CommutationError watch_commutations(Rig& rig, double to_s, double period_s, bool forward = true) {
   CommutationError error;

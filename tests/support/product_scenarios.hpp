@@ -10,7 +10,8 @@
 
 namespace sixstep::testing {
 
-/// Currents of +-20.48 A in 12 bits, 10 mA per count; bus up to 40.96 V; Hall edges captured at 1 MHz.
+/// Phase currents of +-20.48 A in 12 bits, 10 mA per count. The bus range is 40.96 V. Hall edges are captured
+/// at 1 MHz.
 inline study::Sensors board_sensors(int bits = 12) {
   study::Sensors s;
   s.currents = rig::CurrentMeasurement::phases;
@@ -88,8 +89,8 @@ struct Witness {
   }
 };
 
-/// A drive at 300 rad/s with 0.6 J in its rotor. The bus is 0.1 mF, supplied through 0.1 ohm. The drive
-/// brakes with 2 A when its run request ends.
+/// A drive at 300 rad/s with an energy of 0.6 J in its rotor. The bus has 0.1 mF and is supplied through 0.1
+/// ohm. The drive brakes with 2 A when its request to run ends.
 inline study::Scenario braking_onto_a_small_bus() {
   study::Scenario s = product_scenario(control::Mode::speed, 300.0);
   s.duration_s = 0.5;

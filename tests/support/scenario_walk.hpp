@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks a scenario's run from inside, with any firmware and arithmetic: the laws within each segment, and
-// whether a copy of the rig from a control tick reaches the same end.
+// Checks a scenario's run from inside, with any firmware and arithmetic. It checks the laws within each
+// segment, and whether a copy of the rig from a control tick reaches the same end.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -30,7 +30,7 @@ struct WalkPlan {
   std::int64_t most_segments = 1'000'000;
 };
 
-/// `compiled` must be the compiled `scenario`.
+/// `compiled` must be the result of compiling `scenario`.
 Walk walk(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan = {});
 
 }  // namespace sixstep::testing

@@ -30,7 +30,7 @@ inline study::Scenario maxon_scenario(control::Mode mode, double reference) {
   return s;
 }
 
-/// The thesis's current step: a square wave of +-5 A, with the printed gains.
+/// The current step of the thesis: a square wave of +-5 A, with the printed gains.
 inline study::Scenario current_square() {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
   s.control.current.d1 = 4.5;
@@ -42,7 +42,7 @@ inline study::Scenario current_square() {
   return s;
 }
 
-/// The same current with a hysteresis band of 0.2 A.
+/// The same square wave with hysteresis control. The band is 0.2 A.
 inline study::Scenario hysteresis() {
   study::Scenario s = current_square();
   s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};
@@ -50,7 +50,7 @@ inline study::Scenario hysteresis() {
   return s;
 }
 
-/// A speed loop over a current loop, both designed by their settling times.
+/// A speed loop with an inner current loop. Both are designed by their settling times.
 inline study::Scenario cascade(double duration_s = 8e-3) {
   study::Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   s.control.current.settle_s = 1e-3;
@@ -59,8 +59,8 @@ inline study::Scenario cascade(double duration_s = 8e-3) {
   return s;
 }
 
-/// Constant speed of a motor that an external drive turns, and its start angle: angles then have a closed
-/// form. The windings conduct current, so that the commutation by the sensor is visible.
+/// An external drive turns the motor at this constant speed, starting at this angle, so that angles have a
+/// closed form. The windings carry current, so that the commutation by the sensor has a visible effect.
 inline constexpr double turned_rad_s = 200, turned_from_rad = 0.3;
 inline study::Scenario turned_by(study::RotorSensing rotor, double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.5);

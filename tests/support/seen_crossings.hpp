@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the delay of the back-EMF's zero crossings that a sensorless drive detects, relative to the
-// rotor's angle.
+// Measures the delay of the back-EMF's zero crossings that a sensorless drive detects. The delay is relative
+// to the rotor's angle.
 #pragma once
 #include "tests/support/sensorless.hpp"
 
 namespace sixstep::testing {
 
-/// Mean delay of the detected crossings after the middle of each sector, rad electrical, and their number.
+/// Mean delay of the detected crossings after the middle of each sector, in electrical rad, and their number.
 struct SeenCrossings {
   double late_rad[6]{};
   int count[6]{};
   double speed_rad_s = 0.0;
 };
 
-/// Runs to `from_s`, when the drive must already run by its crossings, and then samples `looks` control
+/// Runs to `from_s`, when the drive must already run by its crossings. Then it samples `looks` control
 /// periods.
 inline SeenCrossings seen_crossings(const SensorlessBench& bench, double from_s, int looks = 6000) {
   SeenCrossings seen;

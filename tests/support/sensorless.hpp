@@ -27,12 +27,12 @@ struct SensorlessMotor {
   double period_s;
 };
 
-/// Three different kinds of motors: flat with a trapezoidal back-EMF, a drone's outer runner, a wheel hub
-/// motor.
+/// Three different kinds of motors: a flat motor with a trapezoidal back-EMF, a drone motor with an outer
+/// rotor, and a wheel hub motor.
 inline constexpr SensorlessMotor three_motors[] = {
     {"maxon-251601", 24.0, 30e-6}, {"dji-2212-920kv", 12.0, 20e-6}, {"hoverboard-hub", 36.0, 50e-6}};
 
-/// One drive on the bench; change members before rig().
+/// One drive on the bench. Its members may be changed before rig() is called.
 struct SensorlessBench {
   design::MotorModel motor;
   design::SensorlessSpec spec;
@@ -116,7 +116,7 @@ inline const char* word(control::SensorlessPhase phase) {
   return words[static_cast<std::size_t>(phase)];
 }
 
-/// Number of sectors from the rotor's sector to the commutation's sector, -2..3.
+/// Number of sectors from the sector of the rotor to the sector of the commutation, -2 to 3.
 template <class Rig>
 int ahead(const Rig& rig) {
   return control::sectors_between(static_cast<std::uint8_t>(rig.plant().sector()),
@@ -128,7 +128,8 @@ control::SensorlessPhase phase(const Rig& rig) {
   return rig.firmware().rotor().phase;
 }
 
-/// Runs until what() is true, checked every `every_s`, at most to `most_s`. Returns the time in s, or -1.
+/// Runs until what() returns true, at most to `most_s`. It calls what() every `every_s`. Returns the time in
+/// s, or -1.
 template <class Rig, class What>
 double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   sim::NoObserver none;
@@ -139,8 +140,8 @@ double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   return -1;
 }
 
-/// Continues the run and counts the checks that fail: the drive's sector is wrong by more than one, or the
-/// drive has lost the rotor.
+/// Continues the run and counts failed checks. A check fails if the drive's sector is wrong by more than one
+/// sector, or if the drive has lost the rotor.
 template <class Rig>
 int wrong_looks(Rig& rig, double to_s, double every_s) {
   int wrong = 0;

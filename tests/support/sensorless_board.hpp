@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench of sensorless.hpp with a realistic board. The channels have a tenth of the phase resistance.
-// There are diodes, dead time, converters with one count of noise, unequal terminal dividers and a measured
-// bus. Commands act one period later.
+// The bench of sensorless.hpp with a realistic board. The resistance of a switch is a tenth of the phase
+// resistance. The board has diodes, dead time, converters with one count of noise, unequal terminal dividers
+// and a measured bus. Commands act one period later.
 #pragma once
 #include <random>
 
@@ -9,8 +9,8 @@
 
 namespace sixstep::testing {
 
-/// Largest relative difference of two dividers of 0.1 % resistors. The divider of leg a reads higher than the
-/// divider of leg b by this part.
+/// Largest relative difference of two dividers with resistors of 0.1 %. The divider of leg a reads higher
+/// than the divider of leg b by this part.
 inline constexpr double unlike_dividers = 0.004;
 
 template <class Scalar>
@@ -54,13 +54,14 @@ inline SensorlessBench on_built_board(const SensorlessMotor& motor, control::Mod
   return bench;
 }
 
-/// Time, s, at which both steps of the alignment have ended.
+/// The time, in s, at which both steps of the alignment have ended.
 inline double aligned_s(const SensorlessBench& bench) {
   return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
 }
 
-/// The duty that turns the motor at a tenth of its no-load speed with its load. It compensates the voltage
-/// drops of copper, channels and diodes. Hard chopping applies 2 d - 1 of the bus.
+/// The duty at which the motor turns at a tenth of its no-load speed with its load. It includes the voltage
+/// drops of copper, switches and diodes. With hard chopping, the mean voltage is 2 d - 1 of the bus voltage
+/// at the duty d.
 inline double tenth_of_no_load(const SensorlessBench& bench) {
   const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
   const double drop_V = bench.load_part * bench.nominal_A() * R_tt + bench.devices.V_f_V;
@@ -73,7 +74,7 @@ inline const char* word(control::Chopping chopping) {
   return words[static_cast<std::size_t>(chopping)];
 }
 
-/// Result of a start from rest to a speed, and of the 0.1 s after it.
+/// The result of a start from rest to a speed, and of the next 0.1 s.
 struct Started {
   bool holds = false;
   bool at_once = false;  ///< without a second start
@@ -96,9 +97,9 @@ inline int starts_each(int usual) {
   return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-/// Starts each motor to 0.3 of the no-load speed, with loads from none to half of its nominal load, from
-/// random angles. 99 of 100 starts must keep the speed. bench_of(motor, n) returns the bench of the n-th
-/// start, sign_of(n) its direction.
+/// Starts each motor to 0.3 of its no-load speed from random angles, with loads up to half of its nominal
+/// load. 99 of 100 starts must keep the speed. bench_of(motor, n) returns the bench of the start n, and
+/// sign_of(n) its direction.
 template <class BenchOf, class SignOf>
 void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& sign_of) {
   std::mt19937 draw(seed);
@@ -127,8 +128,8 @@ void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& si
     }
 }
 
-/// Checks that the speed is `part` of the no-load speed 0.8 s after the alignment, without a loss of the
-/// rotor.
+/// Expects that the speed is `part` of the no-load speed 0.8 s after the alignment, and that the drive has
+/// not lost the rotor.
 inline void expect_speed_held(SensorlessBench& bench, double part, const std::string& of) {
   const double w = part * bench.no_load_rad_s();
   bench.setpoint(0, w);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The realistic board of sensorless_board.hpp with comparators at its filtered terminals, and a drive that
-// uses their edges.
+// The realistic board of sensorless_board.hpp with comparators at its filtered terminals. The drive uses the
+// edges of the comparators.
 #pragma once
 #include "tests/support/sensorless_board.hpp"
 
@@ -10,8 +10,8 @@ inline const char* word(rig::CrossingReference against) {
   return against == rig::CrossingReference::half_bus ? "half the bus" : "virtual star";
 }
 
-/// Comparators with an offset of 2 mV and a hysteresis of 3 mV, on a 3.3 V supply, converted to voltages at
-/// the terminals before the divider.
+/// Comparators on a 3.3 V supply with an offset of 2 mV and a hysteresis of 3 mV. Both are converted to
+/// voltages at the terminals before the divider.
 inline rig::CrossingComparators usual_comparators(rig::CrossingReference against, double bus_V) {
   const double per_V = 1.25 * bus_V / 3.3;
   return {.against = against,
@@ -19,10 +19,10 @@ inline rig::CrossingComparators usual_comparators(rig::CrossingReference against
           .hysteresis_V = 3e-3 * per_V};
 }
 
-/// Adds comparators to the bench's board and designs the drive for them. The comparators are behind a
-/// low-pass; `part_of_longest` is its time constant as a part of the longest possible one. With half the bus
-/// as reference the low-pass must settle within half of a pulse: the ramp then ends at a fifth of the no-load
-/// speed.
+/// Adds comparators to the board of the bench, and designs the drive for them. A low-pass filter is before
+/// each comparator. Its time constant is `part_of_longest` of the longest possible one. With half the bus
+/// voltage as reference, the filter must settle within half of a pulse, so the ramp ends at a fifth of the
+/// no-load speed.
 inline void capture_crossings(SensorlessBench& bench, rig::CrossingComparators comparators,
                               double part_of_longest = 0.8) {
   const bool half_bus = comparators.against == rig::CrossingReference::half_bus;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs and sessions that must succeed: the functions return their results, or the test fails.
+// Runs and sessions that must succeed. The functions return their results, or the test fails.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -26,14 +26,14 @@ inline study::Outcome closed(study::Session& session) {
   return out ? *out : study::Outcome{};
 }
 
-/// Advances the session to the scenario's end.
+/// Advances the session to the end of the scenario.
 inline study::Outcome run_out(study::Session& session) {
   session.advance(1e6);
   return closed(session);
 }
 
-/// Runs in slices of irregular lengths. After each slice the values are read, and the run continues in a
-/// copy.
+/// Runs a session in slices of irregular lengths. After each slice, the values are read, and a copy of the
+/// session continues the run.
 inline study::Outcome sliced(const study::Scenario& s, const study::Listeners& listeners = {}) {
   study::Session session = opened(s, listeners);
   double t_s = 0.0;

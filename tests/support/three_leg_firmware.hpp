@@ -6,7 +6,7 @@
 
 namespace sixstep::testing {
 
-/// Controller: LegCommands<double> operator()(instant, setpoint); it may have a state.
+/// The type Controller has LegCommands<double> operator()(instant, setpoint), and may have a state.
 template <class Controller>
 class ThreeLegFirmware {
  public:

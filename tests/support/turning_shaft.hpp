@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shaft with a closed-form motion, passed to a board's ports segment by segment.
+// A shaft with a closed-form motion. The motion is passed to the ports of a board segment by segment.
 #pragma once
 #include <cmath>
 
@@ -7,20 +7,20 @@
 
 namespace sixstep::testing {
 
-/// Mechanical angle theta(t) = theta_0 + w t + a t^2/2, in segments of 10 us.
+/// The mechanical angle is theta(t) = theta_0 + w t + a t^2/2, in segments of 10 us.
 struct Motion {
   static constexpr std::int64_t p = 8;  ///< pole pairs
   double theta_0 = 0, w = 0, a = 0;
 
   double theta(double t) const { return theta_0 + (w + a * t / 2) * t; }
-  /// Sector, and angle in the sector, at time t.
+  /// The sector and the angle within the sector at the time t.
   plant::ShaftAngle<double> shaft(double t) const {
     const double sectors = theta(t) * p / base::sector_rad;
     const auto sector = static_cast<std::int64_t>(std::floor(sectors));
     return {sector, theta(t) * p - static_cast<double>(sector) * base::sector_rad, p};
   }
-  /// Passes the motion to the ports. With a gear, the load's side follows behind the gear and a coupling with
-  /// a constant twist.
+  /// Passes the motion to the ports. With a gear, the side of the load follows through the gear and through a
+  /// coupling with a constant twist.
   void show(rig::ShaftPorts& ports, double from_s, double to_s, double sample_s = 1.0, double gear = 0.0,
             double twist_rad = 0.0) const {
     const double h = 10e-6;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// walk() for one kind of drive. Each kind has a separate source file, so that the files compile in parallel.
+// walk() for one kind of drive. Each kind has a separate source file, so that the files can be compiled in
+// parallel.
 #pragma once
 #include <cmath>
 
@@ -21,8 +22,7 @@ struct Snapshot {
   study::Digest digest;
 };
 
-/// Checks every segment of the whole run. In a run that is resumed from a snapshot, it only updates the
-/// digest.
+/// Checks every segment of the whole run. If the run was resumed from a snapshot, it only updates the digest.
 template <class Rig>
 struct Walker {
   study::Digest digest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A study of wirings with plausible results, without its 252 runs, for tests of the output. The "measured"
-// values follow from theory.
+// A study of wirings with plausible results, for tests of the output. It does not need the 252 runs of a real
+// study: the "measured" values are computed from theory.
 #pragma once
 #include <cmath>
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`sixstep run --on avr`: chapter 8 of the thesis on an ATmega2560, register by register (faces/loop/avr/): its verdicts, what its
-interrupts took, the period that it cannot keep; the same bits each time; and programs that do what they should not."""
+"""`sixstep run --on avr`: chapter 8 of the thesis on an ATmega2560, register by register (faces/loop/avr/). Tested
+are the verdicts, the duration of the interrupts, a period that is too short, and that repeated runs have the same
+bits. Faulty programs are tested too."""
 import csv
 import json
 import os
@@ -22,9 +23,9 @@ import build
 SCHEMA = jsonschema.Draft202012Validator(json.loads((build.REPOSITORY / "docs/summary.schema.json").read_text(encoding="utf-8")))
 CHAPTER = build.REPOSITORY / "data" / "scenarios" / "thesis" / "avr"
 OWN = build.REPOSITORY / "faces" / "firmware" / "example" / "avr_c"
-FREE = build.REPOSITORY / "data" / "scenarios" / "firmware" / "avr.toml"  # its rotor turns
+FREE = build.REPOSITORY / "data" / "scenarios" / "firmware" / "avr.toml"  # a scenario whose rotor turns
 TOO_SHORT = CHAPTER / "8b-30us.toml"
-LOGGED = CHAPTER / "8d.toml"  # its rotor hardly turns: near a commutation the chip samples a leg without current
+LOGGED = CHAPTER / "8d.toml"  # a scenario whose rotor hardly turns; near a commutation the chip samples a leg without current
 
 
 def run(file, *words, on="avr", **environment):
@@ -37,8 +38,9 @@ def summary(done):
 
 
 def trouble_of_times(name, chip):
-    """By what a current tick and a Hall interrupt of such a drive take (docs/reference/core-costs.md), and what stands around them. The Hall interrupt
-    and TOP's may come amid the control interrupt. The first samples only measure the offset."""
+    """Checks the duration of the control interrupt and the Hall interrupt against their limits
+    (docs/reference/core-costs.md). The limits include the other interrupts: the Hall interrupt and TOP's interrupt
+    may come during the control interrupt. The first samples only measure the offset."""
     found = []
     for which, least, most in (("control", 100, 1800), ("hall", 100, 700)):
         t = chip[which]
@@ -75,7 +77,8 @@ def check_chapter():
 
 
 def check_overrun():
-    """30 us are 480 cycles: the control interrupt takes three periods, and one that begins amid the fourth waits for the next."""
+    """30 us are 480 cycles. The control interrupt takes more than three periods, and the next interrupt waits for its
+    end."""
     done = run(TOO_SHORT, "--json", "-")
     chip = summary(done).get("chip", {"periods": 0, "conversions": 0})
     if not (chip["conversions"] > 0 and 3 < chip["periods"] / chip["conversions"] < 4):
@@ -112,7 +115,7 @@ def check_bad():
     trouble = []
     for name, (what, said) in BAD.items():
         done, took_s = badly(what)
-        stops = 1 if "watchdog" in said else 3  # the drive stops and misses its required means
+        stops = 1 if "watchdog" in said else 3  # after a stop the drive misses its required means
         if done.returncode != stops or said not in done.stdout + done.stderr or took_s > 30:
             trouble.append(f"a chip that {name}: exit {done.returncode} after {took_s:.1f} s\n{(done.stdout + done.stderr)[-600:]}")
     print(f"{len(BAD) - len(trouble)} of {len(BAD)} chips with a bad program are told as such")
@@ -124,7 +127,7 @@ BREAKS = [word for key, value in (("line", "1"), ("level", "high"), ("at_s", "0.
 
 
 def check_stands():
-    """A Hall line breaks: the run goes on to its end, with the gates off, and says what the chip said."""
+    """A Hall line breaks. The run continues to its end with the gates off, and the text repeats the chip's message."""
     with tempfile.TemporaryDirectory() as name:
         trace, log = (pathlib.Path(name) / file for file in ("trace.csv", "board.csv"))
         done = run(FREE, "--json", "-", "--csv", str(trace), "--uart", str(log), *BREAKS)
@@ -143,13 +146,13 @@ def check_stands():
 
 
 def check_waits():
-    """A potentiometer that is off its middle from the start on."""
+    """The potentiometer is not at its middle from the start on."""
     done = run(CHAPTER / "8b.toml", "--set", "reference.values=[0.5, 0.5, 1.5]")
     return [] if done.returncode == 1 and "WAITS" in done.stdout else [f"a setpoint from the start on: exit {done.returncode}\n{done.stdout}"]
 
 
 def check_own():
-    """A firmware that is none of ours, in C, with other pins: it holds what chapter 8 asks for as well."""
+    """A firmware of another author, in C and with other pins. It also passes the requirements of chapter 8."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         shutil.copy(OWN / "map.toml", folder)
@@ -161,7 +164,7 @@ def check_own():
             if done.returncode != 0 or not summary(done)["passed"]:
                 found = summary(done)
                 trouble.append(f"{file.stem} by {OWN.name}: exit {done.returncode}, {found['fault']}, {found.get('require')}")
-        # The host runs a scenario's own controller.
+        # With another controller in the scenario, the host runs this controller.
         other = run(CHAPTER / "8b.toml", "--quiet", "--set", "control.arithmetic=float", "--set", "pwm.alignment=edge",
                     on=str(folder / "map.toml"))
         if other.returncode != 0:
@@ -171,12 +174,14 @@ def check_own():
 
 
 def early(text):
-    """Behind 20 ms the rotor stands at a commutation, where the currents of chip and host swing alike but not in step."""
+    """The rows before 20 ms. Later the rotor is at a commutation, and the currents of chip and host oscillate with
+    different phase."""
     return "".join(line for line in text.splitlines(True) if not line[0].isdigit() or int(line.split(",")[0]) < 20_000)
 
 
 def check_log():
-    """What its serial line sends: over the very run it is that run's samples, over the host's they are a converter's counts apart."""
+    """The log on the serial line. Compared with the run on the chip it has the same samples. Compared with the host's
+    run it differs by a few counts of the converter."""
     with tempfile.TemporaryDirectory() as name:
         log, begin = (str(pathlib.Path(name) / file) for file in ("board.csv", "begin.csv"))
         run(LOGGED, "--quiet", "--uart", log)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An ATmega2560 with its firmware (faces/loop/avr/), without a plant: Hall pins and what its converter reads are set by hand, and each move
-of its gates is noted with its cycle."""
+"""An ATmega2560 with its firmware (faces/loop/avr/) and without a plant. The test sets the Hall pins and the inputs
+of the converter. Each change of the gates is recorded with its cycle."""
 import fcntl
 import os
 import pathlib
@@ -12,16 +12,16 @@ import build
 
 BOARD = build.REPOSITORY / "build/dev/sixstep-avr-board"
 CLOCK_HZ = 16_000_000
-RUN, ANSWER, GREETING = struct.Struct("<Q8HII"), struct.Struct("<QIIII"), struct.Struct("<6I")  # sixstep/rig/chip_port.hpp
+RUN, ANSWER, GREETING = struct.Struct("<Q8HII"), struct.Struct("<QIIII"), struct.Struct("<6I")  # the messages of sixstep/rig/chip_port.hpp
 INTERRUPT = struct.Struct("<QQ3I64II")
 TIMES = struct.Struct(f"<{2 * INTERRUPT.size + 16}s")
 GATES, SAMPLE, ENDED = 1, 2, 3
-BETWEEN = 4  # added to the channel of a current that is no control sample
-ZERO = 512  # counts
+BETWEEN = 4  # added to the channel, if a current is sampled and the sample is not a control sample
+ZERO = 512  # counts at zero current
 
 
 class Chip:
-    """Inputs: channels 0 to 2 are the currents of legs a, b, c, 3 the potentiometer."""
+    """The inputs: channels 0 to 2 are the currents of the legs a, b, c; channel 3 is the potentiometer."""
 
     def __init__(self, elf, hall=0b101):
         self.hall, self.counts = hall, [ZERO] * 8
@@ -33,7 +33,7 @@ class Chip:
         self.answers, up = os.pipe()
 
         def place():
-            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # so that neither descriptor is 3 or 4
+            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # neither descriptor may be 3 or 4
             os.dup2(taken[0], 3)
             os.dup2(taken[1], 4)
         self.process = subprocess.Popen([str(BOARD), f"--serial={self.log}", str(elf)], preexec_fn=place, close_fds=False)
@@ -59,7 +59,8 @@ class Chip:
         return data
 
     def run_to(self, until):
-        """With the pins and inputs as they are; `at_sample`, where set, may change them at each sample."""
+        """Runs to the cycle `until` with the present pins and inputs. `at_sample`, if set, may change them at each
+        sample."""
         while self.cycle < until and not self.ended:
             os.write(self.runs, RUN.pack(until, *self.counts, self.hall, 0))
             self.cycle, event, gates, channel, _ = ANSWER.unpack(self.read(ANSWER.size))
@@ -78,19 +79,20 @@ class Chip:
         self.run_for(round(ms * CLOCK_HZ / 1000))
 
     def times(self):
-        """Of its control and its Hall interrupt: how often, and cycles in all, at least, at most."""
+        """For the control interrupt and the Hall interrupt: the number of calls, and the total, smallest and largest
+        number of cycles."""
         os.write(self.runs, RUN.pack(0, *[0] * 8, 0, 1))
         data = self.read(TIMES.size)
         return [INTERRUPT.unpack_from(data, INTERRUPT.size * n)[:4] for n in (0, 1)]
 
     def off_within(self, cycles):
-        """Whether all gates are off then, and stay off for ten periods."""
+        """Whether all gates are off after `cycles`, and stay off for ten periods."""
         self.run_for(cycles)
         was_off, begin = self.gates == 0, len(self.moves)
         self.run_ms(1)
         return was_off and len(self.moves) == begin
 
     def said(self):
-        """Whole lines of its serial line, up to now."""
+        """The complete lines on the serial line so far."""
         text = self.log.read_text(encoding="ascii", errors="replace") if self.log.exists() else ""
         return text[:text.rfind("\n") + 1].splitlines()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of the ATmega2560's log: each has the instant of its sample, by a clock that no interrupt stops, also where most periods go by
-without a control interrupt; and says how many did."""
+"""The rows of the ATmega2560's log. Each row has the instant of its sample. The clock continues during interrupts,
+and in periods without a control interrupt. The row states the number of these periods."""
 import tempfile
 
 import build
@@ -8,11 +8,11 @@ from avr_chip import CLOCK_HZ, Chip, ZERO
 from avr_image import built
 
 MA_PER_COUNT = 20_000 / 1024
-STEPS = 301  # counts that a sample may have: each row's current identifies its sample
+STEPS = 301  # number of different counts: the current of a row identifies its sample
 
 
 class Stairs:
-    """A current that is another one at each sample of BOTTOM."""
+    """A current that has a new value at each sample of BOTTOM."""
 
     def __init__(self, chip):
         self.chip, self.given = chip, []

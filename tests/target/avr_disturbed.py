@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an edge of the bridge does to the ATmega2560's Hall pins: one line reads the other level for 0.3 us. At whichever cycle of a period
-that comes, and of the Hall interrupt behind an edge of the rotor, no other pair than the rotor's is at the gates, the converter looks at
-the leg that feeds it, and the drive goes on. Programs that read the pins once, or thrice within 0.3 us, are seen."""
+"""An edge of the bridge disturbs a Hall pin of the ATmega2560: the line has the wrong level for 0.3 us. This may come
+at any cycle of a period, and at any cycle of the Hall interrupt after an edge of the rotor. The gates always have the
+rotor's pair, the converter samples the leg that feeds this pair, and the drive continues. Programs that read the pins
+once, or three times within 0.3 us, fail the test."""
 import functools
 import tempfile
 
@@ -13,12 +14,12 @@ from avr_image import built
 
 DISTURBED = 5  # cycles: 0.3125 us
 LINES = (0b100, 0b010, 0b001)
-BEHIND = range(20, 180)  # cycles after a rotor's edge, at which a Hall interrupt without delay reads the pins
+BEHIND = range(20, 180)  # cycles after an edge of the rotor; there an undelayed Hall interrupt reads the pins
 STEPS = len(LINES) * PERIOD
 
 
 class Disturbed(Walk):
-    """Each few periods one disturbance, and each third of them right behind an edge of the rotor."""
+    """A disturbance every few periods. Every third one comes directly after an edge of the rotor."""
 
     def disturb(self, at, line):
         self.chip.run_to(at)
@@ -52,7 +53,8 @@ class Disturbed(Walk):
 
 
 def trouble_of_channels(walk):
-    """BOTTOM's conversion is of the leg that feeds the positive pair, by the code of its begin or one that has just gone."""
+    """BOTTOM samples the leg that feeds the positive pair. The pair is that of the Hall code at the begin of the
+    conversion, or of the code directly before."""
     trouble, place = [], 0
     for cycle, channel in walk.chip.samples:
         while place + 1 < len(walk.halls) and walk.halls[place + 1][0] <= cycle:

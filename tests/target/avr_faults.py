@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the ATmega2560's image does when something around it breaks: it turns all gates off within a millisecond, says why about once a
-second, and stands, also behind a watchdog's reset and when all is well again. And it does not start by itself."""
+"""The ATmega2560's image if a part around it fails. It turns all gates off within a millisecond and sends the reason
+about once a second. It stays off, also after a reset by the watchdog and after the end of the fault. It does not
+start by itself."""
 import functools
 import tempfile
 
@@ -11,11 +12,11 @@ from avr_image import built
 MS = CLOCK_HZ // 1000
 POTENTIOMETER = 3
 WAITS = "# waits for the potentiometer's middle"
-SOURCE, SINK, FREE = 2, 1, 0  # legs c, b, a, by Hall code 101
+SOURCE, SINK, FREE = 2, 1, 0  # legs c, b and a: source, sink and free leg at the Hall code 101
 
 
 def driving(elf, setpoint=600):
-    """Two amperes round by legs c and b."""
+    """A drive in operation: 2 A flow through the legs c and b."""
     chip = Chip(elf)
     chip.run_ms(3)
     chip.counts[POTENTIOMETER] = setpoint
@@ -31,14 +32,14 @@ def reasons(chip):
 
 
 def mend(chip):
-    """All is well again, and the potentiometer is at its middle, and off it."""
+    """Ends the fault. The potentiometer moves to its middle and away from it."""
     chip.hall, chip.counts = 0b101, [ZERO] * 8
     chip.run_ms(20)
     chip.counts[POTENTIOMETER] = 700
     chip.run_ms(20)
 
 
-# The part that breaks during a run, its failure, and the fault reported.
+# The part that fails during a run, its failure, and the reported fault.
 def reads(counts, *legs):
     def broken(chip):
         for leg in legs:
@@ -53,12 +54,12 @@ def hall(code):
 
 
 def dead_source(chip):
-    """The leg that feeds the pair reads nothing, while 5 A flow."""
+    """The current sensor of the leg that feeds the pair reads zero, while 5 A flow."""
     chip.counts[SOURCE], chip.counts[SINK] = ZERO, ZERO - 256
 
 
 def doubled(chip):
-    """A transducer that reads three times too much."""
+    """A current sensor reads three times the true current."""
     chip.counts[SINK] = ZERO - 330
 
 
@@ -71,8 +72,8 @@ BREAKS |= {"the source's transducer at its middle": (dead_source, "current-senso
            "Hall 000": (hall(0), "hall"), "Hall 111": (hall(7), "hall")}
 
 
-# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. Over-current and setpoint wire: three periods, because
-# every second period checks the value. Any other fault: a millisecond.
+# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. Over-current and setpoint wire: three periods,
+# because the value is checked in every second period. Any other fault: a millisecond.
 WITHIN = {"hall": 640, "over-current": 3 * 1600, "setpoint-wire": 3 * 1600}
 
 
@@ -90,7 +91,8 @@ def check_break(elf, case):
 
 
 def check_sound(elf):
-    """Currents up to nine tenths of the range, and a setpoint at either end of the potentiometer's range, are no fault."""
+    """Currents up to nine tenths of the range are no fault. A setpoint at either end of the potentiometer's range is
+    no fault either."""
     trouble = []
     for counts, setpoint in ((450, 1014), (-450, 10)):
         with driving(elf) as chip:
@@ -102,7 +104,8 @@ def check_sound(elf):
 
 
 def check_power_up(elf):
-    """No start but behind the potentiometer's middle; none at all with a wire lost, or an offset that is far off."""
+    """The drive starts only after the potentiometer has been at its middle. It does not start with a broken wire or a
+    large offset."""
     trouble = []
     for setpoint in (100, 480, 530, 900):
         with Chip(elf) as chip:
@@ -130,7 +133,8 @@ def check_power_up(elf):
 
 
 def check_goes_on(elf):
-    """Once a second, and rows go on: the line says that the board lives, and what it sees."""
+    """After a fault the line sends the reason once a second, and the rows continue. They show that the board works,
+    and what it measures."""
     with driving(elf) as chip:
         chip.hall = 0
         begin = chip.cycle
@@ -145,12 +149,13 @@ def check_goes_on(elf):
 
 OPEN_STOP = ("standing.hpp", '  asm volatile("cli" ::: "memory");\n', "")
 GLITCH = 40  # cycles
-LAST = 170  # cycles of a Hall interrupt with its dead time, before the stop
+LAST = 170  # cycles from the start of a Hall interrupt to its end, with the dead time
 
 
 def stopped_by_control(elf, begin, edge=None):
-    """A Hall code 000 that the control interrupt alone reads: it comes `begin` cycles behind BOTTOM's sample and is gone when the Hall
-    interrupt is let in; then, `edge` cycles behind the sample, a sound code. The moves of the gates from then on, and what is said."""
+    """Only the control interrupt reads a Hall code 000. The code comes `begin` cycles after BOTTOM's sample, and ends
+    before the Hall interrupt can read it. With `edge`, a valid code comes `edge` cycles after the sample. Returns the
+    following changes of the gates, and the messages."""
     with driving(elf) as chip:
         while chip.samples[-1][1] >= 3:
             chip.run_for(100)
@@ -166,7 +171,8 @@ def stopped_by_control(elf, begin, edge=None):
 
 
 def trouble_of_stop(elf):
-    """Hall interrupts at each cycle about the control interrupt's stop, which runs with interrupts on: none lets a gate out again."""
+    """Hall interrupts at each cycle near the stop by the control interrupt, which runs with interrupts enabled. No
+    Hall interrupt turns a gate on again."""
     for begin in range(200, 320, 10):
         moves, _, said = stopped_by_control(elf, begin)
         if said == ["hall"] and moves[-1][0] > begin + GLITCH + 60:  # the Hall interrupt would have turned the gates off by then
@@ -192,14 +198,16 @@ CALLS = "  static std::uint8_t calls = 0;\n"
 TICK = "  const std::uint8_t pins = hall_pins();\n  const bool looks_at_legs"
 STANDS = "  if (phase == Phase::calibrates)\n"
 BOTTOM = "  byte(ADCSRA) = converter_on | ADATE | ADIE | ADIF;\n"
-HIDDEN = ("set_up.hpp", "const std::uint8_t cause = byte(MCUSR);", "const std::uint8_t cause = 0;")  # as a boot loader leaves it
+# A boot loader has cleared the register.
+HIDDEN = ("set_up.hpp", "const std::uint8_t cause = byte(MCUSR);", "const std::uint8_t cause = 0;")
 
 
 def hanging(place, condition=""):
     return ("main.cpp", place, f"{CALLS}  {condition}{HANGS.strip()}\n{place}")
 
 
-# Programs with a deliberate fault: the fault, the part that breaks during the run, the longest time with gates on, the last message.
+# Programs with a deliberate fault: the fault, the part that fails during the run, the longest time with gates on, and the last
+# message.
 PROGRAMS = {
     "a converter that starts no more": ([("converter.hpp", BOTTOM, f"{CALLS}  if (calls < 100) ++calls;\n  byte(ADCSRA) = calls < 100 ? "
                                           "converter_on | ADATE | ADIE | ADIF : converter_on;\n")], None, 1, "converter"),

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the gates of the ATmega2560's image change, on the executed image, cycle by cycle at its pins with their directions: from each pair
-to each other and to off. Never both gates of a leg are on; between the one and the other lies the dead time at the least; and the pair
-is at all times the one that the Hall code and the sign of the voltage ask for, whose sign counts from the TOP on at which the timer
-takes the on-time: as the simulation has it. Faults that are planted in the program are seen."""
+"""The changes of the gates of the ATmega2560's image, executed cycle by cycle at its pins: from each pair to each
+other pair and to off. The two gates of a leg are never on together, and between them is at least the dead time. The
+pair is always that of the Hall code and the sign of the voltage. As in the simulation, a new sign acts from the TOP
+at which the timer loads the on-time. Faults that the test puts into the program are detected."""
 import math
 import pathlib
 import random
@@ -15,12 +15,13 @@ from avr_image import EXAMPLE, built
 
 PERIOD = 1600  # cycles of 100 us
 CYCLE_PS = 62_500
-SAMPLE_LATE = 32  # a conversion that BOTTOM starts holds its input two of the converter's clocks later
-# docs/reference/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
+SAMPLE_LATE = 32  # cycles; a conversion started by BOTTOM samples its input two clocks of the converter later
+# By the Hall code H1 H2 H3 (docs/reference/model.md, 3): the leg that connects the positive pair to the bus, and the leg that
+# connects it to ground.
 POSITIVE = {0b100: "ab", 0b110: "ac", 0b010: "bc", 0b011: "ba", 0b001: "ca", 0b101: "cb"}
-AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of the example's drive_config.hpp
-# Longest delays until the new pair, in cycles. From a Hall edge: a running interrupt, the entry of the Hall interrupt, and the dead time.
-# From TOP: the same parts, and a Hall interrupt that came first.
+AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # from the example's drive_config.hpp
+# The longest delay of a new pair, in cycles. From a Hall edge: a running interrupt, the entry of the Hall interrupt, and the dead
+# time. From TOP: the same parts, and a Hall interrupt before.
 LATE_HALL, LATE_TOP = 650, 450
 AT_ONCE = 16  # a pin changes when the running instruction or interrupt entry ends: TOP may come before it
 
@@ -39,30 +40,30 @@ def pair(code, negative):
 
 
 def dead_cycles():
-    """Of the header, rounded up."""
+    """The dead time of the header in cycles, rounded up."""
     text = (build.REPOSITORY / EXAMPLE / "drive_config.hpp").read_text(encoding="utf-8")
     return math.ceil(int(re.search(r"dead_time_ps = (\d+);", text)[1]) / CYCLE_PS)
 
 
 class Walk:
-    """A drive whose Hall pins jump anywhere at any instant, and whose current is now far above its reference and now far below it, so
-    that the next duty has the other sign."""
+    """A drive whose Hall pins change to any code at any instant. Its current changes between far above and far below
+    the reference, so that the sign of the duty changes."""
 
     def __init__(self, chip, seed):
         self.chip, self.drawn = chip, random.Random(seed)
-        self.halls, self.signs = [(0, chip.hall)], []  # the values and the cycles from which they count
-        self.currents = []  # BOTTOM, and the counts given there
+        self.halls, self.signs = [(0, chip.hall)], []  # the values, each with the cycle from which it is valid
+        self.currents = []  # the cycle of each BOTTOM, and the counts at it
         self.negative, self.left, self.counts, self.sum = False, 0, 0, 0
 
     def sample(self, cycle, channel, is_control_sample):
-        """A current in the leg that is looked at, which returns in equal parts by the other two."""
+        """A current in the leg that is sampled. Half of it returns through each of the other legs."""
         if not is_control_sample:
             if channel < 3:
                 self.chip.counts[channel] = ZERO - self.counts // 2
             return
         if self.left == 0:
             self.negative = not self.negative
-            # The integral stays small against the proportional part.
+            # This choice keeps the integral small against the proportional part.
             self.left = self.drawn.randint(1, 3) if (self.sum < 0) == self.negative else 1
         self.left -= 1
         self.counts = (1 if self.negative else -1) * self.drawn.randint(300, 400)
@@ -85,7 +86,8 @@ class Walk:
 
 
 def shortest_dead_times(moves):
-    """From the fall of each gate to the rise of the other one of its leg: the shortest of each of the six; and where both were on."""
+    """The shortest time from the fall of one gate to the rise of the other gate of the same leg, for each of the six
+    gates. Also returns the cycles at which both gates were on."""
     both, shortest, fell, before = [], {}, {}, 0
     for cycle, gates in moves:
         if gates & gates >> 1 & 0b010101:
@@ -101,7 +103,7 @@ def shortest_dead_times(moves):
 
 
 def trouble_of_pairs(walk):
-    """At each move of the gates, and at the end of each stretch in which they stand."""
+    """Checks the pair at each change of the gates, and at the end of each interval without a change."""
     trouble, seen = [], set()
     changes = sorted([(at, "hall", value) for at, value in walk.halls] + [(at, "sign", value) for at, value in walk.signs])
     hall, negative = None, None
@@ -131,8 +133,8 @@ def trouble_of_pairs(walk):
 
 
 def trouble_of_pulses(walk):
-    """An on-time is what the PI makes of the sample two BOTTOMs before: u = d1 e + K_i (sum of the e before), over 24 V, and at most that;
-    the sum goes on from what was left of it (control/pi.hpp). A walk that never reached the limit would not need to know."""
+    """Compares each on-time with the PI controller's result for the sample two BOTTOMs before: u = d1 e + K_i (sum of
+    the earlier e), with the error e. u is limited to 24 V. At the limit the sum is corrected as in control/pi.hpp."""
     ons, since = [], None
     for cycle, gates in walk.chip.moves:
         on = bool(gates & 0b010101)
@@ -159,7 +161,7 @@ def trouble_of_pulses(walk):
 
 
 def missed(walk):
-    """Periods between the first control sample and the last one that had none."""
+    """The number of periods without a control sample between the first and the last control sample."""
     cycles = [cycle for cycle, channel in walk.chip.samples if channel < 3 and cycle > walk.halls[0][0]]
     return sum(round((b - a) / PERIOD) - 1 for a, b in zip(cycles, cycles[1:]))
 
@@ -176,7 +178,7 @@ def walked(elf, seed, periods):
 
 PERIODS = 3000
 DELAY = '  asm volatile("ldi r24, 34\\n1:\\tdec r24\\n\\tbrne 1b" ::: "r24");\n'
-# Deliberate faults: the file of the example, the change, and the test's message.
+# Deliberate faults: the file of the example, the change, and the message that the test must give.
 PLANTED = {
     "a dead time of one cycle less": ("gates.hpp", "loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3",
                                       "loops = (dead_cycles - 2) / 3, rest = (dead_cycles - 2) % 3", "shortest"),
@@ -188,7 +190,7 @@ PLANTED = {
 
 
 def found_wrong(elf, dead, seed, periods=PERIODS):
-    """Nothing, or what."""
+    """The errors that the walk finds, or an empty result."""
     got = walked(elf, seed, periods)
     wrong = {}
     if got["both"]:
@@ -212,7 +214,7 @@ def check_planted(case):
 
 
 def check_dead_time(case):
-    """Rounded up to cycles, four at the least."""
+    """The dead time is rounded up to cycles, and is at least four cycles."""
     ps, dead = case
     change = ("drive_config.hpp", f"dead_time_ps = {dead_cycles() * CYCLE_PS};", f"dead_time_ps = {ps};")
     with tempfile.TemporaryDirectory() as folder:
@@ -231,7 +233,7 @@ def check_no_dead_time():
 
 
 def check_starts(elf):
-    """From off to each pair, of either sign: the setpoint's, at whichever code the rotor stands."""
+    """The first pair after off, for each Hall code and each sign of the setpoint."""
     trouble = []
     for code in POSITIVE:
         for setpoint, negative in ((700, False), (324, True)):
@@ -257,7 +259,7 @@ EVERY_DUTY = """  set_up_serial_line();
 
 
 def check_counts():
-    """Its product in the assembler's words, for every duty."""
+    """The assembler's product for the on-time is right for every duty."""
     begin = "  const Reason before = reason_after_reset("
     with tempfile.TemporaryDirectory() as folder, Chip(built(folder, [("main.cpp", begin, EVERY_DUTY + begin)])) as chip:
         chip.run_ms(2000)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ATmega2560's image, of the example's drive or of one that was changed, its program as it stands or with a fault planted."""
+"""Builds the ATmega2560's image of the example's drive, unchanged, with a changed drive, or with a fault put into its
+program."""
 import pathlib
 import shutil
 
@@ -14,7 +15,7 @@ def planted(text, old, new, name):
 
 
 def built(folder, changes=()):
-    """image.elf in a folder of its own; `changes` are of files of the example: (name, old, new)."""
+    """Builds image.elf in a folder of its own. `changes` are changes of the example's files: (name, old, new)."""
     folder = pathlib.Path(folder)
     for part in ("sixstep/control", "faces/firmware", "tools"):
         shutil.copytree(build.REPOSITORY / part, folder / part)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each block costs on each core, called with drawn inputs: counted call by call over the walk's 10 000 steps, against
-data/cores/blocks.txt. A block that gets dearer is told here by its name; what a drive makes of it, where configurations are
-constants and calls are inlined, cost.py counts."""
+"""The cost of each block on each core with random inputs. It is counted call by call over 10 000 steps of the walk,
+and compared with data/cores/blocks.txt. A message names each block that has become more expensive. cost.py counts the
+cost of complete drives, with constant configurations and inlined calls."""
 import re
 
 import build
@@ -25,7 +25,8 @@ def cases():
 
 
 def counted(core, scalar, part):
-    """What the program prints, and a line `cost SLOT CALLS MEAN WITHIN WORST` for each function, `next` after each block."""
+    """The output of the program, with a line `cost SLOT CALLS MEAN WITHIN WORST` for each function and the line
+    `next` after each block."""
     sources = [cores.HERE / "walk" / "main.cpp", cores.HERE / "platform" / "marks.S"]
     file = build.build(core, "-".join(filter(None, ["blocks", scalar, part])), sources, scalar,
                        (*core.flags_of_walk(part), "-DTARGET_COUNTED", *walk.PARTS[part]))

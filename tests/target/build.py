@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Headers of drives from their scenarios, programs for a core, and what they print when run."""
+"""Writes the headers of drives from their scenarios, builds programs for a core, and runs them."""
 import concurrent.futures
 import os
 import pathlib
@@ -15,11 +15,11 @@ JOBS = int(os.environ.get("SIXSTEP_JOBS", "2"))
 
 
 class Failed(Exception):
-    """With words for the terminal."""
+    """An error with a message for the terminal."""
 
 
 def told(command, limit_s=600, cwd=REPOSITORY):
-    """What a command prints; where it fails, its last words."""
+    """The output of a command. If the command fails, the error has its last lines."""
     try:
         done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit_s, cwd=cwd, check=False)
     except subprocess.TimeoutExpired:
@@ -30,7 +30,8 @@ def told(command, limit_s=600, cwd=REPOSITORY):
 
 
 def side_by_side(function, items):
-    """As many at a time as there are jobs, in the order of the items; an item that fails gives its Failed."""
+    """Calls the function for each item, with as many parallel jobs as JOBS. The results are in the order of the
+    items. An item that fails has its Failed as result."""
     def one(item):
         try:
             return function(item)
@@ -45,12 +46,13 @@ def scenario(drive):
 
 
 def has_header(drive, scalar):
-    """Of the field-oriented drive no fixed-point scaling is proved."""
+    """For the field-oriented drive no fixed-point scaling has been proved, so it has only a header in float."""
     return drive != "field" or scalar == "float"
 
 
 def export_headers():
-    """build/target/headers/SCALAR/DRIVE.hpp, constants from_raw: the same bits for every compiler."""
+    """Writes build/target/headers/SCALAR/DRIVE.hpp. The constants are raw bits, so that they are the same with every
+    compiler."""
     def export(pair):
         scalar, drive = pair
         folder = OUT / "headers" / scalar
@@ -67,7 +69,8 @@ def file_name(words):
 
 
 def build(core, name, sources, scalar, defines=()):
-    """The program's file. AVR's linker is not its compiler, so that it goes by objects."""
+    """Builds the program and returns its file. The AVR has a separate linker, so its sources are first compiled to
+    objects."""
     folder = OUT / file_name(core.name)
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.elf"

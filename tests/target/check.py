@@ -25,13 +25,14 @@ def sights():
 
 
 def renew_bits():
-    """What a walk reaches goes with its digests: as long as they stay, it does."""
+    """A digest covers the same inputs as the table of reached cases. This table is checked again only if the digests
+    are renewed."""
     if not sights():
         raise Failed("the walk's table is not written: let its inputs reach that")
     walk.renew()
 
 
-# The usual checks, the long ones, and those that write the table anew.
+# For each part: the usual check, the long check, and the function that writes the table.
 PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, None),
          "bits": (functools.partial(walk.check, of=cores.USUAL), functools.partial(walk.check, whole=True), renew_bits),
          "costs": (functools.partial(cost.check, cost.USUAL), cost.check, cost.renew),
@@ -41,7 +42,8 @@ PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, N
 
 
 def prepare(part):
-    """Tools of our own, and the headers of the drives. What a controller of one's own or a core in the loop needs, its command makes."""
+    """Builds the shared tools and writes the headers of the drives. The commands for a user's controller and for a
+    core in the loop build their own files."""
     if part in ("own", "loop", "avr", "images"):
         return
     build.export_headers()

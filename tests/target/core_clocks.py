@@ -1,29 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""At most how many clocks of 72 MHz the STM32F303's Cortex-M4 takes for what Unicorn executes, which counts none itself. Two sums:
+"""An upper limit of the clocks that the STM32F303's Cortex-M4 needs at 72 MHz for the instructions that Unicorn
+executes. Unicorn itself counts no clocks. There are three parts:
 
-  core   Arm's technical reference manual (100166_0001, 3.3 and 7.2), each instruction at its longest: a taken branch refills for 3, a
-         division takes 12 (whole) or 14 (float), a result of the floating-point unit is waited for by whoever is next
-  flash  beside it RM0316, 4.2.2: above 48 MHz a reading of the flash, of 64 bits, waits two clocks. Here each line that the core goes into
-         waits both, as if the prefetch buffer brought none ahead; a taken branch waits for a line that was asked for in vain; each
-         reading of data from the flash waits, and the line behind it once more
-  parts  the bridges to the timers, ports and converter: two clocks, and four where the bus has half the clock (APB1)
+  core   Arm's technical reference manual (100166_0001, 3.3 and 7.2), with the longest time of each instruction: a taken
+         branch refills the pipeline in 3, a division takes 12 (integer) or 14 (float), and the next instruction waits for
+         a result of the floating-point unit
+  flash  RM0316, 4.2.2: above 48 MHz a read of 64 bits from the flash waits two clocks. This sum assumes that each new line
+         waits both clocks, as if the prefetch buffer had no effect. A taken branch also waits for an unnecessary line. Each
+         read of data from the flash waits, and the next line waits once more
+  parts  the bridges to timers, ports and converter: two clocks, or four if the bus has half the clock (APB1)
 
-The true number lies between the first sum and that of all: a board says where."""
+The true number is between the first part and the sum of all parts. Only a board can show it."""
 import re
 
 import images
 
 REFILL, WAIT = 3, 2
-# clocks of an interrupt's entry with stacking, and of its return, in memory without wait states (100166_0001, 3.9.1)
+# Clocks of the entry of an interrupt with stacking, and of its return, without wait states of the memory (100166_0001, 3.9.1).
 ENTRY, RETURN = 12, 10
-LAZY = 17  # clocks of an entry that also leaves room for the floating-point registers, which are stored when the first one is used
+# Additional clocks of an entry that reserves stack for the floating-point registers. The registers are stored when the
+# first of them is used.
+LAZY = 17
 LONG = {"sdiv": 12, "udiv": 12, "vdiv": 14, "vsqrt": 14, "vmla": 3, "vmls": 3, "vnmla": 3, "vnmls": 3, "vfma": 3, "mla": 2, "mls": 2,
         "ldrd": 3, "strd": 3, "vldr": 2, "vstr": 2, "isb": 4, "dsb": 4, "mrs": 2, "msr": 2, "cpsid": 2, "cpsie": 2, "vmrs": 2, "vmov": 2}
 BUSES = ((0x40000000, 0x40010000, 4), (0x40010000, 0x48000000, 2), (0x48000000, 0x60000000, 2), (0xE0000000, 0x100000000, 2))
 
 
 def registers_of(operands):
-    """How many a list in braces has."""
+    """The number of registers in a list in braces."""
     count = 0
     for part in re.search(r"\{(.*?)\}", operands)[1].split(","):
         ends = [int(n) for n in re.findall(r"[rs](\d+)", part)]
@@ -32,7 +36,7 @@ def registers_of(operands):
 
 
 def clocks_of(mnemonic, operands):
-    """Without what a taken branch adds."""
+    """The clocks of an instruction, without the additional clocks of a taken branch."""
     name = mnemonic.split(".")[0]
     if name.startswith(("push", "pop", "ldm", "stm", "vpush", "vpop", "vldm", "vstm")):
         return 1 + registers_of(operands)
@@ -45,7 +49,7 @@ def clocks_of(mnemonic, operands):
 
 
 def table(elf):
-    """Address: (size, clocks)."""
+    """{address: (size, clocks)} of each instruction."""
     found = {}
     for line in images.build.told(["arm-none-eabi-objdump", "-d", elf]).splitlines():
         if of := re.match(r"\s*([0-9a-f]+):\t((?:[0-9a-f]{4} ?)+)\s*\t(\S+)\s*(.*)", line):
@@ -54,7 +58,7 @@ def table(elf):
 
 
 class Clocks:
-    """Of a chip's core, from reset() on."""
+    """Counts the clocks of a chip's core since reset()."""
 
     def __init__(self, chip, elf):
         self.table = table(elf)
@@ -83,5 +87,6 @@ class Clocks:
         return self.core + ENTRY + RETURN
 
     def at_most(self):
-        """With the vector's reading, the stacked registers' return, and the floating-point ones' way out and in again."""
+        """The upper limit, with the read of the interrupt vector, the return of the stacked registers, and the
+        stacking of the floating-point registers."""
         return self.core + self.flash + self.parts + ENTRY + RETURN + 2 * LAZY + 2 * WAIT

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which processors are asked, how each is compiled for, and how a program is run on it: the only place that knows."""
+"""The list of processors, with the compiler and the emulator of each. Only this module has these data."""
 import dataclasses
 import os
 import pathlib
@@ -9,15 +9,15 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 HERE = REPOSITORY / "tests" / "target"
 BARE_METAL = REPOSITORY / "faces" / "firmware" / "bare"
 OUT = REPOSITORY / "build" / "target"
-TABLES = REPOSITORY / "data" / "cores"  # the counts, which the program, the pages and the checks read there
+TABLES = REPOSITORY / "data" / "cores"  # the folder of the counts, which the program, the pages and the checks read
 
-# The flags of every core. Only -ffp-contract=off changes bits; the others check the code's rules.
+# The flags of every core. Only -ffp-contract=off changes bits. The other flags check the rules for the code.
 COMMON = ["-std=c++20", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
           "-Wno-sign-conversion", "-Werror", "-ffp-contract=off", "-O2", f"-I{REPOSITORY}"]
-# <cstdint> is the shim of faces/firmware/bare: no chip's C++ library is needed. Nothing throws, so that unwind tables
+# <cstdint> is the file in faces/firmware/bare, so that no C++ library for chips is needed. No function throws, so unwind tables
 # are not needed.
 BARE = ["-ffreestanding", "-nostdinc++", "-fno-unwind-tables", "-fno-asynchronous-unwind-tables", f"-I{REPOSITORY}/faces/firmware/bare"]
-# A flashed drive has a constexpr configuration: the compiler folds it into inlined code. g++ does so at -O3.
+# The configuration of a flashed drive is constexpr, and the compiler evaluates it in inlined code. g++ does so with -O3.
 INLINED = ("-O3",)
 SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=told", "-semihosting-config",
                "enable=on,target=native,chardev=told"]
@@ -26,17 +26,17 @@ SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", 
 @dataclasses.dataclass(frozen=True)
 class Core:
     name: str
-    compile: tuple              # compiler with its flags, without the common ones
-    run: tuple                  # the words before the program
-    platform: tuple             # files below platform/, or where they are
-    link: tuple = ()            # linker with its flags where it is not the compiler
+    compile: tuple              # the compiler with its flags, without the common flags
+    run: tuple                  # the arguments before the program
+    platform: tuple             # files in the folder platform/, or their paths
+    link: tuple = ()            # the linker with its flags, if it is not the compiler
     libraries: tuple = ()
-    for_walk: tuple = ()        # more flags, for the walk of all blocks
-    for_part: dict = dataclasses.field(default_factory=dict, hash=False)  # flags instead of for_walk, for a part of the walk
-    for_entries: tuple = ()     # more flags, for the entries of one drive as flashed
+    for_walk: tuple = ()        # additional flags for the walk of all blocks
+    for_part: dict = dataclasses.field(default_factory=dict, hash=False)  # flags for a part of the walk, in place of for_walk
+    for_entries: tuple = ()     # additional flags for the entries of one drive, as it is flashed
     scalars: tuple = ("q15", "q14", "q31", "q30", "float")
     unit: str = ""              # unit of the counts
-    costs: tuple = ()           # scalars whose cost is measured
+    costs: tuple = ()           # the scalars with a measured cost
     nm: str = "nm"
     size: str = "size"
 
@@ -51,7 +51,7 @@ class Core:
         return [*self.compile, *COMMON, *([] if self.is_host else BARE)]
 
     def missing(self):
-        """A program that this machine lacks, or none."""
+        """A program that this machine lacks, or None."""
         return next((p for p in (self.compile[0], *self.link[:1], *self.run[:1]) if not shutil.which(p) and not os.path.exists(p)), None)
 
 
@@ -86,16 +86,17 @@ CHIPS = (
          ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), bare_platform("riscv"),
          libraries=("-nostdlib", "-T", str(BARE_METAL / "riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"), for_entries=INLINED,
          unit="instructions", costs=("q15",), nm="riscv64-unknown-elf-nm", size="riscv64-unknown-elf-size"),
-    # clang 14 to 16 miscompile for the AVR: proof.py. Only inlined code uses a constexpr configuration: at 5000 the product
-    # drive is five times as large and more than twice as slow as at 100000, but all blocks together would not fit at 100000.
-    # Without full inlining clang 19 miscompiles 32-bit formats too (it passes their structs wrongly, programs crash): there is
-    # no walk of q31 and q30. A fully inlined drive, as the entries are, has the host's bits.
+    # clang 14 to 16 generate wrong code for the AVR (proof.py). A constexpr configuration has an effect only in inlined code.
+    # With a threshold of 5000 the product drive is five times as large and more than twice as slow as with 100000, but with
+    # 100000 all blocks together do not fit. Without full inlining clang 19 also generates wrong code for 32-bit formats: it
+    # passes their structs wrongly, and programs crash. Therefore q31 and q30 have no walk. The entries are fully inlined, and
+    # have the host's bits.
     Core("ATmega2560", ("clang++-19", "--target=avr", "-mmcu=atmega2560", "-DSIXSTEP_ANY_COMPILER"),
          (str(OUT / "avr_board"),), ("avr.cpp",), link=("avr-gcc", "-mmcu=atmega2560"),
          for_walk=("-mllvm", "-inline-threshold=5000"),
-         # At 5000 commissioning's phases become one function that is too long for clang 19's branches; pulse_start is a
-         # part of its own.
-         # Without full inlining clang 19 passes the extras of float drives' loops wrongly: wrong bits, or a crash.
+         # With 5000 the phases of the commissioning become one function that is too long for the branches of clang 19.
+         # pulse_start is a separate part. Without full inlining clang 19 passes the optional features of float loops wrongly, and
+         # the bits are wrong or the program crashes.
          for_part={part: ("-mllvm", "-inline-threshold=20000") for part in ("", "rotor", "pulses")} |
                   {"commissioning": ("-mllvm", "-inline-threshold=2000")},
          for_entries=("-mllvm", "-inline-threshold=100000"),
@@ -103,7 +104,7 @@ CHIPS = (
          nm="avr-nm", size="avr-size"),
 )
 
-# The usual checks compare the bits of the two chips with an image to flash, and of one host for a quick message where all differ. The long
-# checks add the emulated hosts, another compiler, the M0, the M3 and RV32.
+# The usual checks compare the bits of both chips with an image to flash. They also run one host, which gives a quick message if
+# all bits differ. The long checks add the emulated hosts, another compiler, the M0, the M3 and RV32.
 USUAL = tuple(core.name for core in (*HOSTS[:1], *CHIPS) if core.name in (HOSTS[0].name, "Cortex-M4F", "ATmega2560"))
 BY_NAME = {core.name: core for core in (*HOSTS, *CHIPS)}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a control tick and a Hall interrupt cost: counted call by call over recorded runs, against data/cores/drives.txt."""
+"""The cost of a control tick and of a Hall interrupt. It is counted call by call over recorded runs, and compared
+with data/cores/drives.txt."""
 import re
 
 import build
@@ -12,8 +13,8 @@ RECORDS = cores.OUT / "records"
 PLUGIN = cores.OUT / "count_instructions.so"
 CASES = ("duty", "current", "hysteresis", "speed", "position", "product", "field")
 SOURCES = [cores.HERE / "cost" / "main.cpp", cores.HERE / "cost" / "entries.cpp"]
-USUAL = ("hysteresis", "position", "product", "field")  # position runs the speed loop, which runs the current loop, which sets the duty
-MORE = 1.05  # a larger ratio to the table's count is reported
+USUAL = ("hysteresis", "position", "product", "field")  # the position drive contains the speed loop, the current loop and the duty drive
+MORE = 1.05  # a cost that is higher than in the table by more than this factor is reported
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; written by
 # tools/check_target.sh --renew. ATmega2560: cycles; the others: instructions. tick_interrupt and hall_interrupt are the same
@@ -31,7 +32,7 @@ def cases():
 
 
 def record(chosen):
-    """build/target/records/SCALAR/DRIVE.bin, and what the drive answered in its run: {(drive, scalar): line}."""
+    """Writes build/target/records/SCALAR/DRIVE.bin. Returns the drive's answers in its run: {(drive, scalar): line}."""
     def one(pair):
         drive, scalar = pair
         (RECORDS / scalar).mkdir(parents=True, exist_ok=True)
@@ -56,7 +57,7 @@ def addresses(core, file):
 
 
 def counted(core, drive, scalar):
-    """What the program prints, and a line `cost ENTRY CALLS MEAN WITHIN WORST` for each entry."""
+    """The output of the program, with a line `cost ENTRY CALLS MEAN WITHIN WORST` for each entry."""
     records = RECORDS / scalar / f"{drive}.bin"
     marked = core.unit == "instructions"
     sources = [*SOURCES, *([cores.HERE / "cost" / "calls.S"] if marked else [])]
@@ -71,7 +72,8 @@ def counted(core, drive, scalar):
 
 
 def measured(case, answers):
-    """{(core, drive, scalar, entry): (calls, mean, within, worst)}; Failed where the chip answers otherwise than the run did."""
+    """{(core, drive, scalar, entry): (calls, mean, within, worst)}. Raises Failed if the chip's answers differ from
+    the answers of the run."""
     core, drive, scalar = case
     text = counted(*case)
     told = set(re.findall(r"^answers .*$", text, re.M))
@@ -88,7 +90,7 @@ def expected(table=TABLE):
 
 
 def judge(key, was, now):
-    """In words what is wrong with a row; None where nothing is."""
+    """The error of a row in words, or None."""
     words = f"{key[0]}, {key[1]} in {key[2]}, {key[3]}"
     if was is None or now is None:
         return f"{words}: {'not in the table' if was is None else 'not measured'}"
@@ -102,7 +104,7 @@ def judge(key, was, now):
 
 
 def take(drives=CASES):
-    """All rows, and lines of trouble."""
+    """Measures all drives. Returns all rows, and the lines with errors."""
     chosen = [case for case in cases() if case[1] in drives]
     answers, rows, trouble = record(chosen), {}, []
     for answer in build.side_by_side(lambda case: measured(case, answers), chosen):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whole drives on the STM32F303's image, clock by clock: reversals at speed in each chopping, interrupts amid each other, and
-that a dead time one clock short does not pass."""
+"""Complete drives on the STM32F303's image, clock by clock: reversals at speed with each kind of chopping, and
+interrupts that interrupt each other. An image whose dead time is one clock too short must fail."""
 import itertools
 
 import images
@@ -11,9 +11,10 @@ from transitions import check_late_ticks, check_scripts, of_edges_at_once, said
 
 
 class Ride:
-    """The image's interrupts as a turning rotor calls them, with its own drive in between; the currents are told, not simulated."""
+    """Calls the image's interrupts as a turning rotor does, with the image's own drive. The test sets the currents;
+    they are not simulated."""
     codes = (0b101, 0b001, 0b011, 0b010, 0b110, 0b100)
-    fed = ((0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1))  # the positive pair of each
+    fed = ((0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1))  # the positive pair of each code
 
     def __init__(self, folder, sector_clocks):
         self.chip = TimedChip(folder)
@@ -55,7 +56,7 @@ class Ride:
 
 
 def changes_of_side(edges):
-    """How often a leg's one switch came on where its other one had been the last that was."""
+    """The number of times that one switch of a leg turned on after the other switch of the leg."""
     last, changes = [None] * 3, 0
     for _, leg, gate, level in edges:
         if level:
@@ -65,7 +66,8 @@ def changes_of_side(edges):
 
 
 def check_drive(folder, name):
-    """Started, at 300 rad/s, then 70: the drive brakes with the pair reversed; then the other way round, stopped, and a lost Hall line."""
+    """The drive starts, runs at 300 rad/s, and then at 70 rad/s. It brakes with the reversed pair. Then it reverses
+    and stops, and a Hall line breaks."""
     ride = Ride(folder, round(72e6 * 0.1309 / 300))
     ride.go(300)
     ride.type("r300\r")
@@ -95,7 +97,7 @@ def check_drive(folder, name):
 
 
 def check_amid(folder):
-    """The period's end comes amid the Hall interrupt, and amid the control tick, behind any of its instructions."""
+    """The end of the period interrupts the Hall interrupt or the control tick, after each of their instructions."""
     chip, trouble = TimedChip(folder), []
     chip.hall(0b101)
     chip.start()
@@ -120,7 +122,8 @@ def check_amid(folder):
 
 
 def check_clear(folder):
-    """The period's end comes amid c, behind any instruction of the main loop: what it brought is not brought again."""
+    """The end of the period comes after any instruction of the main loop during the command c. An event that was
+    handled is not handled again."""
     chip = TimedChip(folder)
     chip.hall(0b101)
     chip.start()
@@ -143,8 +146,8 @@ def check_clear(folder):
 
 
 def check_latency(folder):
-    """From the fourth compare unit's match to the update 72 clocks pass, of which the core takes 12 to come in. A look at the counter must come
-    before they have."""
+    """From the match of the fourth compare unit to the update are 72 clocks. The core needs 12 of them to enter the
+    interrupt. The interrupt must read the counter before the update."""
     chip, begun, counted = TimedChip(folder), [0], []
     chip.hall(0b101)
     chip.start()
@@ -181,14 +184,14 @@ def changed_image(folder, name, *changes):
 
 
 def check_drives(folder):
-    """Whole drives of each chopping; and that a dead time one clock short does not pass."""
+    """Complete drives with each kind of chopping. An image whose dead time is one clock too short must fail."""
     chopping = "c.chopping = Chopping::soft;"
     trouble = tim1.check_itself() + check_latency(folder / "arm") + check_amid(folder / "arm") + check_clear(folder / "arm") + check_drive(folder / "arm", "soft")
     for way in ("hard", "complementary"):
         trouble += check_drive(changed_image(folder, way, (chopping, f"c.chopping = Chopping::{way};")), way)
     long = TimedChip(changed_image(folder, "long", ("dead_time_ps = 500000;", "dead_time_ps = 2000000;")))
     long.hall(0b101)
-    long.start()  # its dead time is longer than the time from the last compare instant of a period to its end
+    long.start()  # the dead time of this image is longer than the time from the last compare instant of a period to its end
     trouble += check_scripts(long, of_edges_at_once((0.95,), PAIRS[:1]), compares=False, dead=144)[1] + check_late_ticks(long, 144)
     short = changed_image(folder, "short", ("dead_time_ps = 500000;", "dead_time_ps = 486000;"))
     for way in WAYS:

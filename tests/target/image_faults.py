@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stops the STM32F303's drive, on its executed image: the gates are off, the line says why, and nothing goes on by itself."""
+"""The causes that stop the STM32F303's drive, on its executed image. The gates are off, the serial line states the
+cause, and the drive does not restart by itself."""
 import re
 import struct
 
@@ -19,7 +20,7 @@ def ready(folder, chip=None):
 
 
 def running(folder):
-    """At 100 rad/s of setpoint, its pair fed."""
+    """A drive in operation with a setpoint of 100 rad/s."""
     chip = ready(folder)
     for _ in range(10):
         tick(chip)
@@ -40,7 +41,8 @@ def told(chip, instructions=60_000):
 
 
 def stands(chip, reason, name):
-    """All gates off, told once, again a second later, not started by r; behind c and r it runs."""
+    """Checks a stopped drive. All gates are off. The cause is sent once, and again after a second. The command r does
+    not start the drive; c and then r start it."""
     trouble = []
     if not all_off(chip) and chip.words[BDTR] & MOE:
         trouble.append(f"{name}: gates are on: {chip.outputs()}")
@@ -79,7 +81,7 @@ def check_sensors(folder):
             tick(chip, (*counts, AT_REST[3]))
         trouble += stands(chip, reason, f"currents of {counts} counts")
     chip = running(folder)
-    for n in range(300):  # one wrong reading at intervals
+    for n in range(300):  # one wrong reading every few periods
         tick(chip, (2048 + (400 if n % 3 == 0 else 0), 2048, 2048, AT_REST[3]))
     if all_off(chip):
         trouble.append("a single disturbed reading stops the drive")
@@ -91,7 +93,7 @@ def check_sensors(folder):
 
 def check_break(folder):
     chip = running(folder)
-    chip.words[BDTR] &= ~MOE  # as the timer itself does at a break
+    chip.words[BDTR] &= ~MOE  # the timer itself does this at a break
     chip.interrupt(24)
     trouble = []
     if chip.words[TIM1 + 0x0C] & 1 << 7:
@@ -103,7 +105,7 @@ def check_break(folder):
 
 
 class NoClock(Chip):
-    """Whose external clock never comes."""
+    """A chip whose external clock never starts."""
 
     def write(self, core, offset, size, value, begin):
         super().write(core, offset, size, value, begin)
@@ -112,7 +114,7 @@ class NoClock(Chip):
 
 
 def at_8_MHz(chip):
-    """What the line's speed is: 29.5.4, with OVER8."""
+    """The baud rate of the serial line at a clock of 8 MHz (RM0316, 29.5.4, with OVER8)."""
     divider = chip.words[USART2 + 0x0C]
     over_8 = bool(chip.words[USART2] & 1 << 15)
     scale = 1 << (chip.words[RCC + 0x04] >> 8 & 7) - 3 if chip.words[RCC + 0x04] >> 8 & 4 else 1
@@ -172,7 +174,8 @@ def reset_with(folder, memory, cause):
 
 
 def check_resets(folder):
-    """The reason is kept over the watchdog's reset; power-up, with anything in memory, has none."""
+    """A reset by the watchdog keeps the cause of the stop. After power-up no cause is set, even if the memory has
+    random content."""
     trouble = []
     chip = running(folder)
     chip.hall(0)
@@ -182,7 +185,7 @@ def check_resets(folder):
     hall = chip.core.mem_read(images.RAM, 40 * 1024)
     chip = running(folder)
     quiet = chip.core.mem_read(images.RAM, 40 * 1024)
-    chip.interrupt(5)  # no handler serves it
+    chip.interrupt(5)  # this interrupt has no handler
     program = chip.core.mem_read(images.RAM, 40 * 1024)
     for name, memory, cause, reason in (("hall", hall, 1 << 29, "hall"), ("nobody's interrupt", program, 1 << 29, "program"),
                                         ("no reason", quiet, 1 << 29, "watchdog")):
@@ -209,7 +212,8 @@ def check_resets(folder):
 
 
 def check_board_alone(folder):
-    """The drive stands by a fault of the board that is over: it says so all the same."""
+    """The drive has stopped because of a fault of the board. The fault has ended. The line still states it as the
+    cause."""
     chip = running(folder)
     chip.words[BDTR] &= ~MOE
     chip.interrupt(24)
@@ -221,7 +225,7 @@ def check_board_alone(folder):
 
 
 class Glitches(Chip):
-    """One reading of the Hall pins is another code."""
+    """One read of the Hall pins gives another code."""
     at = -1
     looks = 0
 
@@ -247,7 +251,7 @@ def check_hall(folder):
 
 
 def check_time_between_looks(chip):
-    """A quarter of a microsecond is 18 clocks, and no instruction takes less than one."""
+    """A quarter of a microsecond is 18 clocks. Every instruction takes at least one clock."""
     passed, looks = [0], []
     chip.core.hook_add(images.unicorn.UC_HOOK_CODE, lambda *_: passed.__setitem__(0, passed[0] + 1))
     chip.core.hook_add(images.unicorn.UC_HOOK_MEM_READ, lambda _, access, at, *rest: looks.append(passed[0]) if at == images.GPIOA + 0x10 else None)
@@ -257,7 +261,7 @@ def check_time_between_looks(chip):
 
 
 def check_most(folder):
-    """However much the loops ask for, the gap for the bootstraps stays."""
+    """Even at the largest voltage of the loops, the on-time leaves the gap for charging the bootstraps."""
     chip = running(folder)
     chip.type("300\r")
     chip.go_on(20_000)
@@ -269,7 +273,7 @@ def check_most(folder):
 
 
 def check_constructors(folder):
-    """A global object of somebody's own is constructed before main()."""
+    """A global object of a user is constructed before main()."""
     example = build.REPOSITORY / images.EXAMPLES["stm32f303"]
     source = folder / "own.cpp"
     source.write_text("struct Own { int seen; Own() : seen(12345) { asm volatile(\"\"); } };\nOwn own;\n"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The STM32F303's serial line, on its executed image: what is typed is obeyed or told, and rows have the instants of a clock that runs on."""
+"""The STM32F303's serial line, on its executed image. Each command is obeyed or answered with a message. The rows
+have the instants of a clock that never stops."""
 import re
 import struct
 
@@ -12,7 +13,7 @@ def setpoint(chip):
 
 
 def check_line(folder):
-    """What a line-buffered terminal sends, all of it before the main loop looks once."""
+    """Input from a line-buffered terminal: all characters arrive before the main loop reads one."""
     chip, trouble = running(folder), []
     chip.type("300\n70\ns")
     chip.go_on(60_000)
@@ -24,7 +25,8 @@ def check_line(folder):
         tick(chip)
     if not all_off(chip):
         trouble.append("the stop behind a number is lost")
-    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):  # the n-th is lost; ORE comes with the one before
+    # The n-th character is lost; ORE is set together with the character before it.
+    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):
         chip = running(folder)
         for n, character in enumerate(text):
             chip.line_status = 8 if n + 1 == lost else 0
@@ -51,14 +53,14 @@ def check_line(folder):
 
 
 def feeds(chip, periods=400):
-    """Whether a pair is fed then."""
+    """Whether a pair is driven after `periods`."""
     for _ in range(periods):
         tick(chip)
     return any(mode == 6 for mode, _, _ in chip.outputs())
 
 
 def stops(chip):
-    """To a rotor that stands; the drive brakes first."""
+    """Whether the gates are off in the end. The drive first brakes to standstill."""
     for _ in range(30_000):
         tick(chip)
         if all_off(chip):
@@ -67,10 +69,11 @@ def stops(chip):
 
 
 def check_words(folder):
-    """r, s and c are echoed, and each counts whatever comes right behind it, before a tick has looked."""
+    """The commands r, s and c are echoed. Each has its effect even if other characters follow at once, before the
+    next tick."""
     trouble = []
     chip = running(folder)
-    chip.line_status = 2  # a framing error, and 4 would be noise
+    chip.line_status = 2  # a framing error; 4 would be a noise error
     chip.type("s")
     chip.line_status = 0
     chip.go_on(60_000)
@@ -88,7 +91,7 @@ def check_words(folder):
     chip.interrupt(28)
     for _ in range(3):
         tick(chip)
-    chip.type("c")  # while its cause persists
+    chip.type("c")  # the cause of the stop persists
     chip.go_on(60_000)
     tick(chip)
     told_now = told(chip)
@@ -120,7 +123,8 @@ def rows(chip):
 
 
 def check_time(folder):
-    """By a counter that runs on: across its 2^32, and with periods that had no control interrupt."""
+    """The times of the rows are from a counter that never stops. They are right when the counter passes 2^32, and
+    after periods without a control interrupt."""
     chip = ready(folder)
     for _ in range(3):
         tick(chip)

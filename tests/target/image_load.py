@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the STM32F303's control tick and Hall interrupt take of a period, at least and at most (core_clocks.py), and what its legs do where a
-tick comes to its answer behind its period's end: the answer counts a period later as a whole, no leg changes without the dead time, and the
-log's column says so."""
+"""The smallest and largest part of a period that the STM32F303's control tick and Hall interrupt take
+(core_clocks.py). If a tick answers after the end of its period, the complete answer acts one period later. No leg
+changes without the dead time, and the column of the log shows the late answer."""
 import itertools
 import pathlib
 import re
@@ -17,12 +17,13 @@ from timed_chip import DEAD, PAIRS, PERIOD, SAMPLE, WAYS, Bridge, TimedChip
 
 TICK, HALL, END = 18, 28, 27
 BOARD = images.build.REPOSITORY / images.EXAMPLES["stm32f303"] / "board.hpp"
-# counts from the start of the tick's period
+# Counts from the start of the period of the tick.
 LATE = (SAMPLE + 1, PERIOD - 40, PERIOD - 1, PERIOD, PERIOD + 100, PERIOD + 1100, PERIOD + SAMPLE - 400)
 
 
 def measured(folder):
-    """Of each interrupt: the most instructions, clocks at least, clocks at most; over a start, a run and a braking."""
+    """For each interrupt: the largest number of instructions, the smallest and the largest number of clocks. The run
+    is a start, a constant speed and a braking."""
     ride, most = Ride(folder, round(72e6 * 0.1309 / 300)), {}
     clocks, interrupt = Clocks(ride.chip, folder / "image.elf"), ride.chip.interrupt
 
@@ -42,7 +43,8 @@ def measured(folder):
 
 
 def check_load(folder):
-    """The shortest period that the board takes is what their instructions alone take, a clock each, with the way in and out."""
+    """The board's shortest period is the time of both interrupts: one clock per instruction, and the entry and
+    return."""
     most = measured(folder)
     if len(most) < 4:
         return [f"{len(most)} interrupts came"]
@@ -55,7 +57,8 @@ def check_load(folder):
 
 
 def ridden(chip, script):
-    """Two periods of the first command, then (command, counts behind its period's begin at which its tick answers); the edges."""
+    """Two periods with the first command. Then each pair in `script` is a command, and the counts after the begin of
+    the period at which its tick answers. Returns the edges."""
     bridge = Bridge(chip)
     bridge.off()
     chip.end_period()
@@ -64,7 +67,7 @@ def ridden(chip, script):
     begin, now = chip.cycle_start(), chip.cycle_start()
     for wanted, at in script:
         chip.pass_to(now)
-        chip.tim1.write(0x10, ~(1 << 4))  # as the tick begins
+        chip.tim1.write(0x10, ~(1 << 4))  # the tick does this at its begin
         chip.pass_to(now + at)
         bridge.tick(wanted)
         if chip.armed() and chip.tim1.match_4:
@@ -85,7 +88,7 @@ def changes():
 
 
 def late_trouble(folder, step=1):
-    """Against the same answer in time, a period later."""
+    """Compares each late answer with the same answer in time, one period later."""
     trouble, ran = [], 0
     for timer_waits in (False, True):
         chip = TimedChip(folder, timer_waits)
@@ -106,7 +109,7 @@ def late_trouble(folder, step=1):
 
 
 def check_told(folder):
-    """The fourth match has been and the counter is small again when the tick comes to its answer: the row counts it."""
+    """The tick answers after the fourth match, when the counter has started again. The row counts this late answer."""
     chip = ready(folder)
     for _ in range(3):
         tick(chip)
@@ -126,7 +129,7 @@ def check_told(folder):
 
 
 def planted(folder, name, file, old, new):
-    """An image of the sources with a fault in it."""
+    """Builds an image of the sources with a fault."""
     place = pathlib.Path(folder) / name
     for part in ("sixstep/control", "faces/firmware", "tools"):
         shutil.copytree(images.build.REPOSITORY / part, place / part)
@@ -144,7 +147,7 @@ def check_planted(folder):
 
 
 def check(folder, whole=False):
-    """Of an image in folder/arm."""
+    """Checks the image in folder/arm."""
     ran, trouble = late_trouble(folder / "arm", 1 if whole else 9)
     trouble += check_load(folder / "arm") + check_told(folder / "arm") + check_planted(folder)
     print(f"{ran} answers of its control tick behind their period's end: "

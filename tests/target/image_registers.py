@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The STM32F303's registers by their addresses, and what each holds once the image has set the chip up, by RM0316."""
+"""The STM32F303's registers by their addresses, and the content that each must have after the set-up, from RM0316."""
 
 RCC, GPIOA, GPIOB, GPIOC, TIM1, TIM2, ADC1, USART2, IWDG = (0x40021000, 0x48000000, 0x48000400, 0x48000800, 0x40012C00, 0x40000000,
                                                            0x50000000, 0x40004400, 0x40003000)
@@ -7,11 +7,11 @@ EGR, CCMR1, CCMR2, CCER, BDTR = (TIM1 + offset for offset in (0x14, 0x18, 0x1C, 
 
 
 def fields(bits, values):
-    """A register of fields of so many bits each, by their places."""
+    """The value of a register. Each field has `bits` bits; `values` gives the fields by their places."""
     return sum(value << bits * place for place, value in values.items())
 
 
-# Register, mask, its value after the set-up, and RM0316's words for it.
+# Each register with its mask, its value after the set-up, and the words of RM0316 for this value.
 TABLE = [
     ("RCC_CR", RCC + 0x00, 0x010D0000, 0x010D0000, "9.4.1: HSEON, HSEBYP, CSSON, PLLON"),
     ("RCC_CFGR", RCC + 0x04, 0x003DBFF3, 0x001D0402, "9.4.2: SW = PLL, HPRE = 1, PPRE1 = /2, PPRE2 = 1, PLLSRC = HSE, PLLMUL = 9"),

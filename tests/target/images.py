@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Images to flash (tools/firmware_image.sh), executed.
+"""Executes the images to flash (tools/firmware_image.sh).
 
-The STM32F303's runs instruction by instruction on Unicorn's Cortex-M4, with registers around it that remember what was written and answer
-what the set-up waits for; no emulator at hand has that chip's timers and converter. Then each register is held against RM0316, and the
-interrupts and the main loop are called as the chip would call them. The timer's pulses are those of a model of its output stage, written from
-the manual (tim1.py, transitions.py); image_faults.py has what stops the drive. The converter's instants have been seen on no
-emulator. The ATmega2560's image is the one that `sixstep run --on avr` runs, whose timer, converter
-and serial line are the board's (avr.py): here it is only built."""
+The image of the STM32F303 runs instruction by instruction on Unicorn's Cortex-M4. The registers around the core store
+what the program writes, and give the answers for which the set-up waits. No available emulator has the timers and the
+converter of this chip. The test compares each register with RM0316, and calls the interrupts and the main loop as the
+chip does. The timer's pulses are those of a model of its output stage, written from the manual (tim1.py,
+transitions.py). image_faults.py tests the causes that stop the drive. No emulator tests the converter's instants.
+`sixstep run --on avr` runs the ATmega2560's image, with the board's timer, converter and serial line (avr.py). This
+module only builds it."""
 import pathlib
 import re
 import struct
@@ -14,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.append("/usr/lib/python3/dist-packages")  # Debian's folder, for any python3
+sys.path.append("/usr/lib/python3/dist-packages")  # Debian's folder of modules, for every python3
 import unicorn
 from unicorn import arm_const as arm
 
@@ -22,13 +23,13 @@ import build
 from image_registers import (ADC1, BDTR, CCER, CCMR1, CCMR2, EGR, GPIOA, GPIOB, IWDG, RCC, TABLE, TIM1, TIM2, USART2)
 
 FLASH, RAM = 0x08000000, 0x20000000
-NOWHERE = FLASH + 0x30000  # where a handler returns to
+NOWHERE = FLASH + 0x30000  # the return address of a handler
 COMG = 1 << 5
 RESET = {RCC: 0x83, RCC + 0x14: 0x14, GPIOA: 0xA8000000, GPIOA + 0x0C: 0x64000000, GPIOB: 0x280, GPIOB + 0x0C: 0x100}
 
 
 class Chip:
-    """Unicorn's core, and registers that remember."""
+    """Unicorn's core, with registers that store their values."""
 
     def __init__(self, folder):
         self.core = unicorn.Uc(unicorn.UC_ARCH_ARM, unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS)
@@ -51,7 +52,7 @@ class Chip:
         if self.passing and at in (TIM1 + 0x24, TIM2 + 0x24):
             self.words[at] = self.words.get(at, 0) + 1
         if at == TIM1 + 0x10 and self.late:
-            return 1 << 4  # the counter has passed its fourth match, and the period's end
+            return 1 << 4  # the counter has passed its fourth match and the end of the period
         if at == USART2 + 0x1C:
             return 0x80 | (0x20 if self.typed else 0) | self.line_status
         if at == USART2 + 0x24:
@@ -87,7 +88,8 @@ class Chip:
         self.run(self.core.reg_read(arm.UC_ARM_REG_PC), instructions)
 
     def interrupt(self, position):
-        """As the core does it, without its stacking: what was going on goes on behind it. The registers that were written to."""
+        """Calls an interrupt as the core does, but without its stacking. The interrupted code continues afterwards.
+        `written` lists the registers that the interrupt wrote."""
         before = self.core.context_save()
         handler = struct.unpack("<I", self.core.mem_read(FLASH + 4 * (16 + position), 4))[0]
         self.written = []
@@ -98,7 +100,7 @@ class Chip:
         return ended
 
     def type(self, text):
-        """As a line-buffered terminal does: all of it, before the main loop looks."""
+        """Sends characters as a line-buffered terminal does: all of them arrive before the main loop reads one."""
         for character in text:
             self.typed.append(character)
             self.interrupt(38)
@@ -108,7 +110,7 @@ class Chip:
         self.words[GPIOB + 0x10] = (code >> 1 & 1) << 3 | (code & 1) << 10
 
     def outputs(self):
-        """Leg by leg: the reference's mode, and whether upper and lower output run."""
+        """For each leg: the output mode, and whether the upper and lower outputs are enabled."""
         modes = self.words[CCMR1] | self.words[CCMR2] << 16
         return [(modes >> (8 * leg + 4) & 7, self.words[CCER] >> 4 * leg & 1, self.words[CCER] >> (4 * leg + 2) & 1) for leg in range(3)]
 
@@ -123,8 +125,8 @@ HEADINGS = "t [us],speed [rad/s],speed_ref [rad/s],i_m [mA],duty,bus [V],hall,ac
 
 
 def lost_break_wire(chip):
-    """An open pin has the level of its pull (11.4.4). At PB12 this must be the break's active level, BKP (20.4.18): without its wire the
-    comparator would protect nothing."""
+    """An open pin has the level of its pull resistor (11.4.4). At PB12 this must be the active level of the break
+    input, BKP (20.4.18). Otherwise a lost wire would disable the comparator's protection."""
     pull, active_high = chip.words[GPIOB + 0x0C] >> 24 & 3, chip.words[BDTR] >> 13 & 1
     return [] if pull == (1 if active_high else 2) else ["with a lost wire at the break input the gates may work"]
 
@@ -142,7 +144,7 @@ AT_REST = (2048, 2048, 2048, round(24 / 52.8 * 4096))
 
 
 def tick(chip, counts=AT_REST, clocks=2160):
-    """A period: the control interrupt, and at its end that of the fourth compare unit, where it is asked for."""
+    """A period: the control interrupt, and at its end the interrupt of the fourth compare unit, if it is enabled."""
     for n, count in enumerate(counts):
         chip.words[ADC1 + 0x80 + 4 * n] = count
     chip.words[TIM2 + 0x24] = chip.words.get(TIM2 + 0x24, 0) + clocks & 0xFFFFFFFF
@@ -155,7 +157,7 @@ def end_of_period(chip):
     if not chip.words.get(TIM1 + 0x0C, 0) & 1 << 4:
         return True
     chip.words[TIM1 + 0x10] = chip.words.get(TIM1 + 0x10, 0) | 1 << 4
-    chip.passing = True  # the awaited counter continues
+    chip.passing = True  # the set-up waits for this counter, so it must count
     ended = chip.interrupt(27)
     chip.passing = False
     return ended
@@ -166,8 +168,8 @@ def all_off(chip):
 
 
 def check_running(chip):
-    """Offsets first, all gates off; then r: the bootstraps' charge, a setpoint, and the pair that the Hall code wants; the next one by
-    the Hall interrupt."""
+    """First the offsets are measured, with all gates off. After r the bootstraps are charged, and the drive has a
+    setpoint and the pair of the Hall code. The Hall interrupt selects the next pair."""
     trouble = []
     chip.hall(0b101)
     for _ in range(2000):
@@ -227,7 +229,8 @@ def check_log(chip):
 
 
 def check_end(chip):
-    """The watchdog is fed by the main loop, as long as control interrupts come; an interrupt that nobody serves turns the gates off."""
+    """The main loop restarts the watchdog only while control interrupts come. An interrupt without a handler turns
+    the gates off."""
     trouble = []
     chip.go_on(200_000)
     chip.written = []
@@ -246,7 +249,7 @@ def check_end(chip):
 
 
 def check(whole=False):
-    import image_drives  # it uses this file
+    import image_drives  # image_drives imports this module
     import image_faults
     import image_line
     import image_load

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`sixstep run --on`: drives on emulated cores beside the host, each answer the host's to the bit and the run's digest its own; how many
-calls a second; and nothing left behind where the program is killed."""
+"""`sixstep run --on`: drives on emulated cores. Each answer has the same bits as the host's, and the run has the same
+digest. The module also prints the calls per second, and tests that a killed program leaves no process and no file."""
 import functools
 import json
 import os
@@ -20,12 +20,13 @@ CORES = ("cortex-m0", "cortex-m4", "riscv")
 SCALARS = ("q15", "float")
 CHAPTERS = build.REPOSITORY / "data" / "scenarios" / "thesis"
 USUAL = (*(CHAPTERS / f"{name}-exact-design.toml" for name in ("7.3.1-turning", "7.4-speed", "7.5-position")), build.scenario("product"),
-         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the general kernel runs the last
-# The angle comes from an encoder, from an ideal sensor (field weakening and finite set), or, without a sensor, from flux or pulses.
+         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # gear.toml needs the general kernel
+# The angle is from an encoder, an ideal sensor (field weakening and finite set), flux or pulses. With flux or pulses the drive
+# has no rotor sensor.
 FIELD = (build.scenario("field"), *(build.REPOSITORY / f"data/scenarios/gallery/{name}.toml"
                                    for name in ("field-weakened", "finite-set", "field-observer", "field-injection")))
 
-# These drives start by pulses, run by comparators at the terminals, run by Hall probes with a line that breaks, or run by an observer.
+# These drives start with pulses, use comparators at the terminals, have Hall probes with a line that breaks, or use an observer.
 SENSORLESS = [(build.REPOSITORY / f"data/scenarios/gallery/sensorless-{name}.toml", scalar, core) for name, scalar, core in
               (("pulses", "float", "cortex-m4"), ("comparators", "q15", "cortex-m0"), ("fallback", "q31", "riscv"), ("luenberger", "q15", "riscv"))]
 
@@ -36,7 +37,7 @@ def command(file, scalar, core=None):
 
 
 def summary(file, scalar, core=None):
-    """Whether the drive keeps what is required of it, or trips where it shall, is another test's question."""
+    """The summary of a run, and its exit code. Other tests check the requirements of the drive and its faults."""
     done = subprocess.run(command(file, scalar, core), capture_output=True, text=True, timeout=600, check=False)
     if not done.stdout:
         raise Failed(f"{file.stem} in {scalar} on {core or 'the host'}: exit {done.returncode}\n{done.stderr[-600:]}")
@@ -49,7 +50,7 @@ def of_host(file, scalar):
 
 
 def beside_the_host(case):
-    """What is wrong with a run on a core, and the calls that it took."""
+    """The error of a run on a core in words or None, and the number of its calls."""
     file, scalar, core = case
     alone, beside = of_host(file, scalar), summary(file, scalar, core)
     where = f"{file.stem} in {scalar} on {core}"
@@ -63,7 +64,7 @@ def beside_the_host(case):
 
 def check_bits(files):
     cases = [(file, scalar, core) for file in files for scalar in SCALARS for core in CORES]
-    cases += [(file, "float", core) for file in FIELD for core in CORES]  # floating point alone
+    cases += [(file, "float", core) for file in FIELD for core in CORES]  # these drives have only floating-point numbers
     cases += SENSORLESS
     answers = build.side_by_side(beside_the_host, cases)
     trouble = [str(a) if isinstance(a, Failed) else a[0] for a in answers if isinstance(a, Failed) or a[0]]
@@ -73,12 +74,13 @@ def check_bits(files):
 
 
 def left_behind(folder):
-    """Files, and processes of any kind that were told of the folder: compilers, emulators, who cleans."""
+    """The remaining files, and the processes with the folder in their arguments: compilers, emulators and the process
+    that cleans up."""
     left = [file.name for file in pathlib.Path(folder).iterdir()]
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             words = os.fsdecode((process / "cmdline").read_bytes()).split("\0")
-        except OSError:  # it has just ended
+        except OSError:  # the process has just ended
             continue
         if any(folder in word for word in words):
             left.append(f"{process.name} {words[0]}")
@@ -86,7 +88,7 @@ def left_behind(folder):
 
 
 def check_kills(times, seed):
-    """Killed at any instant, compiling, starting or running: no process and no file stays."""
+    """The program is killed at any instant: while it compiles, starts or runs. No process and no file remains."""
     drawn, file = random.Random(seed), build.scenario("product")
     with tempfile.TemporaryDirectory() as folder:
         for kill in range(times):
@@ -118,7 +120,7 @@ CALL = "answer = rig::answer_of(made(call));"
 
 
 def bad_sources(folder, what):
-    """The sources of a core's program, with something bad in it."""
+    """Copies the sources of a core's program and adds a fault."""
     for part in ("sixstep/control", "faces/firmware/bare", "faces/loop/core"):
         shutil.copytree(build.REPOSITORY / part, folder / part)
     (folder / "sixstep/rig").mkdir()
@@ -131,7 +133,7 @@ def bad_sources(folder, what):
 
 
 def badly(case):
-    """What is wrong with how a bad program ends."""
+    """The error in the way a faulty program ends."""
     file, scalar, core, (name, (what, said)) = case
     with tempfile.TemporaryDirectory() as folder:
         bad_sources(pathlib.Path(folder), what)
@@ -155,7 +157,7 @@ def check_bad(on):
 
 
 def tell_pace():
-    """No verdict: the machine may be busy."""
+    """Prints the calls per second. There is no limit, because the machine may be busy."""
     for core in CORES:
         begin = time.monotonic()
         calls = summary(build.scenario("product"), "q15", core)["core"]["calls"]

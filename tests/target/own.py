@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller of one's own costs on the cores. Its source is compiled in float; a run of the program, with that very float in its
-loop, is written down call by call (own/recorder.cpp); each core is given the same calls, has to answer the same bits, and what it
-executes is counted."""
+"""The cost of a user's controller on the cores. Its source is compiled in float. The program runs with this
+controller, and every call is recorded (own/recorder.cpp). Each core receives the same calls and must give the same
+bits. Its instructions or cycles are counted."""
 import json
 import os
 import re
@@ -15,13 +15,13 @@ from build import Failed
 HERE = cores.HERE / "own"
 IN_FLOAT = ("-DSIXSTEP_REAL=float", "-ffp-contract=off")
 CPP = (".cpp", ".cc", ".cxx")
-# These flags belong to the core or determine the flashed code. -fbuiltin: a chip without an operating system has sqrtf too.
+# These flags belong to the core, or determine the flashed code. -fbuiltin: even a chip without an operating system has sqrtf.
 ENTRIES = ("-ffunction-sections", "-fdata-sections", "-fbuiltin", "-Wdouble-promotion")
 DOUBLE = re.compile(r"^__aeabi_(c?d\w+|\w+2d)$|df\d?$|^__(extendsfdf2|truncdfsf2)$|df[sd]i$")
 
 
 class Controller:
-    """A source with flags of its own, and a folder to work in."""
+    """A controller: its source, its compiler flags and a folder for its files."""
 
     def __init__(self, source, folder, flags=()):
         self.source, self.folder, self.flags = source.resolve(), folder, tuple(flags)
@@ -30,7 +30,7 @@ class Controller:
         self.is_cpp = source.suffix in CPP
 
     def compile(self, compiler, file, out, *flags):
-        """`file` in the controller's language; what the compiler says where it succeeds."""
+        """Compiles `file` in the controller's language. Returns the compiler's warnings."""
         if not self.is_cpp:
             compiler = compiler.replace("clang++", "clang").replace("g++", "gcc")
         language = ("-x", "c++", "-std=c++20") if self.is_cpp else ("-x", "c")
@@ -43,7 +43,7 @@ class Controller:
 
 
 def recorder(controller):
-    """The shared object that stands for the controller in a run, and writes down what it is given."""
+    """Builds the shared object that replaces the controller in a run and records its calls."""
     own, out = controller.folder / "in_float.o", controller.folder / "recorder.so"
     controller.compile("g++", controller.source, own, "-O2", "-fPIC", "-Dsixstep_own_controller=own_controller_in_float")
     if "own_controller_in_float" not in build.told(["nm", own]):
@@ -54,7 +54,7 @@ def recorder(controller):
 
 
 def record(controller, program, words):
-    """Runs the program so that the tape is written; a course may miss a requirement, and be none the worse for it."""
+    """Runs the program and so writes the tape. The run may miss a requirement."""
     if not os.access(program, os.X_OK):
         raise Failed(f"{program} is not built: ./run --version builds it")
     command = [str(w) for w in (program, *words)]
@@ -70,23 +70,23 @@ def record_scenario(controller, program, scenario):
 
 
 def record_course(controller, program, motor):
-    """The course of the comparison and its slow run, one after the other: a tape holds one run at a time."""
+    """Records the course of the comparison or its slow run. A tape has only one run."""
     course = controller.folder / "course.json"
     record(controller, program, ["compare", motor, "--own", recorder(controller), "--runs", "0", "--jobs", "1", "--quiet", "--json", course])
     told = json.loads(course.read_text(encoding="utf-8"))
     name = told["controllers"][-1]["name"]
     refused = [note for note in told["notes"] if note.startswith((f"{name} is left out", f"{name} stopped"))]
     if refused:
-        raise Failed(f"{refused[0]}; or name a scenario that it can stand in")
+        raise Failed(f"{refused[0]}; or name a scenario that this controller can run")
 
 
 def compiled(core, controller):
-    """{name: object} of all that is the controller's, and the compiler's words on it."""
+    """Compiles the controller for a core. Returns the folder, the object and the compiler's warnings."""
     folder = controller.folder / build.file_name(core.name)
     folder.mkdir()
     entries = folder / "entries.o"
     bare = cores.BARE if controller.is_cpp else [flag for flag in cores.BARE if flag != "-nostdinc++"]
-    # The AVR's firmware compiler compiles C; it has no C++20.
+    # The compiler for the AVR's firmware compiles C, but not C++20.
     command = core.link if core.link and not controller.is_cpp else (*core.compile, *core.for_entries)
     said = controller.compile(command[0], HERE / "entries.c", entries, "-O2", *command[1:], *bare, *ENTRIES)
     return folder, entries, said
@@ -99,14 +99,14 @@ def object_of(core, folder, source, *defines):
 
 
 def libraries(core, folder):
-    """libm where the toolchain has one."""
+    """The option for libm, if the toolchain has it."""
     linker = (core.link or core.compile)[0]
     has = build.told([linker, *(core.link or core.compile)[1:], "-print-file-name=libm.a"], cwd=folder).strip()
     return ["-lm"] if os.path.isabs(has) else []
 
 
 def counted(core, controller, folder, entries):
-    """What the program prints, and a line `cost ENTRY CALLS MEAN WITHIN WORST` for each entry."""
+    """The output of the program, with a line `cost ENTRY CALLS MEAN WITHIN WORST` for each entry."""
     marked = core.unit == "instructions"
     platform = [cores.HERE / "platform" / p for p in core.platform]
     sources = [HERE / "main.cpp", *platform, *([cores.HERE / "cost" / "calls.S"] if marked else [])]
@@ -123,8 +123,8 @@ def counted(core, controller, folder, entries):
 
 
 def size(core, folder, entries, bytes_of):
-    """(flash, RAM, whether the compiler's functions for double are among it), as sizes.py counts them: no start code; the config stands
-    in flash."""
+    """(flash, RAM, whether the compiler's functions for double are included), as in sizes.py: without start code, and
+    with the config in flash."""
     defines = [f"-DOWN_CONFIG_BYTES={bytes_of[0]}", f"-DOWN_STATE_BYTES={bytes_of[1]}"]
     room = object_of(core, folder, HERE / "room.cpp", *defines)
     memory = [] if core.link else [object_of(core, folder, cores.BARE_METAL / "memory.cpp")]
@@ -136,27 +136,27 @@ def size(core, folder, entries, bytes_of):
 
 
 def said_of_double(said):
-    """Behind a remark: where the compiler saw it."""
+    """The text after a remark: the place where the compiler found a double."""
     said = "\n".join(line for line in said.splitlines() if not line.startswith("In file included"))
-    return f": a literal like 0.5 is a double, (sixstep_real)0.5 is not\n{said}" if "[-Wdouble-promotion]" in said else ""
+    return f": a literal such as 0.5 is a double; write (sixstep_real)0.5\n{said}" if "[-Wdouble-promotion]" in said else ""
 
 
 def answered(core, text, said):
-    """(name, config and state in bytes) where each answer was the host's."""
+    """(name, sizes of config and state in bytes). Raises Failed if an answer differs from the host's."""
     if wrong := re.search(r"^(differs|room|design) (.*)$", text, re.M):
-        words = {"differs": "its answer to call {} of the run is not that of this machine's float",
-                 "room": "config or state is larger than the {} bytes that there is room for",
-                 "design": "its design says there, and not on this machine: {}"}
+        words = {"differs": "its answer to call {} of the run differs from the answer in float on this machine",
+                 "room": "config or state is larger than the reserved {} bytes",
+                 "design": "its design fails on this core, and not on this machine: {}"}
         raise Failed(f"{core.name}: {words[wrong[1]].format(wrong[2])}{said_of_double(said)}")
     own = re.search(r"^own (\d+) (\d+) (.*)$", text, re.M)
-    passes = 2 if core.unit == "cycles" else 1  # as functions, and as interrupts
+    passes = 2 if core.unit == "cycles" else 1  # the controller runs twice: called as functions, and called by interrupts
     if not own or len(re.findall(r"^answers [1-9]\d*$", text, re.M)) != passes:
         raise Failed(f"{core.name}: the program of the controller ended early")
     return own[3], (int(own[1]), int(own[2]))
 
 
 def measured(core, controller):
-    """A core's row, as the JSON has it."""
+    """The row of a core, as in the JSON."""
     folder, entries, said = compiled(core, controller)
     text = counted(core, controller, folder, entries)
     name, bytes_of = answered(core, text, said)
@@ -168,7 +168,7 @@ def measured(core, controller):
 
 
 def measure(controller, chosen):
-    """(name, rows, what is to be said of them) over the cores."""
+    """(name, rows, remarks) for the chosen cores."""
     if not cost.PLUGIN.exists() or cost.PLUGIN.stat().st_mtime < (cores.HERE / "cost" / "count_instructions.cpp").stat().st_mtime:
         cost.build_plugin()
     if any(not core.unit == "instructions" for core in chosen) and not (cores.OUT / "avr_board").exists():

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/own_cost.sh SOURCE [SCENARIO]: what a controller of one's own costs on the cores (docs/howto/write-a-controller.md)."""
+"""tools/own_cost.sh SOURCE [SCENARIO]: measures the cost of a user's controller on the cores
+(docs/howto/write-a-controller.md)."""
 import argparse
 import json
 import pathlib
@@ -18,18 +19,18 @@ MOTOR = "maxon-251601"
 
 def arguments(words):
     parser = argparse.ArgumentParser(prog="tools/own_cost.sh", allow_abbrev=False, description=__doc__.partition(": ")[2],
-                                     epilog="What stands behind -- goes to every compiler: -- -I lib -DFOO")
-    parser.add_argument("source", type=pathlib.Path, metavar="SOURCE", help="of the controller, one file in C or C++")
-    parser.add_argument("scenario", nargs="?", metavar="SCENARIO", help="the run that it is given; without it the course of `sixstep compare MOTOR`")
-    parser.add_argument("--motor", help=f"of that course; without it {MOTOR}")
+                                     epilog="Every compiler receives the arguments after --, for example: -- -I lib -DFOO")
+    parser.add_argument("source", type=pathlib.Path, metavar="SOURCE", help="the source of the controller, one file in C or C++")
+    parser.add_argument("scenario", nargs="?", metavar="SCENARIO", help="the run in which the controller is measured; default: the course of `sixstep compare MOTOR`")
+    parser.add_argument("--motor", help=f"the motor of the course; default: {MOTOR}")
     parser.add_argument("--core", action="append", choices=[core.name for core in cores.CHIPS],
-                        help="may be repeated; without it all of them")
-    parser.add_argument("--json", metavar="FILE", help="for `sixstep compare --own-cost FILE`")
+                        help="a core; may be repeated; default: all cores")
+    parser.add_argument("--json", metavar="FILE", help="writes the costs for `sixstep compare --own-cost FILE`")
     parser.add_argument("--program", default=cores.REPOSITORY / "build" / "release" / "sixstep", type=pathlib.Path, help=argparse.SUPPRESS)
     at = words.index("--") if "--" in words else len(words)
     args = parser.parse_args(words[:at])
     if args.scenario and args.motor:
-        parser.error("--motor: is of the comparison's course; leave SCENARIO or --motor away")
+        parser.error("--motor selects the motor of the comparison's course; omit SCENARIO or --motor")
     args.motor = args.motor or MOTOR
     args.flags = words[at + 1:]
     return args
@@ -55,7 +56,7 @@ def table(rows):
 
 
 def cost(args):
-    """As --json has it, and what is to be said of it."""
+    """The content of the JSON, and the remarks."""
     with tempfile.TemporaryDirectory() as folder:
         controller = own.Controller(args.source, pathlib.Path(folder), args.flags)
         picked = chosen(args)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the controllers of data/controllers/ cost by tools/own_cost.sh: one as docs/howto/write-a-controller.md shows it on all cores, the others on
-one, against own/costs.txt: counts within 5 %, sizes to the byte."""
+"""The costs of the controllers in data/controllers/ by tools/own_cost.sh. One controller is measured on all cores, as
+docs/howto/write-a-controller.md shows it, the others on one core. They are compared with own/costs.txt: counts within
+5 %, sizes exactly."""
 import pathlib
 import re
 import tempfile
@@ -16,7 +17,7 @@ TABLE = own.HERE / "costs.txt"
 PAGE = cores.REPOSITORY / "docs/howto/write-a-controller.md"
 CONTROLLERS = cores.REPOSITORY / "data" / "controllers"
 CORE = "Cortex-M4F"
-CASES = {"six_step_again.cpp": "speed", "sine_voltage.c": "duty"}  # each with its scenario
+CASES = {"six_step_again.cpp": "speed", "sine_voltage.c": "duty"}  # the controllers with their scenarios
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, controller, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; of size: bytes of flash and RAM.
 # Written by tools/check_target.sh --renew own
@@ -50,7 +51,7 @@ def take():
 
 
 def page():
-    """(as it stands, as the command that it shows prints today)"""
+    """(the present text of the page, the text with the present output of its command)"""
     text = PAGE.read_text(encoding="utf-8")
     words = re.search(r"^\$ tools/own_cost.sh (.*?) --json", text, re.M)[1].split()
     found, _ = own_cost.cost(own_cost.arguments([*words, "--program", str(build.PROGRAM)]))

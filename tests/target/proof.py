@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Is the AVR compiler right? Asked before anything else that it compiles is believed: fixed-point arithmetic, a controller and
-a whole drive with drawn configurations, computed on the chip over 10 000 drawn inputs, against the table's digests. clang 14
-to 16 are wrong, and where one is at hand it has to be seen to be: a proof that nothing fails proves nothing. (clang 14 gets
-arithmetic and every block alone right, and the drive wrong; where everything is inlined it crashes.)"""
+"""Checks the AVR compiler before its other results are used. The chip computes fixed-point arithmetic, a controller
+and a complete drive with random configurations, for 10 000 random inputs. The digests must be those of the table.
+clang 14 to 16 generate wrong code. If one of them is installed, it must fail, because a check that cannot fail proves
+nothing. clang 14 compiles the arithmetic and every block alone correctly, but not the drive. If everything is
+inlined, it crashes."""
 import dataclasses
 import shutil
 
@@ -14,11 +15,11 @@ from build import Failed
 AVR = cores.BY_NAME["ATmega2560"]
 BLOCKS = ("arithmetic", "pi", "drive+retune")
 KNOWN_WRONG = ("clang++-14", "clang++-15", "clang++-16")
-LIMIT_S = 60  # a miscompiled program may never end
+LIMIT_S = 60  # s; a program with wrong code may never end
 
 
 def wrong(core, limit_s=LIMIT_S):
-    """In words how its arithmetic differs; empty where it does not."""
+    """The error of the compiler's arithmetic in words; empty if there is none."""
     table = {key: digest for key, digest in walk.expected().items() if key[0] in BLOCKS and key[1:] == ("q15", walk.SHORT)}
     try:
         file = build.build(core, "proof", [cores.HERE / "walk" / "main.cpp"], "q15", (*core.for_walk, "-DTARGET_PROOF_ALONE"))
@@ -33,7 +34,7 @@ def wrong(core, limit_s=LIMIT_S):
 
 
 def check():
-    """True where the compiler in use is right, and no compiler that is known to be wrong passes."""
+    """True if the compiler in use is right, and every compiler that is known to be wrong fails."""
     trouble = wrong(AVR)
     print(f"{AVR.compile[0]} for the AVR: " + (f"WRONG, nothing that it compiles is to be believed: {trouble}" if trouble else "its arithmetic is right"), flush=True)
     well = not trouble

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the simulation's timer does with a pair and a duty (docs/reference/model.md 3 and 11), and how far a chip's edges are from it."""
+"""The outputs of the simulation's timer for a pair and a duty (docs/reference/model.md 3 and 11), and the difference
+between a chip's edges and these outputs."""
 import itertools
 
 from tim1 import LOWER, UPPER
@@ -7,7 +8,7 @@ from timed_chip import BY_UPPER, COMPLEMENTARY, DEAD, HARD, OFF, PERIOD
 
 
 def sides(wanted, leg, pulse):
-    """Of the simulation (docs/reference/model.md 3): None, UPPER or LOWER."""
+    """The switch of a leg that is on in the simulation (docs/reference/model.md 3): None, UPPER or LOWER."""
     if wanted is OFF:
         return None
     (source, sink), (chopping, chopped), _ = wanted
@@ -21,7 +22,8 @@ def sides(wanted, leg, pulse):
 
 
 class Simulated:
-    """The simulation's legs: off at once, on no earlier than the dead time behind the other's turn-off command."""
+    """The legs of the simulation. A switch turns off at once. It turns on no earlier than the dead time after the
+    turn-off command of the other switch."""
 
     def __init__(self):
         self.edges, self.told, self.free = [], [None] * 3, [[0, 0] for _ in range(3)]
@@ -50,7 +52,8 @@ class Simulated:
 
 
 def differing(chip, simulated, begin, periods):
-    """The clocks of each period in which a gate is not what the simulation's is: the worst gate's, of the worst period."""
+    """The clocks of a period in which a gate differs from the simulation's gate: the largest number of all gates and
+    periods."""
     worst = 0
     for leg, gate in itertools.product(range(3), range(2)):
         of_gate = sorted([(t, 0, on) for t, x, g, on in chip if (x, g) == (leg, gate)] +

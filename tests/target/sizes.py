@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flash and RAM of both entries of a drive, and what they ask the linker for: against data/cores/sizes.txt and the
-table of docs/reference/blocks.md, section "Which functions the linker needs"."""
+"""Flash and RAM of both entries of a drive, and their undefined functions. They are compared with
+data/cores/sizes.txt, and with the table in docs/reference/blocks.md, section "Which functions the linker needs"."""
 import fnmatch
 import re
 
@@ -15,12 +15,12 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, bytes of flash, bytes of RAM without the stack: both entries with state, telemetry and answer, and what
 # they need of the compiler's library; no start code. Written by tools/check_target.sh --renew
 """
-# The page's names, where this folder has others; an M3 needs nothing that an M4 does not.
+# Cores that have another name on the page. An M3 needs the same functions as an M4.
 ON_THE_PAGE = {"Cortex-M3": "Cortex-M4", "Cortex-M4F": "Cortex-M4"}
 
 
 def listed():
-    """[(patterns of names, cores that may ask for them)] of the page; None: all may."""
+    """[(patterns of names, cores that may need them)] of the page. None: all cores."""
     section = PAGE.read_text(encoding="utf-8").partition("## Which functions the linker needs")[2].partition("\n## ")[0]
     rows = [line.split("|")[1:4] for line in section.splitlines() if re.match(r"\| .*`", line)]
     return [(re.findall(r"`([^`]+)`", names), None if where.strip() == "all" else where) for _, names, where in rows]
@@ -45,14 +45,14 @@ def compiled(core, name, source, scalar, defines):
 
 
 def measured(case):
-    """(flash, RAM), and the names that the entries ask the linker for."""
+    """(flash, RAM), and the undefined functions of the entries."""
     core, drive, scalar = case
     entries = compiled(core, f"entries-{drive}-{scalar}", cores.HERE / "cost" / "entries.cpp", scalar,
                        (*cost.defines(core, drive), "-DTARGET_NO_INTERRUPTS"))
     memory = [] if core.link else [compiled(core, f"memory-{drive}-{scalar}", cores.BARE_METAL / "memory.cpp", scalar, ())]
     linker = [*(core.link or core.compile)]
     file = entries.with_suffix(".elf")
-    # avr-libc has memory functions; its start code and vectors stay out.
+    # avr-libc has the memory functions. Its start code and vectors are not linked.
     build.told([*linker, "-nostartfiles", *([] if core.link else ["-nostdlib"]), "-Wl,--gc-sections", "-Wl,-e,entry_tick",
                 "-Wl,-u,entry_hall", entries, *memory, "-lgcc", "-o", file])
     text, data, bss = map(int, build.told([core.size, file]).splitlines()[1].split()[:3])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the tables of this folder tell of, without a core to ask: a dearer entry by name, a library call that no page lists,
-and a row for everything that is measured."""
+"""Tests of the checks in this folder, without a core. They must report a more expensive entry by its name, and a
+library call that no page lists. Every measured case must have its row."""
 import sys
 import unittest
 

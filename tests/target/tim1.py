@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TIM1's output stage, clock by clock, written from the manual alone (RM0316, 20.3 and 20.4); it knows nothing of the program under test.
+"""TIM1's output stage, clock by clock. It is written from the manual alone (RM0316, 20.3 and 20.4), and independent
+of the tested program.
 
-  CCPC = 1         OCxM, CCxE and CCxNE are preloaded and taken by all channels at a COM event (EGR.COMG)       20.4.2
-  OCxPE            CCRx is preloaded and taken at the update; without it at once                                 20.4.7
+  CCPC = 1         OCxM, CCxE and CCxNE are preloaded; all channels load them at a COM event (EGR.COMG)         20.4.2
+  OCxPE            CCRx is preloaded and loaded at the update; without OCxPE at once                             20.4.7
   OCxM             100 low, 101 high, 110 high while CNT < CCRx, 111 the opposite                                20.4.7
-  CCxE, CCxNE      with MOE = OSSR = 1: neither: both outputs let go; one: that output is OCxREF, the other is driven inactive, no
-                   dead time; both: OCx is OCxREF, OCxN its opposite, each rises the dead time after the edge     20.4.9, 20.3.15
+  CCxE, CCxNE      with MOE = OSSR = 1. Neither: the timer drives no output. One: this output is OCxREF, and the other is inactive,
+                   without dead time. Both: OCx is OCxREF, OCxN its opposite; each rises the dead time after the edge  20.4.9, 20.3.15
   MOE = 0          all off                                                                                        20.4.18
 
-The manual leaves two things open, and both ways are looked at. When both outputs are enabled while OCxREF has stood still: here no dead
-time is granted, the harder case. And when OCxM leaves a forced level for PWM "the level changes only when the result of the comparison
-changes": at once (as the comparison stands), or at the next match (`late`)."""
+The manual does not define two cases. First: both outputs are enabled while OCxREF is constant. The model adds no dead
+time, which is the worse assumption. Second: OCxM changes from a forced level to PWM. The manual says "the level
+changes only when the result of the comparison changes". Both interpretations are tested: the level changes at once,
+or at the next match (`late`)."""
 
 UPPER, LOWER = 0, 1
 
@@ -98,7 +100,7 @@ class Tim1:
         self.settle()
 
     def settle(self):
-        """Outputs as they are at this clock."""
+        """Sets the outputs for the present clock."""
         dead, on = self.dead(), bool(self.word(0x44) & 1 << 15)
         for x in range(3):
             reference, waited = self.reference[x], self.t - self.since[x] >= dead
@@ -133,7 +135,8 @@ class Tim1:
 
 
 def broken_laws(edges, dead):
-    """Both switches of a leg on, or one less than the dead time behind the other: (t, leg, what)."""
+    """(t, leg, what) for each error: both switches of a leg are on, or a switch turns on earlier than the dead time
+    after the other."""
     on = [[False, False] for _ in range(3)]
     off_since = [[-(1 << 40)] * 2 for _ in range(3)]
     broken = []
@@ -151,7 +154,8 @@ def broken_laws(edges, dead):
 
 
 def check_itself():
-    """What it must see: a leg moved from its lower switch to its upper one by a single COM event, and a dead time one clock short."""
+    """The model must detect two errors: a single COM event that moves a leg from its lower to its upper switch, and a
+    dead time that is one clock too short."""
     trouble = []
     for late in (False, True):
         for dead, short in ((36, 36), (36, 35)):
@@ -165,7 +169,7 @@ def check_itself():
                 trouble.append(f"complementary pulses with {short} clocks of dead time, {dead} wanted: {broken_laws(timer.edges, dead)[:2]}")
         timer.write(0x18, 0x4848)
         timer.write(0x14, 0x20)
-        timer.advance(timer.t + 500)  # the lower one is on
+        timer.advance(timer.t + 500)  # the lower switch is on
         timer.write(0x18, 0x4858)
         timer.write(0x20, 0x001)
         timer.write(0x14, 0x20)

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The STM32F303's image with time: Unicorn's core before a timer's output stage (tim1.py), and the image's entries by their names.
+"""The STM32F303's image with time. It connects Unicorn's core to the model of a timer's output stage (tim1.py), and
+calls the image's functions by name.
 
-Time passes where a counter is read again, one clock each: a core so fast that only what waits for a counter takes time. That is the least
-distance that the program grants, so that a dead time one clock short is seen."""
+Time passes only when the program reads a counter again, one clock per read. Thus the core is infinitely fast, and
+only waiting for a counter takes time. These are the shortest times that the program guarantees, so a dead time that
+is one clock too short is detected."""
 import struct
 
 import images
@@ -19,7 +21,7 @@ OFF = None
 
 
 class TimedChip(images.Chip):
-    """With a timer that makes pulses, and time."""
+    """A chip with time and with a timer that generates pulses."""
 
     def __init__(self, folder, late=False):
         self.tim1 = Tim1(late)
@@ -49,7 +51,7 @@ class TimedChip(images.Chip):
             self.tim1.write(at - TIM1, value)
 
     def start(self):
-        """Through the set-up, no further: its main loop would miss the conversions."""
+        """Runs the set-up only. The main loop after it would report missing conversions."""
         self.core.reg_write(images.arm.UC_ARM_REG_SP, self.stack)
         at = self.begin
         for _ in range(10_000):
@@ -66,8 +68,8 @@ class TimedChip(images.Chip):
         return struct.unpack("<I", self.core.mem_read(images.FLASH + 4 * (16 + position), 4))[0]
 
     def interrupt_amid(self, begin, behind, other):
-        """A function or an interrupt, and another interrupt behind so many of its instructions, as soon as it lets it; False where it
-        ended before."""
+        """Runs a function or an interrupt. After `behind` instructions another interrupt comes, as soon as it is
+        enabled. Returns False if the function ended before."""
         before = self.core.context_save()
         self.core.reg_write(images.arm.UC_ARM_REG_LR, images.NOWHERE | 1)
         self.run(begin & ~1, behind)
@@ -84,7 +86,7 @@ class TimedChip(images.Chip):
         return amid
 
     def call(self, name, *arguments):
-        """A function of the image, to its end."""
+        """Runs a function of the image to its end."""
         at = self.entry(name)
         before = self.core.context_save()
         for register, value in zip((images.arm.UC_ARM_REG_R0, images.arm.UC_ARM_REG_R1, images.arm.UC_ARM_REG_R2), arguments):
@@ -103,7 +105,7 @@ class TimedChip(images.Chip):
         return bool(self.words.get(TIM1 + 0x0C, 0) & 1 << 4)
 
     def end_period(self):
-        """To the update, with the interrupt of the fourth compare unit before it."""
+        """Advances to the update, with the interrupt of the fourth compare unit before it."""
         update = self.cycle_start() + PERIOD
         if self.tim1.counter() < SAMPLE:
             self.pass_to(update - PERIOD + SAMPLE)
@@ -114,7 +116,7 @@ class TimedChip(images.Chip):
 
 
 def command(wanted):
-    """A BridgeCommand<float>, of (pair, way, duty) or OFF."""
+    """The bytes of a BridgeCommand<float>, for (pair, way, duty) or OFF."""
     if wanted is OFF:
         return struct.pack("<BBBxfBBBxfffB3x", 0, 0, 1, 0.0, 0, 0, 0, 0.0, 0.0, 0.0, 0)
     (source, sink), (chopping, chopped), duty = wanted
@@ -122,7 +124,7 @@ def command(wanted):
 
 
 class Bridge:
-    """The image's entries by their names, and what the simulation's timer would do at the same calls."""
+    """The image's functions by name, and the reaction of the simulation's timer to the same calls."""
 
     def __init__(self, chip):
         self.chip, self.wanted = chip, OFF

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every change of TIM1's legs that a drive can ask for, made by the image's own code (timed_chip.py): never both switches of a leg, always the
-dead time between, and the pair changes when the simulation says (simulated_legs.py)."""
+"""Every change of TIM1's legs that a drive can request, made by the image's code (timed_chip.py). The two switches of
+a leg are never on together, and between them is always the dead time. The pair changes when the simulation's pair
+changes (simulated_legs.py)."""
 import itertools
 import random
 
@@ -10,7 +11,8 @@ from timed_chip import COMPLEMENTARY, DEAD, OFF, PAIRS, PERIOD, SAMPLE, WAYS, Br
 
 
 def play(bridge, script):
-    """Periods of (wanted for the next one, [(counter, new pair or OFF)]): chip and simulation. The edges of both from the script's begin on."""
+    """Plays periods on chip and simulation. Each is (command for the next period, [(counter, new pair or OFF)]).
+    Returns the edges of both from the begin of the script."""
     chip = bridge.chip
     chip.tim1.edges.clear()
     simulated, in_effect, begin = Simulated(), OFF, chip.cycle_start()
@@ -53,8 +55,9 @@ def play(bridge, script):
 
 
 def tolerance(script):
-    """Clocks of a period in which a gate may differ. The event comes up to 12 counts early; a leg that changes sides waits the dead time though
-    its other switch was off already; and one that then comes under the timer's own dead time waits that, too."""
+    """The clocks of a period in which a gate may differ from the simulation. The event may come 12 counts early. A
+    leg that changes its switch waits the dead time, even if the other switch is already off. If a second change comes
+    during this dead time, it waits again."""
     ways = {wanted[1] for wanted, _ in script if wanted is not OFF}
     events = max(len(events) for _, events in script)
     return (1 + events) * (DEAD + 24) + (DEAD if len(ways) > 1 or COMPLEMENTARY in (way[0] for way in ways) else 0)
@@ -93,13 +96,14 @@ def states(duties):
 
 
 def of_ticks(duties):
-    """From every command to every other one, at a period's end."""
+    """From every command to every other command, at the end of a period."""
     for a, b in itertools.product(states(duties), states(duties)):
         yield f"{said(a)} -> {said(b)}", [(a, []), (a, []), (b, []), (b, []), (b, [])]
 
 
 def of_hall_edges(duties):
-    """From every pair to every other one, amid a period: inside the pulse, at its end, in the gap, and right at the period's begin and end."""
+    """From every pair to every other pair within a period: in the pulse, at its end, in the gap, and near the begin
+    and the end of the period."""
     for pair, way, duty, new in itertools.product(PAIRS, WAYS, duties, PAIRS):
         for counter in (50, counts(duty) - 1, counts(duty) + 1, 1500, PERIOD - 100):
             if 40 < counter < PERIOD - 90 and new != pair:
@@ -116,8 +120,8 @@ def of_stops(duties):
 
 
 def of_edges_at_once(duties, firsts=PAIRS):
-    """Two Hall edges with nothing between them, inside the pulse and in the gap: a leg that has just been let off is not turned on by the next
-    event."""
+    """Two Hall edges directly one after the other, in the pulse and in the gap. A leg that was just turned off is not
+    turned on by the next event."""
     for first, second, third in itertools.permutations(PAIRS, 3):
         if first not in firsts:
             continue
@@ -128,7 +132,7 @@ def of_edges_at_once(duties, firsts=PAIRS):
 
 
 def check_late_ticks(chip, dead):
-    """A Hall edge and then a control tick, both right before the period's end."""
+    """A Hall edge and then a control tick, both shortly before the end of the period."""
     bridge, trouble = Bridge(chip), []
     for (first, second, third), way in itertools.product(itertools.permutations(PAIRS, 3), WAYS):
         bridge.off()
@@ -148,7 +152,7 @@ def check_late_ticks(chip, dead):
 
 
 def check_drawn(chip, calls, seed):
-    """Anything behind anything, at once or later: the laws hold."""
+    """Random commands and events in any order, directly one after the other or later. The laws are always satisfied."""
     draw, bridge = random.Random(seed), Bridge(chip)
     chip.tim1.edges.clear()
     everything = states((0.0, 0.01, 0.3, 0.97, 1.0))
@@ -168,7 +172,7 @@ def check_drawn(chip, calls, seed):
 
 
 def check(folder, whole=False):
-    """Of an image: how many changes were made, and what was wrong."""
+    """Checks an image. Returns the number of changes, and the errors."""
     trouble, ran = [], 0
     for late in (False, True):
         chip = TimedChip(folder, late)

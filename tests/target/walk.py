@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The same bits on every core: digests of the walk against tests/target/digests.txt, and what its inputs reach."""
+"""Every core computes the same bits. The digests of the walk are compared with tests/target/digests.txt. The module
+also checks which cases the inputs reach."""
 import re
 
 import build
@@ -8,14 +9,14 @@ from build import Failed
 
 TABLE = cores.HERE / "digests.txt"
 SHORT, LONG = 10_000, 1_000_000
-LEAST_SIGHTS = 5  # in 10 000 steps
+LEAST_SIGHTS = 5  # the smallest number of steps in 10 000 that must reach a case
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # block, scalar, digest of its first 10 000 steps and of 1 000 000; written by tools/check_target.sh --renew
 """
 
 
-# Each part is a program of its own: all blocks together would not fit, and a block's count would depend on its neighbours. A block is in
-# the part that names it most exactly.
+# Each part is a separate program. Otherwise the blocks would not fit, and the count of a block would depend on its neighbours. A
+# block is in the part with the most specific name.
 PARTS = {"": (), "rotor": ("-DTARGET_OF_ROTOR",), "observers": ("-DTARGET_OF_OBSERVERS",),
          "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",), "field": ("-DTARGET_OF_FIELD",)}
 BLOCKS = {"": "", "sensing/": "rotor", "sensorless/": "rotor", "commissioning/": "commissioning",
@@ -37,7 +38,7 @@ def digests(text):
 
 
 def printed(core, scalar, part, steps=SHORT, defines=()):
-    """{(block, scalar, steps): digest} of one program; its other lines begin with #."""
+    """{(block, scalar, steps): digest} of one program, and its text. Its other lines begin with #."""
     defines = (*PARTS[part], *defines)
     name = "-".join(["walk", scalar, *(define.removeprefix("-D") for define in defines)])
     file = build.build(core, name, [cores.HERE / "walk" / "main.cpp"], scalar, (*core.flags_of_walk(part), *defines))
@@ -65,7 +66,7 @@ def renew():
 
 
 def check_sights():
-    """Lines of trouble: an input that the walk is meant to reach and does not."""
+    """Lines with errors: cases that the inputs of the walk should reach and do not."""
     core, trouble = cores.HOSTS[0], []
     for scalar, part in [(scalar, part) for part in PARTS for scalar in ("q15", "float", "whole")]:
         _, text = printed(core, scalar, part, defines=("-DTARGET_SIGHTS",))
@@ -76,12 +77,13 @@ def check_sights():
 
 
 def steps_of(core, whole):
-    """A host that is emulated takes minutes for what this one does in seconds: as far as the chips, but where all is asked."""
+    """The number of steps. On an emulated host LONG would take minutes, so it makes as few steps as the chips, except
+    if `whole` is set."""
     return LONG if core.is_host and (whole or not core.run) else SHORT
 
 
 def difference(core, scalar, part, table, steps):
-    """Lines of trouble of one program, and how many digests were the same."""
+    """The lines with errors of one program, and the number of equal digests."""
     found, _ = printed(core, scalar, part, steps)
     wanted = {key: digest for key, digest in table.items()
               if key[1] == scalar and part_of(key[0]) == part and key[2] <= steps}
@@ -92,8 +94,8 @@ def difference(core, scalar, part, table, steps):
 
 
 def check(of=None, parts=tuple(PARTS), whole=False):
-    """All cores and programs, or those named; prints a line for each core. True where all is well. `whole`: all steps on
-    emulated hosts too."""
+    """Checks all cores and programs, or the named ones, and prints a line for each core. Returns true if there is no
+    error. `whole`: also the emulated hosts make all steps."""
     table, well = expected(), True
     chosen = [c for c in (*cores.HOSTS, *cores.CHIPS) if of is None or c.name in of]
     cases = [(core, scalar, part) for core in chosen for scalar in programs(core) for part in parts]

@@ -104,7 +104,7 @@ TEST(BoardLog, ABrokenFormulaIsRefusedWithItsPlace) {
   EXPECT_THAT(log->trace.values[1], ElementsAre(DoubleEq(90.0), DoubleEq(90.0)));
 }
 
-/// A board's remarks, and the faults in its columns, appear as notes.
+/// The remarks that a board writes between the rows, and the faults in its columns, appear as notes.
 TEST(BoardLog, RemarksBetweenRowsAndFaultsAreTold) {
   const char* const rows =
       "# sixstep on an ATmega2560\nt [us],i_m [mA],missed,faults\n100,1,0,0\n# fault: over-current\n200,2,3,0\n"

@@ -68,14 +68,14 @@ TEST(BodeText, TableAndJsonHoldTheSameNumbers) {
       ASSERT_TRUE(std::getline(cells, cell, ','));
       EXPECT_EQ(std::stod(cell), point[name].get<double>()) << name;
     }
-    // The designed phase is shifted by whole turns until it is nearest to the measured phase.
+    // The designed phase is shifted by whole turns to the value nearest to the measured phase.
     EXPECT_LE(std::abs(point["designed_phase_deg"].get<double>() - point["phase_deg"].get<double>()), 180.0);
   }
   EXPECT_NEAR(json["measured"]["crossover_Hz"].get<double>() / json["designed"]["crossover_Hz"].get<double>(),
               1.0, 0.03);
 }
 
-// A noisy measured phase drifts over many turns. The designed phase must stay within one turn.
+// The measured phase is noisy and drifts over many turns. The designed phase must stay within one turn.
 TEST(BodeText, DesignedPhaseDoesNotFollowAPhaseThatIsNoise) {
   analysis::BodeStudy s = study_of(false);
   const auto before = nlohmann::json::parse(text::bode_json("locked", s));
@@ -88,7 +88,7 @@ TEST(BodeText, DesignedPhaseDoesNotFollowAPhaseThatIsNoise) {
     const double phase = after["points"][n]["designed_phase_deg"].get<double>();
     EXPECT_GT(phase, -360.0);
     EXPECT_LE(phase, 0.0);
-    // The loop is unchanged: the phases differ only by whole turns.
+    // The loop is unchanged, so the phases differ only by whole turns.
     const double turns = (phase - before["points"][n]["designed_phase_deg"].get<double>()) / 360.0;
     EXPECT_NEAR(turns, std::round(turns), 1e-9);
   }

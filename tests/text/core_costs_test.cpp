@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A header states the cycles and memory from the counted rows for its kind of drive. The text names the parts
-// that the drive has in addition.
+// A header states cycles and memory of the counted rows for its kind of drive. If the drive has additional
+// parts, the text names them.
 #include "text/export/core_costs.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ study::Compiled drive_of(control::Mode mode) {
   return c;
 }
 
-/// The largest counts of a drive's tick and Hall interrupt, read from the table.
+/// The largest counts of a drive's tick and of its Hall interrupt, read from the table.
 std::pair<std::string, std::string> counted(const std::string& begin) {
   std::ifstream table(SIXSTEP_SOURCE_DIR "/data/cores/drives.txt");
   std::pair<std::string, std::string> worst;
@@ -66,7 +66,7 @@ TEST(CoreCosts, AreThoseCountedOfTheDriveOfItsKind) {
   }
 }
 
-/// The field-oriented drive has neither a Hall entry nor fixed point.
+/// The field-oriented drive has no Hall entry and no fixed point.
 TEST(CoreCosts, AFieldOrientedDriveHasATickAlone) {
   auto field = drive_of(control::Mode::speed);
   field.field.emplace();
@@ -82,8 +82,8 @@ TEST(CoreCosts, AFieldOrientedDriveHasATickAlone) {
             std::string::npos);
 }
 
-/// The image's compiler must refuse each period that the note calls too short. The ATmega2560's period is at
-/// 16 MHz.
+/// The compiler of the image must refuse each period that the note calls too short. The period of the
+/// ATmega2560 is for 16 MHz.
 TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
   std::ifstream board(SIXSTEP_SOURCE_DIR "/faces/firmware/example/cortex_m/board.hpp");
   const std::string source{std::istreambuf_iterator<char>(board), {}};
@@ -105,7 +105,8 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
       "a control period of 4.2 us is shorter than either image needs: 22.3 us on the STM32F303, 100 us on the ATmega2560");
 }
 
-/// The least period that is printed must give the timer at least the counts that the image needs.
+/// The note prints a least period. With this period, the timer must have at least the counts that the image
+/// needs.
 TEST(CoreCosts, ALeastPeriodIsRoundedUp) {
   for (const auto& [period_s, words, counts] :
        {std::tuple{4e-6, "needs: ", 1600.0}, {30e-6, "below ", 5006.0}}) {

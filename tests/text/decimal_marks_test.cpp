@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mark within a number is read as a decimal mark only if the file is unambiguous: 2,940 mV must not become
-// 2.94 mV.
+// A mark within a number is read as a decimal mark only if the file allows no other reading: 2,940 mV must
+// not become 2.94 mV.
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A whole number with a mark between the thousands: 2940 as "2,940", as meters show millivolts.
+/// A whole number with a mark between the thousands, as meters show millivolts: 2940 is "2,940".
 std::string grouped(double x, char mark) {
   const std::string digits = fmt::format("{:.0f}", std::fabs(x));
   const std::string sign = x < 0.0 && digits != "0" ? "-" : "";
@@ -45,11 +45,11 @@ TEST(DecimalMarks, AMarkFromAThousandOnIsRefused) {
                 AllOf(StartsWith(fmt::format("r.csv:2: holds 3{}784 beside ", mark)),
                       HasSubstr("may mean 3784 or 3.784")));
   EXPECT_THAT(told("t;rpm\n0;2,865\n1;2,870\n"), HasSubstr("holds 2,865, which may mean 2865 or 2.865"));
-  // Spreadsheets may show thousands separators in each column.
+  // Spreadsheets may show thousands separators in every column.
   EXPECT_THAT(told("ms;rpm\n1000;2,865\n2000;2,870\n"), HasSubstr("may mean 2865 or 2.865"));
 }
 
-/// A number in quotes is one cell: its comma must not shift the columns after it.
+/// A number in quotes is one cell. The comma in it must not shift the columns after the cell.
 TEST(DecimalMarks, ACommaWithinQuotesPartsNoCells) {
   for (const char* head : {"t (ms),u_ab (mV),u_bc (mV)\n", ""})
     EXPECT_THAT(seen(in_millivolts(head, "{:.1f},\"{}\",\"{}\"\n", ','), between_lines).problem,
@@ -75,8 +75,8 @@ TEST(DecimalMarks, DecimalCommasAreReadWhereOneCellCanBeNothingElse) {
   EXPECT_THAT(second("t;u\n0;1234,567\n1;1,025\n"), ElementsAre(1234.567, 1.025));
 }
 
-/// With semicolons between cells the decimal mark is a comma. A point may separate thousands if the column
-/// has no smaller number.
+/// If semicolons separate the cells, the decimal mark is a comma. A point may then separate thousands, if the
+/// column has no smaller number.
 TEST(DecimalMarks, PointsBetweenSemicolonsMayPartThousands) {
   EXPECT_THAT(told("ms;rpm\n0;1.000\n1;1.500\n"), HasSubstr("holds 1.000, which may mean 1000 or 1.000"));
   EXPECT_EQ(told("ms;rpm\n0.5;1.000\n1;1.500\n"), "");
@@ -93,7 +93,7 @@ TEST(DecimalMarks, DecimalPointsAreRead) {
   EXPECT_THAT(second("t,u\n0,1.025\n1,100\n2,0.5\n"), ElementsAre(1.025, 100.0, 0.5));
 }
 
-/// A rate that may be 10 Hz or 10 000 Hz is ignored. A file with a column of time does not need a rate.
+/// A rate that may mean 10 Hz or 10 000 Hz is ignored. A file with a time column does not need a rate.
 TEST(DecimalMarks, ARateWithAMarkIsNotTaken) {
   for (const char* rate : {"Samplerate: 10,000 Hz\n", "Sample Rate;10,000\n"}) {
     expect_right(rate + replaced(plain("Time [s],u_ab,u_bc\n"), ",", ";"));

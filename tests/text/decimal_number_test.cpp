@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two conversions of decimals to doubles, the exact one without a library and the one in use, are compared
-// with the C++ library's conversion.
+// Two conversions of decimals to doubles are compared with the conversion of the C++ library. One is exact
+// and uses no library; the other is the conversion that the program uses.
 #include "text/keys/decimal_number.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,8 @@ void expect_as_library(const std::string& text) {
   ASSERT_EQ(bits(x.value), bits(wanted.value)) << text;
 }
 
-/// The exact double from digits and exponent of to_chars, computed without a conversion of text.
+/// The exact double from the digits and the exponent of to_chars. It is computed without a conversion of
+/// text.
 double by_whole_numbers(const std::string& scientific) {
   std::string digits;
   const std::size_t e = scientific.find('e');
@@ -99,7 +100,7 @@ TEST(DecimalNumber, LongOnesAreRoundedOnce) {
     expect_as_library(text);
 }
 
-/// With only integer arithmetic, the double is restored from its shortest and from its longest decimal.
+/// With integer arithmetic only, a double is restored from its shortest and from its longest decimal.
 TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   constexpr unsigned seed = 13;
   std::mt19937_64 random(seed);
@@ -114,7 +115,7 @@ TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   }
 }
 
-/// The middle between two doubles is a decimal of finite length and must be rounded to the even double. A
+/// The middle between two doubles is a decimal of finite length. It must be rounded to the even double. A
 /// slightly different number must be rounded to the nearer double.
 TEST(NearestDouble, TheMiddleGoesToTheEvenOne) {
   constexpr unsigned seed = 14;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties of every key that follow from the description shared by all interfaces.
+// Tests properties of every key that follow from the description. All interfaces share this description.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,11 +16,11 @@
 namespace text {
 namespace SIXSTEP_TEST_FILE {
 
-/// Writes a struct as TOML. With `change`, each member first receives another value from its allowed range.
+/// Writes a struct as TOML. With `change`, it first sets each member to another value of its allowed range.
 class Dump final : public base::Visitor {
  public:
   explicit Dump(bool change) : change_(change) {}
-  /// The whole text. Lists are last: the lines after their heading would belong to the list.
+  /// The whole text. Lists are at the end, because all lines after a list's heading belong to the list.
   std::string whole() const { return text_ + lists_; }
 
  private:
@@ -128,7 +128,7 @@ void expect_round_trip() {
   read_root(*document, read, complaints);
   for (const base::Problem& problem : complaints.in_order()) ADD_FAILURE() << to_string(problem);
   EXPECT_EQ(dump(read, false), text);
-  // Every line of the changed text must differ from the default's line; otherwise the key would not be
+  // Every line of the changed text must differ from the line of the default. Otherwise the key would not be
   // tested.
   const std::string plain = dump(unread, false);
   std::size_t begin = 0;
@@ -169,7 +169,7 @@ std::string letters(std::string_view text) {
 }
 
 TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
-  // Exceptions: counts, ratios, gains, and values in the unit of a mode or of a figure that another key
+  // Exceptions are counts, ratios, gains, and values in the unit of a mode or of a figure that another key
   // names.
   const std::set<std::string> without = {"pole_pairs",
                                          "delay_periods",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording of one motor in the format of any instrument: 7 pole pairs, flux linkage 3.12 mWb, turned at
-// 1000 rpm. Formulas give all voltages. Each file must therefore yield sqrt(3) 7 3.12 = 37.83 mV s/rad
-// between two terminals.
+// A recording of one motor in the format of any instrument. The motor has 7 pole pairs and a flux linkage of
+// 3.12 mWb, and turns at 1000 rpm. Formulas give all voltages. Each file must therefore give sqrt(3) 7 3.12 =
+// 37.83 mV s/rad between two terminals.
 #pragma once
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,7 +27,8 @@ inline const double right_mV_s = std::sqrt(3.0) * pairs * flux_mWb,
 inline double u_ab(double t) { return peak_V * std::cos(w * t + 0.3); }
 inline double u_bc(double t) { return peak_V * std::cos(w * t + 0.3 - 2.0 * std::numbers::pi / 3.0); }
 
-/// A file: its head, and a row for each sample from the time and the two voltages.
+/// A file with the heading `head`. The function `row` writes a row for each sample from the time and the two
+/// voltages.
 inline std::string table(const std::string& head,
                          const std::function<std::string(int n, double t, double a, double b)>& row) {
   std::string out = head;
@@ -74,8 +75,8 @@ inline Seen seen(const std::string& bytes, const BenchColumns& columns = {}) {
 inline const BenchColumns between_lines{
     .hall = {}, .voltages = {}, .between = analysis::EmfBetween::lines, .interval_s = {}};
 
-/// The fit of an amplitude over the rows has the standard deviation step/sqrt(12) sqrt(2/rows). The bound is
-/// six standard deviations.
+/// The fit of an amplitude over the rows has the standard deviation step/sqrt(12) sqrt(2/rows). The tolerance
+/// is six standard deviations.
 inline void expect_right(const std::string& bytes, double step_V = 1e-5,
                          const BenchColumns& columns = between_lines, std::size_t channels = 2) {
   const Seen found = seen(bytes, columns);

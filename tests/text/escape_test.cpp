@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every escaping function makes every hostile name harmless. The reader of the target format proves this:
+// Every escaping function makes every hostile name harmless. The readers of the target formats prove this:
 // bash, the parsers of TOML and JSON, and the value read back from a URL.
 #include "text/escape/escape.hpp"
 
@@ -26,8 +26,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using sixstep::testing::hostile_names;
 
-/// Whether a text contains bytes that control a terminal, including the control characters of two UTF-8
-/// bytes.
+/// Returns whether a text contains bytes that control a terminal. The control characters of two UTF-8 bytes
+/// are included.
 bool acts(const std::string& text) {
   for (std::size_t n = 0; n < text.size(); ++n) {
     const auto c = static_cast<unsigned char>(text[n]);
@@ -47,7 +47,7 @@ bool is_utf8(const std::string& text) {  // the JSON library checks the text and
   }
 }
 
-/// The text, with a replacement character for each byte that is not UTF-8.
+/// The text, in which a replacement character replaces each byte that is not UTF-8.
 std::string as_utf8(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -112,7 +112,7 @@ TEST(Escape, AShellTakesAWordForWhatItWas) {
   EXPECT_EQ(shell_word(""), "''");
 }
 
-/// The text without the given words.
+/// The text after removal of the given words.
 std::string without(std::string text, std::initializer_list<std::string_view> words) {
   for (const std::string_view word : words)
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at))
@@ -120,7 +120,7 @@ std::string without(std::string text, std::initializer_list<std::string_view> wo
   return text;
 }
 
-/// Whether a URL has only unreserved characters and codes such as %41.
+/// Returns whether a URL contains only unreserved characters and codes such as %41.
 bool is_plain_url(std::string_view url) {
   for (std::size_t n = 0; n < url.size(); ++n) {
     if (url[n] != '%') {
@@ -186,7 +186,7 @@ TEST(Escape, TomlAndJsonReadBackWhatWasWritten) {
   }
 }
 
-/// A cell must remain one cell of one line, and must not begin like a spreadsheet's formula.
+/// A cell must remain one cell of one line, and must not begin like the formula of a spreadsheet.
 TEST(Escape, ACellIsANameAndRunsNothing) {
   for (const std::string& name : hostile_names()) {
     for (const std::string& text : {name, "=" + name, " +" + name, "-" + name, "@" + name, "\uff1d" + name}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file of an exported session, tests/session/exported.toml, which every interface replays. Its first line
-// contains the digest. SIXSTEP_RENEW=1 writes the file anew.
+// Tests the file of an exported session, tests/session/exported.toml, which every interface replays. Its
+// first line contains the digest. SIXSTEP_RENEW=1 writes the file anew.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter files of other programs are recognised, and the message names the way to a motor file.
+// Parameter files of other programs are recognised. The message states how to make a motor file from them.
 #include "text/toml/foreign_file.hpp"
 
 #include <gmock/gmock.h>

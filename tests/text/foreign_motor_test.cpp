@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One motor in the parameter files of five programs becomes the same model; damaged files become no motor.
+// The parameter files of five programs describe one motor, and all give the same model. Damaged files give no
+// motor.
 #include "text/motor/foreign_motor.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using ::testing::HasSubstr;
 
-// The motor: 7 pole pairs, R, L and flux of a phase.
+// The motor has 7 pole pairs. R, L and the flux linkage are values of a phase.
 constexpr double R = 0.0187, L_d = 2.02e-5, L_q = 2.44e-5, psi = 5.12e-3;
 constexpr int pairs = 7;
 const double K_e = pairs * psi;                            // peak of a phase per mechanical rad/s
@@ -35,7 +36,7 @@ std::string vesc(const std::string& more = "") {
       "    <si_motor_poles>{}</si_motor_poles>\n{}</MCConfiguration>\n",
       (L_d + L_q) / 2, L_q - L_d, R, psi, 2 * pairs, more);
 }
-/// As odrivetool's backup nests it; torque per ampere of peak current.
+/// The file of odrivetool's backup, with its nesting. The torque constant is per ampere of peak current.
 std::string odrive() {
   return fmt::format(
       "{{\"axis0\": {{\"config\": {{\"startup\": false}}, \"motor\": {{\"config\": {{\"pole_pairs\": {}, \"phase_resistance\": {}, "
@@ -123,7 +124,7 @@ TEST(ForeignMotor, ValuesSayTheirSourceAndMissingOnesAreNan) {
   EXPECT_THAT(*text, HasSubstr("source = \"VESC Tool: foc_motor_l - foc_motor_ld_lq_diff/2\""));
   EXPECT_THAT(*text, HasSubstr("inertia_kgm2 = { value = nan"));
   EXPECT_FALSE(read_sheet("m.toml", among({{"m.toml", *text}}))) << "a file with nan is no motor yet";
-  // A drive has 0 before it measures.
+  // Before a drive has measured a value, its file contains 0.
   const auto fresh =
       motor_of_foreign_file("a.cfg", "motor.poles 14\nmotor.resistance_ohm 0.0\nmotor.Kv 0\n", "m");
   ASSERT_TRUE(fresh);
@@ -163,7 +164,7 @@ TEST(ForeignMotor, AnEncodersRatioContradictsThePoles) {
   EXPECT_EQ(model_of(with_ratio("1"), {"pole_pairs=7"}).machine.pole_pairs, 7);
 }
 
-/// Replaces a text once; the test fails if it is not there.
+/// Replaces a text once. The test fails if the text is missing.
 std::string with(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -171,7 +172,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 TEST(ForeignMotor, HostileFilesAreNoMotor) {
-  // Cut off.
+  // The file is cut off.
   EXPECT_THAT(told(vesc().substr(0, 240)),
               HasSubstr("a.file ends before its last element, </MCConfiguration>,"));
   EXPECT_THAT(told(vesc().substr(0, vesc().size() - 3)), HasSubstr("ends before its last bracket"));
@@ -181,7 +182,7 @@ TEST(ForeignMotor, HostileFilesAreNoMotor) {
   EXPECT_THAT(told("{\n\"phase_resistance\" 1}"), HasSubstr("is no JSON from line 2 on"));
   EXPECT_THAT(told(std::string(100'000, '{') + "\"phase_resistance\""),
               HasSubstr("ends before its last bracket"));
-  // No numbers, or such as no motor has.
+  // The value is not a number, or a number that no motor has.
   for (const char* value : {"nan", "-0.02", "inf", "1e999", "ohm", "0.0187 ohm", ""})
     EXPECT_THAT(
         told(with(moteus(), "motor.resistance_ohm 0.0187", std::string("motor.resistance_ohm ") + value)),
@@ -196,10 +197,10 @@ TEST(ForeignMotor, HostileFilesAreNoMotor) {
               HasSubstr("must be a whole number"));
   EXPECT_THAT(told(with(vesc(), "<foc_motor_ld_lq_diff>4", "<foc_motor_ld_lq_diff>9000")),
               HasSubstr("must be below twice foc_motor_l"));
-  // Another unit: microhenries, milliohms.
+  // The value is in another unit: microhenries or milliohms.
   EXPECT_THAT(told(with(odrive(), "2.02e-05", "20.2")),
               HasSubstr("a time constant L/R of 1.08e+03 s, which no motor has"));
-  // Nothing of a motor, binary, another program's.
+  // The file contains no value of a motor, is binary, or is the file of another program.
   EXPECT_THAT(told("<MCConfiguration>\n<l_current_max>60</l_current_max>\n</MCConfiguration>"),
               HasSubstr("has no value of a motor that is known: VESC Tool has si_motor_poles, foc_motor_r"));
   EXPECT_THAT(told(std::string("\x7f"

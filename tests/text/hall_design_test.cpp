@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The design's values for Hall probes are sufficient and not too cautious: six motors of the motor library
-// from the smallest to the largest inertia, with speeds measured over one edge and over six edges.
+// The design's values for Hall probes are sufficient, but not too cautious. The tests use six motors of the
+// motor library from the smallest to the largest inertia, with speeds measured over one edge and over six
+// edges.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,8 +42,8 @@ double figure(const Outcome& o, const std::string& name) {
   return NAN;
 }
 
-/// Number of motors within the tolerances that a design fails for: their speed oscillates, or has not settled
-/// after twice the time. (With the doubled inertia it takes this long with ideal sensors too.)
+/// Counts the motors within the tolerances for which a design fails. It fails if the speed oscillates, or has
+/// not settled after twice the time. (With the doubled inertia, ideal sensors also need this time.)
 struct Field {
   int motors = 0, swing = 0, late = 0;
 };
@@ -123,7 +124,8 @@ TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
 }
 
 TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
-  // The speed loop designed for adaptive edges must fail on the same drive with six edges at every speed.
+  // The speed loop that is designed for adaptive edges must fail on the same drive with six edges at every
+  // speed.
   const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601")};
   const auto adaptive = study_design({.subject = subject, .spec = spec_of({"maxon-251601", 24, 0})});
   ASSERT_TRUE(adaptive);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hostile files: numbers that overflow, text that nests or repeats without end. Each must cause a message of
-// readable length, in a number of steps proportional to the file's length.
+// Tests hostile files: numbers that overflow, and text that nests or repeats without end. Each file must
+// cause a message of readable length. The number of steps must be proportional to the length of the file.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -83,7 +83,7 @@ TEST(HostileInput, MagnetsThatAreGoneAtTheStartAreRefusedAndLaterOnNoDefect) {
               ElementsAre(HasSubstr("heat.ambient_degC = 125 leaves the magnets at most a tenth")));
   EXPECT_THAT(told(motor("50") + "housing_degC = 116\n"),
               ElementsAre(HasSubstr("heat.housing_degC = 116 leaves")));
-  // The housing warms up beyond the limit, and the magnets keep a tenth of their flux.
+  // The housing warms up beyond the limit. The magnets then keep a tenth of their flux linkage.
   const auto scenario = read_scenario_text(
       "x.toml",
       "motor = \"maxon-251601\"\nduration_s = 4\nmotor_override.magnet_loss_percent_K = 1\n"
@@ -138,7 +138,7 @@ TEST(HostileInput, ATorqueWithoutMeasureIsRefused) {
   EXPECT_THAT(told(head + "[load]\ntimes_s = [0, 1e-4]\ntorques_Nm = [0, 1e6]\n"), SizeIs(1));
 }
 
-/// Each number is allowed, but together the numbers accelerate the rotor beyond all bounds.
+/// Each number is allowed, but all numbers together accelerate the rotor beyond all bounds.
 TEST(HostileInput, ARunThatRunsAwayEndsWithAFaultAndWritesNumbersOnly) {
   const auto scenario = read_scenario_text(
       "x.toml",
@@ -271,8 +271,8 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }
 
 }  // namespace SIXSTEP_TEST_FILE
-/// A gear with losses drives a heavy load. When the gear's torque reverses, its value is rounding noise. The
-/// program once used the sign of this noise as the sign of the torque.
+/// A gear with losses drives a heavy load. When the torque of the gear reverses, its value is rounding noise.
+/// An earlier version of the program used the sign of this noise as the sign of the torque.
 TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
   const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"
 duration_s = 0.010190500697991007
@@ -296,9 +296,9 @@ speed_rad_s = -372.60553875793
   EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
 }
 
-/// Two currents are at the noise, and the third is at twice the noise. One of the small currents becomes
-/// zero, the balance reduces the large one to the noise, and then it becomes zero too. Formerly it remained
-/// in a diode that no mode allows.
+/// Two currents are at the noise limit, and the third current is at twice this limit. One of the small
+/// currents becomes zero. The balance reduces the large current to the noise limit, and then this current
+/// becomes zero too. In an earlier version, it remained in a diode that no mode allows.
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
 motor = "maxon-488607"

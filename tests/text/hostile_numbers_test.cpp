@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every described key in turn is set to numbers that no bench has. A message must refuse the number, or the
-// run must end with only numbers in its results and without excessive steps.
+// Every described key in turn is set to numbers that occur on no bench. A message must refuse the number.
+// Otherwise the run must end with only numbers in its results, and without an excessive number of steps.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -21,7 +21,7 @@
 namespace text {
 namespace SIXSTEP_TEST_FILE {
 
-/// The scenario has one entry in every list of tables, and a bus with R and C, so that each key has an
+/// Every list of tables in the scenario has one entry, and the bus has R and C, so that each key has an
 /// effect.
 const std::string common = R"(
 motor = "maxon-251601"
@@ -89,7 +89,7 @@ align = { current_A = 1 }
 [reference]
 value = 100
 )";
-/// In a chip's arithmetic, numbers overflow earlier or wrap.
+/// In the arithmetic of a chip, numbers overflow earlier, or they wrap.
 const std::string speed_in_float = common + R"(
 [control]
 mode = "speed"
@@ -106,11 +106,11 @@ value = 10
 )";
 const std::string off = common + "[control]\nmode = \"off\"\n";
 
-/// Number of segments after which a run is cut; its time must have advanced by then.
+/// A run is stopped after this number of segments. By then, its time must have advanced.
 constexpr std::int64_t most_segments = 20'000;
 
-/// Bound on the number of segments: two per shortest time constant, a few of which may be adjacent, some per
-/// PWM period and tick, and some at the start of any run.
+/// Bound on the number of segments. It allows two per shortest time constant, of which a few may be adjacent,
+/// some per PWM period and tick, and some at the start of any run.
 double most_segments_in(double simulated_s, const study::Scenario& s) {
   return 1000 + simulated_s * (20 * sixstep::plant::fastest_answer_1_s + 20 / s.pwm.period_s);
 }
@@ -274,7 +274,7 @@ TEST(HostileNumbers, AMotorAtTheEndsOfItsKeysIsCheckedAndDesignedForInNumbers) {
   EXPECT_GT(checked, 50u);
 }
 
-/// Two keys at the ends of their ranges: values that are allowed separately can be absurd together.
+/// Two keys are at the ends of their ranges. Values that are allowed separately can be absurd together.
 TEST(HostileNumbers, PairsOfExtremesAreRefusedOrRunToNumbers) {
   std::vector<Setting> ends;
   for (const KeyEntry& key : scenario_keys()) {

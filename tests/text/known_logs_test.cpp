@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The logs of drive tools are recognised by their headings and become a trace in SI units; damaged ones, or
-// such of several drives, are refused with a way out.
+// The logs of drive programs are recognised by their headings and converted to a trace in SI units. Damaged
+// logs, and logs of several drives, are refused with advice.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 constexpr int pairs = 7;
 
-/// A drive that speeds up: what each log writes of it in its own units.
+/// A drive that accelerates. Each log contains its values in the log's own units.
 struct Row {
   double t_s, speed_rad_s, bus_V, i_d_A, i_q_A;
 };
@@ -91,7 +91,7 @@ text::LogColumns wanted(bool field = true, std::optional<int> esc = {},
   return {.formulas = {}, .interval_s = interval_s, .pole_pairs = pairs, .field_oriented = field, .esc = esc};
 }
 
-/// The column's values; empty if the log has none.
+/// The values of the column. Empty if the log has no such column.
 std::vector<double> column(const text::BoardLog& log, const std::string& name) {
   for (std::size_t n = 0; n < log.trace.columns.size(); ++n)
     if (log.trace.columns[n].name == name) return log.trace.values[n];
@@ -169,7 +169,7 @@ TEST(KnownLogs, OfSeveralDrivesOneIsChosen) {
   other.replace(other.find(",0,24,3"), 7, ",0,xx,3");  // a bad cell of ESC 0
   EXPECT_THAT(told(other, 0), HasSubstr("is not a number"));
   EXPECT_THAT(told(other, 1), HasSubstr("an ArduPilot ESC log: "));
-  // So many bad cells that the reader keeps the text of the first ones only.
+  // There are so many bad cells that the reader stores the text of only the first cells.
   for (const std::string volts : {",0,24,3", ",0,23."})
     for (std::size_t at = other.find(volts); at != std::string::npos; at = other.find(volts))
       other.replace(at, 6, ",0,xxx");
@@ -201,24 +201,24 @@ TEST(KnownLogs, HostileSistersAreRefused) {
     return log ? "a log of " + std::to_string(log->trace.values[0].size()) + " rows"
                : to_string(log.problems()[0]);
   };
-  // A number that is none, or that no instrument shows; a clock that jumps back at midnight.
+  // The value is not a number, or a number that no instrument shows, or the clock jumps back at midnight.
   EXPECT_THAT(told(with(vesc(), ";24;", ";nan;")), HasSubstr("is not a number"));
   EXPECT_THAT(told(with(ardupilot(1), "0,0.000000000", "0,1e300")), HasSubstr("too large"));
   EXPECT_THAT(told(with(vesc(), "36000030", "30")), HasSubstr("does not rise"));
   EXPECT_THAT(told(with(moteus(), ",24,30,0", ",xx,30,0")), HasSubstr("is not a number"));
   EXPECT_THAT(told(with(servo_stats(), "1700000000.010", "1600000000.010")), HasSubstr("does not rise"));
   EXPECT_THAT(told(with(odrive(), "0.795774715459", "ERR")), HasSubstr("is not a number"));
-  // A unit of another kind in the heading of a column that is known.
+  // The heading of a known column contains a unit of another kind.
   EXPECT_THAT(told(with(blackbox("eRPM[0], "), "vbatLatest (V)", "vbatLatest (A)")),
               HasSubstr("but V is expected"));
-  // Columns that are missing.
+  // Columns are missing.
   EXPECT_THAT(told(blackbox("")), HasSubstr("is a Betaflight log without eRPM; turn on bidirectional DShot"));
   EXPECT_THAT(told(with(vesc(), "ms_today", "clock")), HasSubstr("has no column of time"));
   EXPECT_THAT(told(simple_foc()),
               HasSubstr("is a SimpleFOC monitor log, which has no time; give the interval of its rows"));
-  // Five columns are no set of SimpleFOC's whose order is known.
+  // No known set of SimpleFOC's columns has five columns.
   EXPECT_THAT(told("MOT: Ready.\n1\t2\t3\t4\t5\n1\t2\t3\t4\t5\n", 0.01), testing::Not(HasSubstr("a log of")));
-  // Cut off: the incomplete last row does not count. Binary: no table.
+  // If the file is cut off, the incomplete last row does not count. A binary file contains no table.
   EXPECT_EQ(told(vesc().substr(0, vesc().size() - 20)), "a log of 7 rows");
   EXPECT_THAT(told("ms_today;input_voltage;erpm;\n" + std::string("\0\1\2\xff;\0;\3\n", 8)),
               testing::Not(HasSubstr("a log of")));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor's files have their own terms; the terms of a rotary motor are refused in them, and vice
-// versa.
+// The files of a linear motor have terms of their own. A file for a linear motor with a term of a rotary
+// motor is refused, and so is a rotary motor's file with a linear term.
 #include <gmock/gmock.h>
 
 #include "sixstep/design/sheet/parameters.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file as a user types it: every spelling of a key, every template filled in, and each error reported
-// once with its position.
+// Tests a motor file as a user types it: every spelling of a key, and every template filled in. Each error is
+// reported once, with its position.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -47,7 +47,7 @@ class MotorFile : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A complete sheet in which `changed` replaces the line of its key, or is added.
+/// A complete sheet. `changed` replaces the line of its key, or is added as a new line.
 std::string sheet_with(const std::string& changed) {
   std::map<std::string, std::string> lines = {
       {"name", "\"m\""},
@@ -177,7 +177,7 @@ TEST_F(MotorFile, AnOverrideInAnotherSpellingOrWayReplacesTheSheets) {
   EXPECT_NEAR(flux, 8 * 2e-3, 1e-17);
 }
 
-/// The template, with its open lines (`key = ` or `# key = `) filled in by key.
+/// The template after its open lines (`key = ` or `# key = `) have been filled in by key.
 std::string filled(const std::string& text, const std::map<std::string, std::string>& values) {
   std::set<std::string> seen;
   std::string result;
@@ -207,7 +207,7 @@ TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
 }
 
 TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
-  // The 251601 with the terms of each maker, as a sine machine: K_e = K_t/1.65399 of the numbers below.
+  // The 251601 as a sine machine, in the terms of each maker. K_e is K_t/1.65399 of the numbers below.
   const double K_e = 0.01675, K_t = 1.6539866862653762 * K_e;
   const std::map<std::string, std::map<std::string, std::string>> sheets = {
       {"maxon",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motors of the motor library: each is readable, is consistent or names its contradictions, and can be
-// simulated or names the reason why not.
+// Tests the motors of the motor library. Each motor can be read. Its values are consistent, or its file names
+// the contradictions. It can be simulated, or its file names the reason why not.
 #include "text/motor/motor_library.hpp"
 
 #include <gmock/gmock.h>
@@ -56,8 +56,8 @@ TEST_P(MotorLibrary, EveryValueHasSourceAndTrust) {
 }
 
 TEST_P(MotorLibrary, AgreesWithItselfOrSaysWhereNot) {
-  // check_sheet refuses a known_deviation from a relation that the sheet satisfies, so that both directions
-  // are tested.
+  // check_sheet() refuses a known_deviation from a relation that the sheet satisfies. Both directions are
+  // therefore tested.
   const auto check = design::check_sheet(sheet_);
   if (!check) FAIL() << to_string(check.problems().front());
   EXPECT_TRUE(check->consistent);
@@ -86,7 +86,7 @@ TEST_P(MotorLibrary, SimulatesOrSaysWhyNot) {
 
 TEST_P(MotorLibrary, WhatIsNotSimulatableLacksSomethingOrSaysItsDoubt) {
   if (sheet_.simulatable) return;
-  // A doubtful value is not a missing value: these files describe their doubts in words.
+  // A doubtful value is not a missing value. These files describe their doubts in words.
   const std::set<std::string> doubted = {"anaheim-blws235d", "anaheim-blz362s", "drone-blk2blade",
                                          "jk42bls01",        "gmcc-ksk89d53u",  "qs138-70h"};
   sheet_.simulatable = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A header that is exported into a namespace compiles, or the namespace's name is refused.
+// For each of these namespaces, an exported header compiles. Any other name is refused.
 #include "text/export/name_space.hpp"
 
 #include <gtest/gtest.h>

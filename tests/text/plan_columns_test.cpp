@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of a plan's columns: all names differ, none contains active content, and the CSV file has them in
-// the order of its cells.
+// Tests the names of a plan's columns. All names differ, none contains active content, and the CSV file
+// contains them in the order of its cells.
 #include "text/results/plan_columns.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans from files and from words on the command line. The plan contains their values, and each run's
-// scenario equals a file written for this run.
+// Tests plans from files and from words on the command line. The plan contains their values. The scenario of
+// each run is equal to a file that is written for this run.
 #include "text/plan/plan_file.hpp"
 
 #include <gmock/gmock.h>

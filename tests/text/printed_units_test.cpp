@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets of several trades typed as printed: electrical hertz, ounces, kilograms as weights, rms amperes, and
-// the makers' names of the keys.
+// Sheets of several trades are typed as they are printed: electrical hertz, ounces, kilograms as weights, rms
+// amperes, and the makers' names of the keys.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using ::testing::HasSubstr;
 
-/// A motor file that is only in memory.
+/// Reads a motor file that is only in memory.
 base::Result<design::Sheet> sheet_of(const std::string& text) {
   return read_sheet("m.toml", [&](const Naming&) -> base::Result<NamedText> {
     return NamedText{"m.toml", text};
@@ -37,7 +37,7 @@ std::string told(const std::string& text) {
 
 constexpr const char* sine = "name = \"m\"\nback_emf = \"sine\"\n";
 
-/// 6 V at 40 000 rpm with 2 pole pairs: 1333.3 Hz electrical, 4.5 mV/Hz.
+/// 6 V at 40 000 rpm with 2 pole pairs are 1333.3 electrical Hz and 4.5 mV/Hz.
 TEST(PrintedUnits, VoltsPerHertzAreElectrical) {
   const design::Sheet s =
       read(std::string(sine) +
@@ -79,7 +79,7 @@ TEST(PrintedUnits, HertzAndMinutesElsewhere) {
   EXPECT_NEAR(read(motor + "no_load_speed_rpm = \"6000 erpm\"\n").no_load_speed_rpm->value, 3000.0, 1e-12);
 }
 
-/// 20 oz-in/Arms, 0.0018 oz-in-s2, 2 oz-in: 1 oz-in is 7.0615518 mNm.
+/// The sheet states 20 oz-in/Arms, 0.0018 oz-in-s2 and 2 oz-in. 1 oz-in is 7.0615518 mN m.
 TEST(PrintedUnits, AnAmericanServo) {
   const design::Sheet s =
       read(std::string(sine) +
@@ -128,7 +128,7 @@ TEST(PrintedUnits, RmsInAUnitIsTheFrame) {
   EXPECT_THAT(told(motor + "nominal_voltage_V = \"230 Vrms\"\n"), HasSubstr("no rms value"));
 }
 
-/// Faulhaber's k_E is k_M/9.5493, the mean over a commutation step.
+/// Faulhaber's k_E is k_M/9.5493, the mean over the step between two commutations.
 TEST(PrintedUnits, AConstantOverACommutationStepIsConsistent) {
   const design::Sheet s =
       read(std::string(sine) +
@@ -159,12 +159,12 @@ TEST(PrintedUnits, AScenarioKnowsThePolePairsOfItsMotor) {
   EXPECT_NEAR(speed_rad_s, 20 * M_PI, 1e-14);
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"10 Hz\"\n", speed_rad_s),
               HasSubstr("which may count turns"));
-  // The largest value is 1e6 rad/s mechanical, which is 8 times as much electrical.
+  // The largest mechanical speed is 1e6 rad/s. The electrical speed is 8 times as large.
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"1e9 erpm\"\n", speed_rad_s),
               HasSubstr("must lie in -76394372.68410976 to 76394372.68410976, in erpm"));
 }
 
-/// Names in makers' sheets, and the key that each name means.
+/// Names in the sheets of makers, and the key that has the meaning of each name.
 TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
   constexpr const char* words[][2] = {
       // Faulhaber
@@ -231,8 +231,8 @@ TEST(PrintedUnits, AWordWithoutAKeyIsToldWhereItBelongs) {
   EXPECT_THAT(scenario_told("gear_ratio = 10\n", unused), ::testing::Not(HasSubstr("load.gear in")));
 }
 
-/// If a drive identified the value, it is half of the value between two terminals. A branch of the delta has
-/// 3/2 of the value between two terminals.
+/// If a drive has identified the value, it is half of the value between two terminals. A branch of the delta
+/// has 3/2 of the value between two terminals.
 TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
   const std::string all = told(std::string(sine) +
                                "pole_pairs = 2\nconnection = \"delta\"\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that are incomplete or contradictory: a message refuses each with the reason, or names the parts
-// that are not used.
+// Tests incomplete and contradictory recordings. A message refuses a recording with the reason, or names the
+// parts that are not used.
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
@@ -28,7 +28,8 @@ TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
               HasSubstr("has the heading u_ab in A, but V is expected"));
 }
 
-/// The unit in the heading contradicts the unit in the row below it, or above it in Tektronix files.
+/// The unit in the heading contradicts the unit in the row below the heading. In Tektronix files, this row is
+/// above the heading.
 TEST(RecordedDoubts, UnitsThatContradictEachOtherAreRefused) {
   for (const char* head :
        {"time [s],u_ab (mV),u_bc (mV)\ns,V,V\n", "Vertical Units,V,V\ntime [s],u_ab (mV),u_bc (mV)\n"})
@@ -49,7 +50,7 @@ TEST(RecordedDoubts, UnitsAboveTheHeadingsCount) {
   EXPECT_EQ(amps->columns[1].unit, "A");
 }
 
-/// The columns that --columns names are sixstep's columns: i_m_A is i_m in A, not i in m/A.
+/// The option --columns names sixstep's columns, so i_m_A is i_m in A, not i in m/A.
 TEST(RecordedDoubts, AKnownNameComesBeforeAUnit) {
   const auto read = read_recording("r.csv", "t_s,i_m_A,i_m,speed_rad_s\n0,1,2,3\n");
   ASSERT_TRUE(read);
@@ -62,7 +63,7 @@ TEST(RecordedDoubts, AKnownNameComesBeforeAUnit) {
   EXPECT_THAT(units, ElementsAre("s", "A", "", "rad/s"));
 }
 
-/// A letter at the end of a name is not read as a unit if the unit does not fit.
+/// A letter at the end of a name is not read as a unit if this unit does not fit the column.
 TEST(RecordedDoubts, LettersThatArePhases) {
   for (const char* head : {"time,phase_A,phase_B,phase_C\n", "time,phase A,phase B,phase C\n",
                            "time,u_A,u_B,u_C\n", "time,U_a,U_b,U_c\n"}) {
@@ -85,7 +86,7 @@ TEST(RecordedDoubts, RowsOfMoreCellsThanHeadingsAreToldOf) {
               HasSubstr("r.csv:502: has 4 cells, but the table has 3 columns"));
 }
 
-/// An instrument's word for a missing sample must not silently remove a channel.
+/// An instrument writes a word for a missing sample. This word must not remove a channel without a message.
 TEST(RecordedDoubts, ABadCellIsNamed) {
   for (const char* cell : {"\xe2\x88\x9e", "-\xe2\x88\x9e", "NaN", "nan", "inf", "-inf", "OL", "---", "***",
                            "#N/A", "1.#INF", "-1.#IND", "", "  ", "overflow"})
@@ -129,7 +130,7 @@ TEST(RecordedDoubts, VoltagesThatAreNamedSayWhatTheyAreByTheirHeadings) {
               HasSubstr("the headings do not tell between which points"));
 }
 
-/// A known column is not called unknown: the note says what the column is and which column is used instead.
+/// A known column is not called unknown. The note states what the column is and which column is used instead.
 TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   const auto notes = [](const std::string& more, const BenchColumns& columns = {}) {
     return seen(table("time [s],u_ab [V],u_bc [V]," + more + "\n",
@@ -152,7 +153,7 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   EXPECT_THAT(notes("u_a [mA]"), ElementsAre("not used: u_a (in mA)"));
 }
 
-/// Any two of the three voltages suffice; none of these pairs reverses the motor's direction.
+/// Any two of the three voltages suffice. None of these pairs reverses the direction of the motor.
 TEST(RecordedDoubts, AnyTwoVoltagesOfThreeAreUsed) {
   for (const char* head : {"time [s],u_ab,u_bc\n", "time [s],u_bc,u_ca\n", "time [s],u_ca,u_ab\n"}) {
     const Seen found = seen(plain(head));
@@ -162,7 +163,7 @@ TEST(RecordedDoubts, AnyTwoVoltagesOfThreeAreUsed) {
     EXPECT_FALSE(found.backward) << head;
     EXPECT_NEAR(found.line_peak_mV_s / right_mV_s, 1.0, 1e-5) << head;
   }
-  // Here the order of the columns differs from the order of the phases.
+  // In this file, the order of the columns differs from the order of the phases.
   const Seen turned = seen(plain("time [s],u_ab,u_ca\n"));
   EXPECT_TRUE(turned.backward);
   EXPECT_THAT(turned.channels, ElementsAre("u_ca", "u_ab"));
@@ -188,7 +189,7 @@ TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
   EXPECT_THAT(seen(one_each, star).channels, ElementsAre("u_a"));
 }
 
-/// Without known headings every column is a voltage, except a column that is known to be something else.
+/// Without known headings, every column is a voltage, unless it is known to be something else.
 TEST(RecordedDoubts, AHallLineIsTakenForNoVoltage) {
   const Seen found = seen(plain("time [s],CH1,hall1\n"), between_lines);
   EXPECT_THAT(found.channels, ElementsAre("CH1"));
@@ -214,7 +215,7 @@ TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
               ElementsAre("CH1", "CH1 (column 3)"));
 }
 
-/// The rate in the preamble must agree with the column of time.
+/// The rate in the preamble must agree with the time column.
 TEST(RecordedDoubts, ARateInThePreamble) {
   const std::string rate = "# Samplerate: 10 kHz\n";
   expect_right(rate + plain("Time,u_ab,u_bc\n"));
@@ -235,13 +236,14 @@ TEST(RecordedDoubts, ARateInThePreamble) {
         << head;
   EXPECT_THAT(seen("Samplerate: 1 kHz\n" + plain("Time [s],u_ab,u_bc\n")).problem,
               HasSubstr("contradicts itself"));
-  // Every tenth sample of a faster acquisition is not a contradiction, but causes a note.
+  // If the file contains every tenth sample of a faster acquisition, this is not a contradiction. It causes a
+  // note.
   EXPECT_THAT(seen("Samplerate: 100 kHz\n" + plain("Time [s],u_ab,u_bc\n")).notes,
               ElementsAre(HasSubstr("rows are 0.0001 s apart")));
 }
 
 TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
-  // The time column is in microseconds, but its heading says seconds: 117 Hz become 117 uHz.
+  // The time column is in microseconds, but its heading says seconds, so 117 Hz become 117 uHz.
   EXPECT_THAT(seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
               AllOf(HasSubstr("time gives the shaft 0.001 rpm with 7 pole pairs"),
                     HasSubstr("check the unit of time")));
@@ -272,7 +274,7 @@ TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
     return fmt::format("{:.6f},{:.5f}\n", at, u_ab(at));
   });
   EXPECT_THAT(seen(torn.substr(0, torn.find("\n1.010"))).problem, HasSubstr("is followed by a gap of 1 s"));
-  // The flanks of a trapezoid are straight: its flat tops must not be taken for clipping.
+  // The flanks of a trapezoid are straight. Its flat tops must not be mistaken for clipping.
   const std::string trapezoid = table("time [s],u_a,u_b,u_c\n", [](int, double t, double, double) {
     const auto phase = [&](double lag) {
       const double x = std::fmod(w * t / (2.0 * std::numbers::pi) + 2.0 - lag, 1.0);

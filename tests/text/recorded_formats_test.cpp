@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of many makers' instruments, with any separators, units, preamble and encoding, must yield the
-// right back-EMF constant.
+// Tests the files of many makers' instruments, with any separators, units, preamble and encoding. Each file
+// must give the right back-EMF constant.
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
@@ -34,7 +34,7 @@ TEST(RecordedFormats, UnitsInEverySpelling) {
     expect_right(plain(head, "{:.0f},{:.5f},{:.5f}\n", 1e6));
 }
 
-/// Bytes that are not UTF-8 are read as CP1252: 0xB5 is the micro sign.
+/// Bytes that are not UTF-8 are read as CP1252, in which 0xB5 is the micro sign.
 TEST(RecordedFormats, EveryEncoding) {
   const std::string text =
       plain("Time (\xc2\xb5s),u_ab (mV),u_bc (mV)\n", "{:.0f},{:.2f},{:.2f}\n", 1e6, 1e3);
@@ -79,7 +79,8 @@ TEST(RecordedFormats, OscilloscopesWithPreambles) {
   expect_right(plain("Time [s],Channel 0,Channel 1\n"));     // Saleae
 }
 
-/// The first line has names, the second line start and increment. The first column only counts.
+/// The first line contains the names, the second line contains start and increment. The first column is only
+/// a count.
 TEST(RecordedFormats, RigolDs1000z) {
   for (const char* units :
        {"Sequence,VOLT,VOLT,-2.500000e-02,1.000000e-04,\n", "Sequence,Volt,Volt,-0.025,0.0001\n"}) {
@@ -140,7 +141,7 @@ TEST(RecordedFormats, LabViewWithAndWithoutItsColumnOfX) {
   expect_right(with_commas(replaced(file, "Decimal_Separator\t.", "Decimal_Separator\t,")));
   expect_right(
       table(head, [](int, double, double a, double b) { return fmt::format("\t{:.6f}\t{:.6f}\n", a, b); }));
-  // A remark in one row becomes a separate column, which is not used.
+  // A remark in one row becomes a separate column. This column is not used.
   const Seen remarked =
       seen(replaced(file, "0.000300\t", "0.000300\t").replace(file.find("\n0.000300"), 1, "\twobbles\n"),
            between_lines);
@@ -159,8 +160,8 @@ TEST(RecordedFormats, ATimeForEachChannel) {
               HasSubstr("two times: Time and Time (column 3) differ in line 2"));
 }
 
-/// A simulator writes both sides of an event at one instant. The later row is used, and a note states how
-/// many rows were omitted.
+/// A simulator writes both sides of an event at one instant. The later row is used. A note states the number
+/// of omitted rows.
 TEST(RecordedFormats, AnInstantTwice) {
   const std::string file = table("\"time\",\"vab.v\",\"vbc.v\"\n", [](int n, double t, double a, double b) {
     const std::string row = fmt::format("{:.6f},{:.6f},{:.6f}\n", t, a, b);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables that instruments export are read. Any other file causes one message with the position and the cure.
+// Tables that instruments export are read. Any other file causes one message with the position and the
+// remedy.
 #include "text/recording/recording.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ Recording read(const std::string& csv) {
   return recording ? *recording : Recording{};
 }
 
-/// The only message, or an empty text if there is no problem.
+/// The text of the only message. Empty if there is no problem.
 std::string told(const base::Problems& problems) {
   EXPECT_LE(problems.size(), 1u);
   return problems.empty() ? "" : to_string(problems[0]);
@@ -143,7 +144,7 @@ TEST(Recording, CellsThatAreNoNumbersAreNamedByTheirLine) {
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\nnever,2\n"),
               StartsWith("r.csv:3: time \"never\" is not a number"));
   EXPECT_THAT(told_of_emf(scope(2) + "0.5,\xff\xfe\n"), HasSubstr("is not a number"));
-  // A column that is not used may contain anything.
+  // A column that is not used may contain any text.
   std::string remarked = "time [s],u_ab [V],remark\n";
   for (int row = 0; row < 400; ++row)
     remarked += fmt::format("{},{},n/a\n", 2e-4 * row, std::sin(0.0628 * row));
@@ -173,7 +174,7 @@ TEST(Recording, TimesThatDoNotTell) {
               StartsWith("r.csv: has the heading time in V, but s is expected; name another column"));
 }
 
-/// A given interval replaces a missing time, but does not override the file's time.
+/// A given interval replaces a missing time, but does not override the time in the file.
 TEST(Recording, AnIntervalBesideATime) {
   const auto times = [](const char* csv, double interval_s) {
     Notes notes;
@@ -185,7 +186,7 @@ TEST(Recording, AnIntervalBesideATime) {
               ElementsAre(DoubleEq(2e-3), DoubleEq(4e-3), DoubleEq(6.1e-3)));
   EXPECT_THAT(times("time,u\n0,1\n1,2\n2,3\n", 0.5), ElementsAre(0.0, 0.5, 1.0));
   EXPECT_THAT(times("time,u\n10,1\n20,2\n30,3\n", 1e-2), ElementsAre(0.01, 0.02, 0.03));  // in ms
-  // The time has too few digits: the rows are really 0.4 ms apart.
+  // The time has too few digits. The rows are really 0.4 ms apart.
   EXPECT_THAT(
       times("time [ms],u\n5,1\n5,2\n5,3\n6,4\n6,5\n", 4e-4),
       ElementsAre(DoubleEq(5e-3), DoubleEq(5.4e-3), DoubleEq(5.8e-3), DoubleEq(6.2e-3), DoubleEq(6.6e-3)));
@@ -193,7 +194,7 @@ TEST(Recording, AnIntervalBesideATime) {
   EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n8,3\n", 2e-3), ElementsAre());  // a row is missing
   EXPECT_THAT(times("Samplerate: 1 kHz\nu,v\n2,1\n4,2\n", 1e-3), ElementsAre(0.0, 1e-3));
   EXPECT_THAT(times("Samplerate: 1 kHz\nu,v\n2,1\n4,2\n", 1e-2), ElementsAre());
-  // If the first of the columns without headings cannot be the time, it is a voltage.
+  // If the columns have no headings and the first column cannot be the time, it is a voltage.
   EXPECT_THAT(times("3,1\n1,2\n2,3\n", 0.5), ElementsAre(0.0, 0.5, 1.0));
   Notes notes;
   const auto record = emf_record_of(
@@ -228,7 +229,7 @@ TEST(Recording, WrongColumns) {
               StartsWith("r.csv: has 1 voltage of lines; give u_ab and u_bc"));
 }
 
-/// With a wrong separator, the file has one column.
+/// With a wrong separator, the file seems to have only one column.
 TEST(Recording, WrongSeparators) {
   EXPECT_THAT(told_of_hall("time|hall1|hall2|hall3\n0|1|0|0\n1|1|1|0\n"),
               StartsWith("r.csv: holds no row of numbers"));
@@ -252,7 +253,7 @@ TEST(Recording, TooShortStandingOrDead) {
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1,2\n2.5,1\n"), StartsWith("time = 3 rows are too few"));
 }
 
-/// Quotations in a message are short, whatever the file contains, because a person reads it.
+/// Quotations in a message are short, whatever the file contains, because a person reads them.
 TEST(Recording, WhatIsQuotedIsShort) {
   const std::string endless(1'000'000, 'x');
   for (const std::string& csv :

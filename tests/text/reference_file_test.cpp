@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference from a file: the tables that can be read, and the messages about other files.
+// Tests a reference from a file: the tables that can be read, and the messages about other files.
 #include "text/scenario/reference_file.hpp"
 
 #include <gmock/gmock.h>
@@ -69,7 +69,7 @@ TEST(ReferenceFile, AHeadingMayBringAUnit) {
           "r.csv: has the heading u in V, but A is expected; name another column; units that fit: A")));
   for (const char* odd : {"t_s,i [counts]\n0,1\n", "Time (foo),i\n0,1\n"})
     EXPECT_THAT(told(odd), ElementsAre(HasSubstr("which is not a unit"))) << odd;
-  // In the encoding of older instruments the micro sign is one byte.
+  // In the encoding of older instruments, the micro sign is one byte.
   EXPECT_THAT(read("time [\xb5s],speed_rpm\n0,30\n10000,60\n", "rad/s").times_s, ElementsAre(0.0, 0.01));
   EXPECT_DOUBLE_EQ(read("t,speed [turn/s]\n0,0.5\n", "rad/s").values.at(0), M_PI);
 }
@@ -115,7 +115,7 @@ TEST_F(ReferenceInAFile, EntersTheScenarioAsNumbersThatStandForThemselves) {
   const base::Result<study::Scenario> s = read("file = \"r.csv\"\ninterpolation = \"hold\"\n");
   ASSERT_TRUE(s);
   EXPECT_THAT(s->reference.times_s, ElementsAre(0.0, 0.01));
-  // The written scenario does not need the file.
+  // The scenario that is written no longer needs the file.
   const std::string text = scenario_text(*s);
   EXPECT_EQ(text.find("r.csv"), std::string::npos);
   const base::Result<study::Scenario> back = files::read_scenario_text("elsewhere.toml", text);

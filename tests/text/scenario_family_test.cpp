@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios that extend other scenarios: the values in effect, and the position of each mistake.
+// Tests scenarios that extend other scenarios: the values in effect, and the position of each mistake.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ TEST_F(Family, WhatThisFileSaysWinsAndTheRestIsTheBases) {
   EXPECT_EQ(s->supply.resistance_ohm, 0.1);
   EXPECT_EQ(s->control.mode, sixstep::control::Mode::current);
   EXPECT_EQ(s->reference.value, 3.0);
-  // The command line overrides values of all files.
+  // The command line overrides the values of all files.
   const auto set = read("extends = \"base.toml\"\nsupply.voltage_V = 36\n",
                         {.overrides = {{"supply.voltage_V", "48"}, {"reference.value", "1"}}});
   ASSERT_TRUE(set);
@@ -44,8 +44,8 @@ TEST_F(Family, OfSeveralBasesTheLaterIsStronger) {
   ASSERT_TRUE(s) << to_string(s.problems()[0]);
   EXPECT_EQ(s->supply.voltage_V, 20.0);
   EXPECT_EQ(s->pwm.period_s, 1e-5);
-  // The entries of lists of tables are appended, in this order. An empty list removes the entries of the
-  // bases.
+  // The entries of lists of tables are appended, in the order of the files. An empty list removes the entries
+  // of the bases.
   ASSERT_EQ(s->require.size(), 3u);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(*s->require[n].max, static_cast<double>(n) + 1);
   const auto none = read("extends = [\"a.toml\", \"b.toml\"]\nrequire = []\n");
@@ -68,8 +68,8 @@ TEST_F(Family, ValuesInBracketsAndBracesAreReplacedWhole) {
   EXPECT_THAT(s->reference.values, ElementsAre(7.0));
 }
 
-// A base's table in braces has the same effect as one under a heading. It replaces the values of weaker
-// bases.
+// A table in braces in a base has the same effect as a table under a heading. It replaces the values of
+// weaker bases.
 TEST_F(Family, ABaseInBracesIsJoinedLikeOneUnderAHeading) {
   const std::string common = head + "control.mode = \"speed\"\nreference.value = 100\n";
   const std::string child = "[load]\ntorque_Nm = 0.02\n[control.speed]\ntorque_limit_Nm = 0.1\n";
@@ -105,12 +105,12 @@ TEST_F(Family, EmptyBracesDropATableOfTheBases) {
   const auto of_two = read("extends = [\"far.toml\", \"base.toml\"]\nload = {}\n");
   ASSERT_TRUE(of_two);
   EXPECT_EQ(of_two->load.viscous_Nm_s, 0.0);
-  // A loop can be removed although its table would need more keys; the other tables remain.
+  // A loop can be removed, although its table would need more keys. The other tables remain.
   const auto current = read("extends = \"base.toml\"\n[control]\nmode = \"current\"\nspeed = {}\n");
   ASSERT_TRUE(current) << to_string(current.problems()[0]);
   EXPECT_EQ(current->load.torque_Nm, 0.05);
   EXPECT_EQ(*current->control.current.settle_s, 1e-3);
-  // An empty table in the middle file removes the values of the files below it. The file above may set new
+  // An empty table in the middle file removes the values of the files below. The file above may set new
   // values.
   write("middle.toml", "extends = \"base.toml\"\nload = {}\n");
   const auto anew = read("extends = \"middle.toml\"\n[load]\ntorque_Nm = 0.02\n");
@@ -126,7 +126,7 @@ TEST_F(Family, NamesInABaseAreLookedForBesideIt) {
   const auto s = read("extends = \"bases/b.toml\"\n");
   ASSERT_TRUE(s) << to_string(s.problems()[0]);
   EXPECT_THAT(s->reference.values, ElementsAre(1.0, 2.0));
-  // The written scenario is self-contained: it can be read without the base and the other file.
+  // The written scenario is self-contained: it can be read without its base and without the other file.
   const auto again = files::read_scenario_text("elsewhere.toml", scenario_text(*s));
   ASSERT_TRUE(again);
   EXPECT_EQ(scenario_text(*again), scenario_text(*s));
@@ -144,7 +144,7 @@ TEST_F(Family, EachMistakeIsToldInTheFileThatHoldsIt) {
           "base.toml:4:13: supply.voltage_V = -3 must be above 0; it means: voltage of the source, in V",
           "base.toml:6:1: pwm.choping is not a key here; did you mean chopping?",
           ::testing::StartsWith("base.toml:7:1: require.metric is missing")));
-  // The message on a contradiction between two files also names the position.
+  // If two files contradict each other, the message also names the position.
   write("gains.toml", head + "[control]\nmode = \"current\"\n[control.current]\nd1 = 4.5\nd0 = -4\n");
   EXPECT_THAT(
       complaints("extends = \"gains.toml\"\n[control.current]\nsettle_s = 1e-3\n"),
@@ -177,7 +177,7 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
       complaints(head, {.overrides = {{"extends", "a.toml"}}}),
       ElementsAre(
           "--set extends = a.toml cannot be set: the files are joined before --set; write extends in the scenario file"));
-  // Two names per file, twenty files deep, would be a million files without a limit.
+  // Each of twenty files names two files, which would be a million files without a limit.
   for (int n = 0; n < 20; ++n)
     write(fmt::format("d{}.toml", n), fmt::format("extends = [\"d{0}.toml\", \"d{0}.toml\"]\n", n + 1));
   write("d20.toml", head);

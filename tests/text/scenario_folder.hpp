@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A separate folder of a test for scenarios that name other files, and the messages on reading them.
+// Each test has a separate folder for scenarios that name other files. The functions return the messages
+// about these scenarios.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ class ScenarioFolder : public testing::Test {
   base::Result<study::Scenario> read(const std::string& text, const files::ReadOptions& options = {}) {
     return files::read_scenario_text((folder_ / "x.toml").string(), text, options);
   }
-  /// The messages on a text; file names are relative to the folder.
+  /// The messages about a text. File names are relative to the folder.
   std::vector<std::string> complaints(const std::string& text, const files::ReadOptions& options = {}) {
     const base::Result<study::Scenario> s = read(text, options);
     std::vector<std::string> lines;

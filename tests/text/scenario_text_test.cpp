@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A written scenario, read again, is the same scenario: every shipped scenario, and strings that TOML must
-// escape.
+// A scenario that is written and read again is the same scenario. The cases are every shipped scenario, and
+// strings that TOML must escape.
 #include "text/scenario/scenario_text.hpp"
 
 #include <fmt/format.h>
@@ -29,8 +29,8 @@ study::Scenario read_back(const std::string& text) {
   return {};
 }
 
-/// Every described key of a scenario as text, including the motor's sheet and the entries of tables and
-/// lists.
+/// Every described key of a scenario as text. The keys of the motor's sheet and the entries of tables and
+/// lists are included.
 class EveryKey final : public base::Visitor {
  public:
   std::vector<std::string> rows;
@@ -86,7 +86,7 @@ std::vector<std::string> every_key(study::Scenario s) {
   return keys.rows;
 }
 
-/// Removes the names of other files: the written text contains the values read from them.
+/// Removes the names of other files, because the written text contains the values from these files.
 void detach(study::Scenario& s) {
   const auto leave = [](study::Reference& r) {
     r.file.clear();
@@ -148,7 +148,7 @@ TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
   EXPECT_THAT(scenario_text(with("")), ::testing::Not(::testing::HasSubstr("motor_override")));
 }
 
-/// The default event of a Hall line is line 1 at low: its heading without keys is such an event.
+/// The default event of a Hall line is line 1 at low. A heading without keys is such an event.
 TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   const std::pair<const char*, const char*> events[] = {{"ideal", "[at.reference]"},
                                                         {"hall", "[at.sensors.hall_break]"},
@@ -168,7 +168,7 @@ TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   }
 }
 
-/// TOML reads 132 as a number, and so does the option --set sensors.hall_lines=132.
+/// TOML reads 132 as a number. The option --set sensors.hall_lines=132 also passes a number.
 TEST(ScenarioText, AWordOfDigitsNeedsNoQuotes) {
   const study::Scenario s = with("sensors = { hall_lines = 132, hall_inverted = 3 }");
   EXPECT_EQ(s.sensors.hall_lines, sixstep::rig::WireOrder::acb);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of a back-EMF from a file that a motor or an override names.
+// Tests the points of a back-EMF from a file that a motor or an override names.
 #include <gmock/gmock.h>
 
 #include "text/scenario/reference_file.hpp"

@@ -88,7 +88,7 @@ Figures figures(Scenario s, const Case& c, Arithmetic arithmetic) {
   return out;
 }
 
-/// The base of a signal in a format: the value that 1.0 represents.
+/// The base of a signal in a format: the value that the number 1.0 represents.
 double unit_of(Signal signal, Arithmetic arithmetic, const Scenario& s) {
   const auto compiled = study::compile(s);
   const auto units = [&]() -> rig::Bases {
@@ -121,7 +121,7 @@ TEST_P(ArithmeticOf, DiffersByItsResolution) {
     SCOPED_TRACE(f.word);
     const Figures narrow = figures(*s, c, f.arithmetic);
     ASSERT_EQ(narrow.means.size(), wide.means.size());
-    // float has 24 bits at any size of a number: its bound uses the digit of the largest signal.
+    // A float has 24 bits at any size of a number, so its bound uses the digit of the largest signal.
     const double digit =
         f.digit * unit_of(c.signal, f.arithmetic == Arithmetic::float32 ? Arithmetic::q31 : f.arithmetic, *s);
     double largest = 0.0, allowed = 0.0;
@@ -156,10 +156,10 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-/// In experiment 7.4 the speed deviates by thousands of digits of 32 bits. Arithmetic is not the cause: the
-/// cascade amplifies every change until one sample falls on the other side of an edge
-/// (tests/study/conditioning_test.cpp). The run in double deviates as much if the rotor's inertia is larger
-/// by 1 to 12 such digits.
+/// In experiment 7.4, the speed deviates by thousands of digits of 32 bits. Arithmetic is not the cause. The
+/// cascade amplifies every change until one sample is on the other side of an edge
+/// (tests/study/conditioning_test.cpp). If the inertia of the rotor is larger by 1 to 12 such digits, the run
+/// in double deviates as much.
 TEST(Arithmetic, TheSpeedCascadeStraysAsFarByADigitOfItsInertia) {
   const auto path =
       std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/scenarios/thesis/7.4-speed-exact-design.toml";

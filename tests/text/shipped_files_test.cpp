@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every motor and scenario in data/ can be read without a problem and has its required texts.
+// Every motor and scenario in data/ can be read without a problem, and has all required texts.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(ShippedFiles, EveryScenarioReads) {
   EXPECT_GE(count, 50);
 }
 
-/// A peak current must be a magnitude: the largest value would miss a drive that brakes.
+/// A peak current must be a magnitude. If a drive brakes, the largest value would not show its peak.
 TEST(ShippedFiles, APeakCurrentIsAMagnitude) {
   int count = 0;
   const auto judge = [&](const study::Measure& m) {
@@ -64,7 +64,8 @@ TEST(ShippedFiles, APeakCurrentIsAMagnitude) {
   EXPECT_GE(count, 8);
 }
 
-/// The bound of the move: full torque up to the speed at which the back-EMF equals the bus voltage, and back.
+/// The bound of the move: full torque up to the speed at which the back-EMF is equal to the bus voltage, and
+/// full torque back to rest.
 TEST(ShippedFiles, TheBoundOfTheMoveFollowsFromTheSheet) {
   const double angle = 1000 * base::pi / 180, K = 33.5e-3, J = 135e-7, torque = 0.78, top = 24 / K;
   ASSERT_GT(std::sqrt(angle * torque / J), top) << "it reaches the top speed";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of model.md 5 hold in every shipped run, and each run has its shipped verdict.
+// Every shipped run obeys the laws of model.md 5 and has its shipped verdict.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ std::vector<std::string> shipped_scenarios() {
   return files;
 }
 
-/// True if a monitored resolver fails or an index is false. A stuck encoder line is detected only at an
-/// index.
+/// Returns true if a monitored resolver fails or an index is false. A stuck encoder line is detected only at
+/// an index.
 bool loses_sensor(const study::Scenario& s) {
   return s.sensors.watched && std::any_of(s.at.begin(), s.at.end(), [](const study::At& at) {
            return at.sensors.false_index || at.sensors.excitation ||
@@ -33,7 +33,8 @@ bool loses_sensor(const study::Scenario& s) {
          });
 }
 
-/// True if a lean drive has an inverted line or a line that sticks at an instant: an impossible code results.
+/// Returns true if a lean drive has an inverted line, or a line that becomes stuck at an instant. Both cause
+/// an impossible code.
 bool misleads(const study::Scenario& s) {
   if (s.control.drive != study::FirmwareKind::lean) return false;
   using enum study::HallLines;
@@ -58,7 +59,8 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   ASSERT_TRUE(outcome) << to_string(outcome.problems().front());
   EXPECT_TRUE(time_holds) << "time went back";
   EXPECT_TRUE(complete) << "a current, speed, angle or bus voltage is not a number";
-  // The run of a lean drive ends when its lines show no position; only scenarios about such lines may end so.
+  // The run of a lean drive ends if its lines give no position. Only scenarios about such lines may end in
+  // this way.
   const bool misled = misleads(*scenario) || loses_sensor(*scenario);
   if (misled) {
     ASSERT_TRUE(outcome->fault);
@@ -76,8 +78,7 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   EXPECT_LE(outcome->laws->reverse_diode_A, 64 * 0x1p-52 * 24.0 / 0.515)
       << "the engine's noise level of a current";
   EXPECT_EQ(outcome->laws->floating_current_A, 0.0);
-  // The run must report and name a broken line. A sensorless drive continues; it stops only if its rotor is
-  // locked.
+  // The run must report and name a broken line. A sensorless drive continues, unless its rotor is locked.
   const sixstep::study::HallBreak& broken = scenario->sensors.hall_break;
   const bool sensorless = scenario->control.drive == study::FirmwareKind::sensorless;
   EXPECT_EQ(outcome->fault.has_value(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file and a scenario with several mistakes of several kinds: one run reports all mistakes, and no
-// consequence of another mistake.
+// A motor file and a scenario have several mistakes of several kinds. One run reports all mistakes, but does
+// not report a consequence of another mistake.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 class SlipsAtOnce : public ScenarioFolder {
  protected:
-  /// The messages on a motor file.
+  /// The messages about a motor file.
   std::vector<std::string> told(const std::string& text) {
     write("m.toml", text);
     const base::Result<design::Sheet> sheet = files::read_sheet((folder_ / "m.toml").string());
@@ -44,12 +44,12 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
       HasSubstr(":11:15: cogging_mNm = 2 values needs one for each of the 1 cogging_orders; "),
   };
   EXPECT_THAT(told(sheet), ::testing::ElementsAreArray(all));
-  // A consequence is not reported: with the misspelt key corrected, both axes are given.
+  // A consequence is not reported: after the misspelt key is corrected, both axes are given.
   EXPECT_THAT(told("name = \"m\"\nd_axis_inductance_mH = 1\nq_axis_inductence_mH = 2\n"),
               ElementsAre(HasSubstr("q_axis_inductence_mH is not a key here; did you mean")));
 }
 
-/// The mistakes of a scenario are reported together with those of its motor file and with every mistake in
+/// The mistakes of a scenario are reported together with the mistakes of its motor file and of
 /// [motor_override].
 TEST_F(SlipsAtOnce, AScenarioTellsItsOwnSlipsBesideItsMotors) {
   write("bad.toml", "name = \"m\"\npolar = 3\nresistance_ohm = 1.03\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts that name other texts, without any file, as in a page in a browser.
+// Texts name other texts, although there is no file, as on a page in a browser.
 #include "text/sources.hpp"
 
 #include <gmock/gmock.h>

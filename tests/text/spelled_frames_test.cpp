@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// If a spelling fixes the frame, its explanation has only this frame: templates and help pages must not offer
-// a choice that the reader refuses.
+// If a spelling determines the frame, its explanation states only this frame. Templates and help pages must
+// not offer a choice that the reader refuses.
 #include <gmock/gmock.h>
 
 #include "text/keys/key_catalog.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of units is compared with the definitions: 1 lb = 0.45359237 kg, 1 in = 25.4 mm, the standard
-// weight of 1 kg is 9.80665 N (BIPM, NIST SP 811), and a turn is 2 pi. The values here come from a separate
-// computation with forty decimal digits.
+// weight of 1 kg is 9.80665 N (BIPM, NIST SP 811), and a turn is 2 pi. A separate computation with forty
+// decimal digits gave the expected values.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Row {
 };
 
 constexpr Row defined[] = {
-    // trade units of torque: the weights of an ounce, a pound and a kilogram
+    // trade units of torque: an ounce, a pound or a kilogram as a weight
     {"1 oz-in", "N m", 7.06155181422604375e-3},
     {"1 ozf in", "N m", 7.06155181422604375e-3},
     {"1 lb-in", "N m", 0.1129848290276167},
@@ -131,7 +131,7 @@ TEST(UnitTable, ConvertsByTheDefinitions) {
   }
 }
 
-/// Hertz and erpm count electrical turns: the pole pairs convert them to turns of the shaft.
+/// Hertz and erpm count electrical turns. The pole pairs convert them to turns of the shaft.
 TEST(UnitTable, ElectricalTurnsConvertByThePolePairs) {
   constexpr Row with_two_pairs[] = {
       {"4.5 mV/Hz", "V/krpm", 0.15},  // 1000 rpm is 33.3 Hz
@@ -201,8 +201,7 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), ::testing::HasSubstr("no rms value"));
 }
 
-/// For a file that is one long unit, the reader reads each character only a few times, whatever the file's
-/// length.
+/// The file is one long unit. The reader reads each character only a few times, for any length of the file.
 TEST(UnitTable, AnEndlessUnitIsNone) {
   for (const char* part : {"µ", "A ", "10-9 ", "A/", "(", "1 oz-in", "rms", "."}) {
     std::string endless;
@@ -211,7 +210,7 @@ TEST(UnitTable, AnEndlessUnitIsNone) {
   }
 }
 
-/// Units by kind. Units of one kind must convert into each other; units of two kinds must not.
+/// Units by kind. Units of one kind must be convertible to each other. Units of two kinds must not.
 const std::map<std::string, std::vector<std::string>>& kinds() {
   static const std::map<std::string, std::vector<std::string>> all = {
       {"number", {"%"}},
@@ -281,7 +280,8 @@ TEST(UnitTable, UnitsOfAnotherKindAreRefused) {
   EXPECT_GT(tried, 4'000U);
 }
 
-/// The unit of a product of values is the product of the units; the unit of a quotient is the quotient.
+/// The unit of a product of two values is the product of their units. The unit of a quotient is the quotient
+/// of the units.
 TEST(UnitTable, FactorsAndDimensionsMultiply) {
   std::vector<std::string> all;
   for (const auto& [kind, units] : kinds())

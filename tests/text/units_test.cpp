@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number in quotes with its own unit yields the same double as the decimal in the key's unit.
+// A number in quotes with its own unit gives the same double as the decimal in the unit of the key.
 #include "text/keys/units.hpp"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ TEST(Units, PowersOfTenCostNoRounding) {
   EXPECT_EQ(value("85.5 percent", "percent"), 85.5);
   EXPECT_EQ(value("-.5 kV", "V"), -500.0);
   EXPECT_EQ(value("+5 A", "A"), 5.0);
-  // The text has more digits than a double; it is rounded once.
+  // The text has more digits than a double. It is rounded only once.
   EXPECT_EQ(value("0.123456789012345678901234567890 ms", "s"), 0.000123456789012345678901234567890);
 }
 
@@ -140,7 +140,8 @@ inertia_kg_m2 = "135 gcm2"
   EXPECT_EQ(s->load.inertia_kg_m2, 1.35e-5);
   EXPECT_EQ(s->supply.voltage_V, 12.0);
   EXPECT_EQ(s->pwm.period_s, 50e-6);
-  // A printed number is exact within its last digit: 980 mohm within 0.001 ohm, 1.4e-5 kg m2 within 1 g cm2.
+  // A printed number is exact within its last digit. 980 mohm is exact within 0.001 ohm, and 1.4e-5 kg m2
+  // within 1 g cm2.
   EXPECT_DOUBLE_EQ(*s->sheet.resistance_ohm->last_digit, 1e-3);
   EXPECT_DOUBLE_EQ(*s->sheet.inertia_gcm2->last_digit, 10.0);
 }
@@ -221,7 +222,7 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
       "x.toml:5:7: require.min = \"8 W\" has the unit W, and this key is a plain number; write the number alone, or in %\n");
   EXPECT_EQ(told("metric = \"max\"\nmax = \"2\"\n"),
             "x.toml:5:7: require.max = \"2\" lacks its unit; write 2, which is in A, or \"2 A\"\n");
-  // The unit is unknown here: only the wrong word is reported.
+  // The metric is misspelt, so the unit is not known. Only the misspelt word is reported.
   EXPECT_EQ(told("metric = \"maxi\"\nmax = \"20 ms\"\n").find("require.max"), std::string::npos);
   const std::string word =
       told("metric = \"max\"\nsignal = \"spede\"\nlevel = \"3 rpm\"\nmax = \"20 rpm\"\n");

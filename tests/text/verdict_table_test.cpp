@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terminal's table of a run has short numbers, but never shows a missed requirement as if it were met.
+// The table that a run prints on the terminal has short numbers. It never shows a missed requirement as if it
+// were met.
 #include "text/results/verdict_table.hpp"
 
 #include <gmock/gmock.h>
@@ -47,7 +48,7 @@ TEST(VerdictTable, OneLineEachWithItsNumbersInOnePrefix) {
             "  overshoot            0 A       0.37497 A          none wanted\n");
 }
 
-/// Compared figures have no requirement: the head of their column is "expected".
+/// Compared figures have no requirement, so the heading of their column is "expected".
 TEST(VerdictTable, AColumnOfComparisonsAloneIsWhatIsExpected) {
   study::Outcome outcome;
   outcome.comparisons = {{"overshoot", "A", 0.4, 0.5, "hand"}};
@@ -108,7 +109,8 @@ TEST(VerdictTable, RoundingIsNoDeviation) {
   EXPECT_EQ(deviation_text({"f", "A", -0.02, 0, ""}), "");
 }
 
-/// What a percentage cannot tell is told otherwise: a factor, a difference, or kelvin whatever the scale's zero.
+/// If a percentage has no meaning, the table shows a factor, a difference, or kelvin. Kelvin do not depend on
+/// the zero of the scale.
 TEST(VerdictTable, WhereAPercentageSaysNothing) {
   EXPECT_EQ(deviation_text({"f", "A", 15.6, 1, ""}), "x 15.6");
   EXPECT_EQ(deviation_text({"f", "A", 10.9, 1, ""}), "+990 %");
@@ -117,7 +119,8 @@ TEST(VerdictTable, WhereAPercentageSaysNothing) {
   EXPECT_EQ(deviation_text({"f", "degC", 319, 313, ""}), "+6 K");
 }
 
-/// In one column the printed numbers have the order of the values and one unit, and each says its value to its digits.
+/// In one column, the printed numbers have one unit and the order of their values. Each number is accurate to
+/// its last digit.
 TEST(SharedPrefix, KeepsTheOrderOfAColumn) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> decades(-7, 4), within(0, 3.9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to connect a motor, as text and as JSON: each wiring in its cell, the terms of a linear motor,
-// and the differences.
+// The 36 ways to connect a motor, as text and as JSON. The tests check the cell of each wiring, the terms of
+// a linear motor, and the differences.
 #include "text/results/wiring_text.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The cells of the row that starts with `begin`, in table number `table` of the tables with such a row.
+/// The cells of the row that starts with `begin`. Of the tables with such a row, the table with the number
+/// `table` is used.
 std::vector<std::string> row(const std::string& text, const std::string& begin, int table) {
   for (const std::string& line : lines_of(text)) {
     if (!line.starts_with("  " + begin + "  ") || table-- > 0) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The message on a wrong file: position, value, limit and cure, word for word.
+// The message about a wrong file, word for word: position, value, limit and remedy.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ class WrongInput : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
   }
-  /// The messages on a file, each without the folder's path.
+  /// The messages about a file, each without the path of the folder.
   std::vector<std::string> complaints(const std::string& text, const files::ReadOptions& options = {}) {
     const base::Result<study::Scenario> result = files::read_scenario(write("x.toml", text), options);
     if (result) return {};
@@ -219,7 +219,7 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
           "x.toml:2:17: Error while parsing key-value pair: expected a comment or whitespace, saw 'm'; end the line after the value; the key contains the unit"));
 }
 
-/// The parser once assumed that a name starts after a bracket.
+/// An earlier version of the parser assumed that a name starts after a bracket.
 TEST_F(WrongInput, ABracketWithoutANameIsToldAsSyntax) {
   for (const char* line : {"[# no name", "[", "[[", "[=", "a = {# no name", "a = {,"})
     EXPECT_THAT(complaints(head + line), ElementsAre(HasSubstr("x.toml:3:"))) << line;
@@ -270,7 +270,7 @@ TEST_F(WrongInput, SyntaxIsAnsweredWithWhatWasProbablyMeant) {
 }
 
 TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
-  // The reference is a duty here: used as a level in ampere, it would yield a meaningless number.
+  // The reference is a duty. As a level in ampere, it would give a meaningless number.
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of compile times in docs/contributing.md: rooms add up to the total, units stand in order, each is there."""
+"""The tables of compile times in docs/contributing.md: the rooms add up to the total, and all units are listed in
+order."""
 import pathlib
 import re
 import unittest

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/check_batches.py finds a name that hides a header's, and nothing else."""
+"""tools/check_batches.py finds each name that hides a name of a header. It reports nothing else."""
 import pathlib
 import subprocess
 import sys

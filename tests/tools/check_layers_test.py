@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants one breach of each kind in a small tree and expects the layer check to name its file, line and cure."""
+"""Each kind of layer error is put into a small tree. The check must name the file, the line and the cure."""
 import pathlib
 import subprocess
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/configure.sh looks again for a part that was missing, once after each change of what is installed."""
+"""tools/configure.sh searches a missing part again, once after each change of the installed packages."""
 import os
 import pathlib
 import shutil

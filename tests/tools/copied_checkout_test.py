@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""./run and ./test in a copy of a checkout, build folder and all, build the copy's sources: around the real scripts
-stands a project of one line."""
+"""./run and ./test in a copy of a checkout with its build folder build the sources of the copy. The test uses the
+real scripts and a project of one line."""
 import os
 import pathlib
 import shutil

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""install_test.py BUILD: what cmake --install brings from this build works by itself, wherever it lies, and needs no checkout.
+"""install_test.py BUILD: the files that cmake --install copies from this build work at any place, without the
+checkout.
 
-Nothing here is asked of the sources: the program holds no path of them, and all calls are made in another folder.
-"""
+The program must not contain a path of the sources, so all calls are made in another folder."""
 import gzip
 import os
 import pathlib
@@ -31,7 +31,7 @@ share/sixstep/sixstep_control.hpp""".splitlines()
 FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
            "faces/loop/core", "sixstep/control"]
 DRIVES = ["LEAN", "PRODUCT", "SENSORLESS", "FIELD", "SENSORLESS_FIELD"]
-# zsh calls the function after it reads its file at the first Tab.
+# At the first Tab zsh reads the file and calls its function.
 ZSH = """
 compadd() {
   while (( $# )); do case $1 in (-S|-d) shift 2;; (-a) print -l -- ${(P)2}; shift 2;; (*) shift;; esac; done
@@ -75,7 +75,7 @@ class Installed(unittest.TestCase):
         for name in FILES:
             self.assertTrue((self.prefix / name).is_file(), name)
         examples = ["faces/c/example"] if (self.prefix / "lib/libsixstep.so").exists() else []
-        for name in FOLDERS + examples:  # all of git's files there
+        for name in FOLDERS + examples:  # the files of git in these folders
             listed = subprocess.run(["git", "ls-files", name], cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
             for file in filter(None, listed):
                 if pathlib.Path(file).name not in ("CMakeLists.txt", ".clang-tidy"):
@@ -134,7 +134,8 @@ class Installed(unittest.TestCase):
         self.call("c++", "-std=c++20", "-fsyntax-only", f"-I{self.prefix / 'include'}", own / "six_step_again.cpp")
 
     def test_a_program_with_the_library(self):
-        """By pkg-config and by CMake, in C and in C++; the installed library is at none of the places that it was configured for."""
+        """A program uses the library through pkg-config and through CMake, in C and in C++. The library is installed
+        at another place than it was configured for."""
         if not (self.prefix / "lib/libsixstep.so").exists():
             self.skipTest("built without libsixstep")
         example = self.share / "faces/c/example/advance.c"
@@ -170,7 +171,7 @@ class Installed(unittest.TestCase):
                 self.assertTrue(not file.name or file.is_relative_to(self.here) or self.is_inside(file), file)
 
     def test_a_core_is_compiled_for_from_what_was_installed(self):
-        """Compilers that are none note what they are given."""
+        """Replacement compilers only record their arguments."""
         (self.here / "bin").mkdir()
         for name in ("arm-none-eabi-g++", "qemu-system-arm", "clang++-19", "avr-gcc"):
             program = self.here / "bin" / name

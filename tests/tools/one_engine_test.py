@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""one_engine_test.py BUILD: no object compiled for size has the engine's templates, which the linker would take in place of the fast ones.
+"""one_engine_test.py BUILD: no object that is compiled for size has the engine's templates. Otherwise the linker
+could use them in place of the fast templates.
 
-Of a template that several objects instantiate, the linker keeps the copy that it meets first. An eighth more instructions for each run
-of the command line came from three sources of sixstep/analysis that were compiled with -Os.
-"""
+If several objects instantiate a template, the linker keeps the first copy. Once three sources of sixstep/analysis
+were compiled with -Os, and each run of the command line had an eighth more instructions."""
 import json
 import pathlib
 import re
@@ -13,7 +13,7 @@ import sys
 import unittest
 
 BUILD = pathlib.Path(sys.argv.pop())
-# Code that runs at least once a segment. A plant's set-up, once before a run, may be anywhere.
+# Code that runs at least once per segment. The set-up of a plant runs once before a run, and may be anywhere.
 ENGINE = re.compile(r"sixstep::(sim::run<|rig::Rig<|plant::(general::)?(Plant<\w+>::(?!Plant\()|mode_guards|expand|detail::copper_energy)|series::(first_root|detail::))")
 
 
@@ -26,7 +26,7 @@ def objects(for_size):
 
 
 def engine_of(objects_):
-    """{object: its engine's functions}, weak ones, for only those can be taken for each other's."""
+    """{object: its functions of the engine}. Only weak functions count, because only these can replace each other."""
     found = {}
     for path in objects_:
         for line in subprocess.run(["nm", "-C", "--defined-only", path], check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines():
@@ -41,7 +41,7 @@ class OneEngine(unittest.TestCase):
         self.assertEqual(engine_of(objects(for_size=True)), {})
 
     def test_the_others_do(self):
-        """Else the pattern finds nothing."""
+        """The objects compiled for speed have these functions. Otherwise the pattern would find nothing."""
         fast = engine_of(objects(for_size=False))
         self.assertIn("rig_lean.cpp.o", fast)
         self.assertTrue(any("sim::run<" in name for name in fast["rig_lean.cpp.o"]))

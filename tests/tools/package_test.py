@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""package_test.py BUILD: the Debian packages that cpack makes of a build, and that lintian says nothing of them."""
+"""package_test.py BUILD: cpack makes the Debian packages of a build, and lintian reports nothing about them."""
 import pathlib
 import re
 import shutil

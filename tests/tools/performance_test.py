@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of tools/performance.py: right figures from a planted report, and a page of another shape is noticed."""
+"""The tables of tools/performance.py: the figures of a made-up report are right, and a page with another form is
+detected."""
 import pathlib
 import sys
 import unittest

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each pitfall of docs/architecture.md has tests named after it, in the files that its row names and in no others."""
+"""Each pitfall of docs/architecture.md has tests with its name, in exactly those files that its row lists."""
 import pathlib
 import re
 import unittest

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""release_test.py PROGRAM: the version stands in CMakeLists.txt, and whatever else states one agrees; the changelog's newest entry is
-that version; CITATION.cff has what its format asks for."""
+"""release_test.py PROGRAM: every stated version is equal to the version in CMakeLists.txt. The newest entry of the
+changelog has this version. CITATION.cff has all necessary keys."""
 import datetime
 import email.utils
 import json
@@ -26,7 +26,7 @@ def said(*words):
 
 
 def released():
-    """What stands in the changelog: (version, date), the newest first."""
+    """(version, date) of each release in the changelog, the newest first."""
     return [(found[1], found[2]) for found in map(re.compile(r"\[(\d+\.\d+\.\d+)\] - (\d{4}-\d\d-\d\d)").fullmatch, HEADINGS) if found]
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""single_header_test.py COMPILER: the single header is its parts, token by token, and compiles alone for a chip."""
+"""single_header_test.py COMPILER: the single header has the same tokens as its parts, and compiles alone for a chip."""
 import pathlib
 import re
 import subprocess
@@ -35,7 +35,7 @@ class SingleHeader(unittest.TestCase):
         return done.stdout
 
     def tokens(self, name, source, include):
-        """Preprocessed lines of our own, in no order of headers: standard ones may move to the front."""
+        """The preprocessed lines of this repository's headers. Standard headers may be at other places."""
         text = self.compile(name, source, "-E", include=include)
         ours, from_us = [], False
         for line in text.splitlines():

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/site.sh makes one site of all pages: each is there, each is found by its own words, and the first page lists them."""
+"""tools/site.sh makes one site of all pages. It has every page, the search finds each page by its words, and the
+first page lists all of them."""
 import json
 import pathlib
 import re

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each name of tests/slow.txt is a test that this build has: a test that was renamed would else slip back into ./test unseen."""
+"""Each name in tests/slow.txt is a test of this build. Otherwise a renamed test would run in ./test again, and no one
+would notice."""
 import pathlib
 import re
 import subprocess
@@ -20,7 +21,7 @@ class SlowTests(unittest.TestCase):
         listed = subprocess.run(["ctest", "--test-dir", BUILD, "-N"], check=True, text=True, stdout=subprocess.PIPE).stdout
         there = set(re.findall(r"Test +#\d+: (.+)", listed))
         self.assertGreater(len(there), 1000)
-        # without a browser its tests are left out
+        # without a browser, the tests that need it are not registered
         self.assertEqual([name for name in names if name not in there and not name.startswith("browser.")], [])
 
 

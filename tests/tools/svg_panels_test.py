@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The manual's drawings hide no peak and tell no wrong scale."""
+"""The manual's drawings show all peaks, and their scales are right."""
 import pathlib
 import re
 import sys

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurement starts at the end of the scenario: in the mode that the events have set, with the drive
-// settled.
+// The measurement starts at the end of the scenario. The drive has settled by then, in the mode that the last
+// event has set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using analysis::BodeStudy;
 
-/// The largest |L/L' - 1|, where L and L' are the loops of two measurements, over the points at which the
-/// gain of `one` is 0.3 to 5.
+/// The largest |L/L' - 1| over the points at which the gain of `one` is 0.3 to 5. L and L' are the measured
+/// loops of `one` and `other`.
 double apart(const BodeStudy& one, const BodeStudy& other) {
   double worst = 0.0;
   EXPECT_EQ(one.points.size(), other.points.size());
@@ -44,7 +44,7 @@ study::At change(double time_s, double reference) {
   return at;
 }
 
-/// The drive first controls the current, then the speed. The measured loop and the designed loop are the
+/// The drive first controls the current, then the speed. The measurement and the design both refer to the
 /// speed loop.
 TEST(BodeAtTheEnd, TheLoopIsThatOfTheLastMode) {
   const study::Scenario from_the_start = both_ways();
@@ -82,8 +82,7 @@ std::string problem_of(const study::Scenario& s) {
   return b ? "measured" : b.problems()[0].where + ": " + b.problems()[0].limit;
 }
 
-/// A slew rate or a ramp that an event sets hides the loop in the same way as one that is set from the start.
-/// Both are refused.
+/// A slew rate or a ramp hides the loop, whether it is set from the start or by an event. Both are refused.
 TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   study::Scenario slewed = both_ways();
   slewed.at.push_back(change(0.01, slewed.reference.value));
@@ -108,8 +107,8 @@ TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   EXPECT_EQ(problem_of(ramp), "measured");
 }
 
-/// The evaluation skips the first period of the multisine, which is thirty periods of the crossover
-/// frequency. The response to a step decays within this period.
+/// The evaluation skips the first period of the multisine. This period is as long as thirty periods of the
+/// crossover frequency, and the response to a step decays within it.
 TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   study::Scenario rested = both_ways();
   rested.at.push_back(change(0.02, 120.0));
@@ -121,8 +120,8 @@ TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   EXPECT_LT(apart(*one, *other), 0.02);
 }
 
-/// At the end of a ramp the speed lags less than after a step, so the measured loop is equal to that of a
-/// settled drive. A ramp longer than the run is refused, and the duration that the message proposes is
+/// At the end of a ramp, the speed lags less than after a step, so the measured loop is equal to the loop of
+/// a settled drive. A ramp that is longer than the run is refused. The duration that the message proposes is
 /// accepted.
 TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
   study::Scenario rested = both_ways();
@@ -151,9 +150,9 @@ TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
   }
 }
 
-/// At 0.195 N m, 2.5 times the nominal torque, J = 1e-2 kg m^2 needs 20 s to reach 400 rad/s, so the speed
-/// still increases. A straight ramp has the same lines in every period: the coherence is 1 although the
-/// measurement contains only the ramp.
+/// At 0.195 N m, 2.5 times the nominal torque, the inertia of 1e-2 kg m^2 needs 20 s to reach 400 rad/s. The
+/// speed therefore still increases during the measurement. A straight ramp has the same spectrum in every
+/// period: the coherence is 1, although the measurement contains only the ramp.
 TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
   study::Scenario s = both_ways();
   s.load.inertia_kg_m2 = 1e-2;

@@ -39,22 +39,24 @@ double off_by(const BodeStudy& b, double least, double most, double factor = 1.0
   return worst;
 }
 
-/// Effect of a slightly longer pulse on the current at the next sample, relative to the effect of the same
-/// voltage spread over the period. x = R T/L. The pulse ends at d T, so its effect decays for (1 - d) T. The
-/// effect of the spread voltage decays for half a period on average.
+/// Effect of a longer pulse on the current at the next sample, divided by the effect of the same voltage
+/// spread over the period. The ratio x is R T/L (resistance R, period T, inductance L). The pulse ends at d T
+/// (duty d), so its effect decays for (1 - d) T. The effect of the spread voltage decays for half a period on
+/// average.
 double pulse_over_held(double R_ohm, double L_H, double period_s, double duty) {
   const double x = R_ohm * period_s / L_H;
   return std::exp(-(1 - duty) * x) * x / -std::expm1(-x);
 }
 
-/// The duty for 5 A through the locked rotor. The mean voltage is d U, or (2 d - 1) U if both switches chop.
+/// The duty d at which 5 A flow through the locked rotor. The mean voltage is d U (bus voltage U), or (2 d -
+/// 1) U if both switches chop.
 double steady_duty(control::Chopping chopping) {
   const double part = 5 * 1.03 / 24;
   return chopping == control::Chopping::hard ? (1 + part) / 2 : part;
 }
 
-/// With a locked rotor, the plant is the winding and the PWM: L is the designed loop times the factor of the
-/// pulse's position in the period.
+/// With a locked rotor, the plant consists of the winding and the PWM. The measured loop is the designed loop
+/// times the factor of the pulse's position in the period.
 void expect_the_designed(study::Scenario s) {
   SCOPED_TRACE(static_cast<int>(s.pwm.chopping));
   const auto b = analysis::study_bode(s);
@@ -86,9 +88,10 @@ TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
     }
 }
 
-/// Samples are in the middle of centred pulses: half of a duty's change acts before the next sample, half
-/// after it. The halves are 1/2 (1 +- x/4) and 1/2 (1 -+ x/4) of the effect of a spread voltage, with x = R
-/// T/L = 0.054. L differs by 1.4 % in the imaginary part.
+/// The sample is in the middle of a centred pulse. After a change of the duty, one half of the change acts
+/// before the next sample, the other half after it. With x = R T/L = 0.054, one half has (1 + x/4)/2 of the
+/// effect of a spread voltage, the other half (1 - x/4)/2. The measured loop therefore differs by 1.4 % in
+/// the imaginary part.
 TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   for (const int delay : {0, 1}) {
     study::Scenario s = steady_current(true);
@@ -110,8 +113,8 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   }
 }
 
-/// The measured current selects the chopping. Above the thresholds of smooth chopping, the chopping is soft,
-/// with the gains for one switch, for any pwm.chopping.
+/// Smooth chopping selects soft or hard chopping by the measured current. Above its thresholds, the chopping
+/// is soft with the gains for one switch, for any value of pwm.chopping.
 TEST(Bode, SmoothChoppingIsTheDesignedToo) {
   study::Scenario s = steady_current(true);
   s.control.smooth_chopping.on = true;
@@ -119,8 +122,8 @@ TEST(Bode, SmoothChoppingIsTheDesignedToo) {
 }
 
 /// The closed loop is z^-1, or z^-2 with a delay. The pulse's position multiplies the voltage by f =
-/// pulse_over_held, and the prediction corrects only slow errors. L is therefore between the designed loop
-/// and f times the designed loop.
+/// pulse_over_held(), and the prediction corrects only slow errors. The measured loop is therefore between
+/// the designed loop and f times the designed loop.
 TEST(Bode, ADeadbeatLoopIsADelay) {
   for (const int delay : {0, 1, 2}) {
     study::Scenario s = steady_current(true);
@@ -140,13 +143,13 @@ TEST(Bode, ADeadbeatLoopIsADelay) {
 }
 
 /// With both switches chopped, the current may reverse, so the speed loop is linear apart from commutation.
-/// The torque is proportional to the current's mean, not to its sample: near the crossover, the gain differs
-/// by 1 to 2 % from the linear loop.
+/// The torque is proportional to the mean current, but the controller measures a sample of the current. Near
+/// the crossover, the gain therefore differs by 1 to 2 % from the linear loop.
 TEST(Bode, SpeedLoopIsTheDesigned) {
   for (const auto chopping : {control::Chopping::complementary, control::Chopping::hard}) {
     study::Scenario s = cascade(0.1);
     s.pwm.chopping = chopping;
-    // Hard chopping prevents a reverse current; a load keeps the current continuous.
+    // Hard chopping prevents a negative current, so a load is needed to keep the current continuous.
     if (chopping == control::Chopping::hard) s.load.torque_Nm = 0.1;
     const auto b = analysis::study_bode(s);
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
@@ -157,8 +160,9 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   }
 }
 
-/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p). Without the current's delay, L = (1 - p)/(z -
-/// 1) has its crossover at 2 asin((1 - p)/2)/T_s. With the delay, L is equal to the linear loop.
+/// Each speed law gives the closed loop of its design rule, T = (1 - p)/(z - p) with the pole p. Without the
+/// delay of the current loop, the open loop is L = (1 - p)/(z - 1). Its crossover is 2 asin((1 - p)/2)/T_s,
+/// with the sample period T_s. With this delay, L is equal to the linear loop.
 TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
   for (const study::SpeedLaw law : {study::SpeedLaw::state_feedback, study::SpeedLaw::disturbance_rejection,
                                     study::SpeedLaw::sliding_mode, study::SpeedLaw::pi}) {
@@ -181,9 +185,9 @@ TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
   }
 }
 
-/// A sine machine with field-oriented control has the bandwidth of its rule, T(z) = z_1 (1 - z_1)/(z^2 - z +
-/// z_1 (1 - z_1)). The pulses of the three legs are in the middle of the period, so their effect is equal to
-/// that of a spread voltage.
+/// Field-oriented control of a sine machine gives the closed loop of its design rule, T(z) = z_1 (1 -
+/// z_1)/(z^2 - z + z_1 (1 - z_1)) with the pole z_1. The pulses of the three legs are in the middle of the
+/// period, so their effect is equal to the effect of a spread voltage.
 TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   study::Scenario s = maxon_scenario(control::Mode::current, 4.0);
   s.sheet.back_emf = design::BackEmfShape::sine;

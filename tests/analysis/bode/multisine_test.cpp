@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A multisine has power only at its lines, and the measured response of a known system is equal to the
-// system's response.
+// A multisine has power only at its own frequencies. The response that it measures is equal to the known
+// response of a system.
 #include "sixstep/analysis/bode/multisine.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ TEST(Multisine, PeaksAtItsAmplitudeAndLowerThanSinesInStep) {
   EXPECT_LT(peak / std::sqrt(square), 4.0);
 }
 
-/// Output of y[n] = a y[n-1] + b r[n-1] after 20 periods of the signal, when the start has decayed.
+/// Output of y[n] = a y[n-1] + b r[n-1] after 20 periods of the signal, when the initial transient has
+/// decayed.
 std::vector<double> first_order(const Multisine& signal, double a, double b, std::size_t periods) {
   const std::vector<double> r = samples_of(signal);
   std::vector<double> out;
@@ -81,7 +82,8 @@ TEST(Multisine, AnswerIsTheSystems) {
   }
 }
 
-/// The square of the input has power only at even lines. Noise makes the periods differ.
+/// The square of the input has power only at even lines of the spectrum. Noise differs from period to period
+/// and lowers the coherence.
 TEST(Multisine, SquaresFallBesideAndNoiseCostsCoherence) {
   const Multisine signal{512, analysis::odd_lines(100, 16), 1.0};
   const std::vector<double> r = samples_of(signal);

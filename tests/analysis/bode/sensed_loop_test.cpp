@@ -46,9 +46,9 @@ BodeStudy study_of(const study::Scenario& s) {
   return b ? *b : BodeStudy{};
 }
 
-/// The true speed responds with T, so the loop with the sensor H is L H = T H/(1 - T H). For a speed from k
-/// edges, H is a delay of (k + 1)/2 sectors. The measured loop is equal to the designed loop up to the
-/// frequency that the edges resolve.
+/// The designed response of the true speed is T. With the transfer function H of the sensor, the loop is L H
+/// = T H/(1 - T H). For a speed from k edges, H is a delay of (k + 1)/2 sectors. The measured loop is equal
+/// to the designed loop up to the frequency that the edges resolve.
 TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   for (const auto rotor :
        {study::RotorSensing::ideal, study::RotorSensing::hall, study::RotorSensing::encoder}) {
@@ -68,8 +68,8 @@ TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   }
 }
 
-/// The delay of a speed from one edge interval is (1 + 1)/2 = 1 sector. At the crossover, this delay reduces
-/// the phase compared with the true speed.
+/// The delay of a speed from one edge interval is (1 + 1)/2 = 1 sector. At the crossover, the phase is lower
+/// by this delay than with the true speed.
 TEST(SensedLoop, TheSensorCostsItsDelay) {
   const BodeStudy ideal = study_of(speed_by(study::RotorSensing::ideal)),
                   hall = study_of(speed_by(study::RotorSensing::hall));
@@ -90,8 +90,8 @@ double between(const std::vector<LoopPoint>& points, double w_rad_s) {
   return 0.0;
 }
 
-/// A position from Hall probes has steps, so the phase of the lowest line is noise. Whole turns of this phase
-/// must not propagate to the other lines.
+/// A position from Hall probes has steps, so the phase at the lowest frequency is noise. A whole turn in this
+/// phase must not be added to the phases at the other frequencies.
 TEST(SensedLoop, PhasesStandWithinATurnAndTheMarginIsOfThem) {
   for (const study::Scenario& s :
        {position_by(study::RotorSensing::hall), speed_by(study::RotorSensing::hall)}) {
@@ -119,7 +119,7 @@ TEST(SensedLoop, PhasesStandWithinATurnAndTheMarginIsOfThem) {
   }
 }
 
-/// Whole turns of phase do not change a margin.
+/// Adding whole turns to all phases does not change a margin.
 TEST(SensedLoop, MarginsAreTheSameATurnFurther) {
   std::vector<LoopPoint> points;
   for (const double w : {10.0, 20.0, 40.0, 80.0})

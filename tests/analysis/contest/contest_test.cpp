@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The course on which controllers are compared, and the calculation of the figures.
+// Tests the course on which controllers are compared, and the figures that are computed from its runs.
 #include "sixstep/analysis/contest/contest.hpp"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ TEST(Contest, WindowsLieInTheirOrderAndHoldTenElectricalTurns) {
     const double turn_rad = 2 * std::numbers::pi / bench->design.motor.machine.pole_pairs;
     EXPECT_GE(c.calm_s * c.high_rad_s, 10 * turn_rad);
     EXPECT_GE(c.slow_calm_s * c.slow_rad_s, 10 * turn_rad);
-    // The high speed is at most 0.6 times the speed at which the bus just drives the full load, K_t w + 2 R i
-    // = U.
+    // The bus voltage U limits the speed w under full load: K_t w + 2 R i = U, with the nominal current i.
+    // The high speed is at most 0.6 times this limit.
     const design::MotorModel& m = bench->design.motor;
     EXPECT_LE(
         c.high_rad_s,
@@ -73,7 +73,8 @@ TEST(Contest, ABoardIsTakenAndItsSwitchesCostWhatIsUsualWhereItNamesNothing) {
 
 TEST(Contest, FiguresAreSumsOfGauges) {
   GaugeValues gauges{};
-  for (std::size_t n = 0; n < gauges.size(); ++n) gauges[n] = std::pow(2.0, double(n));  // all sums differ
+  // so that all sums differ
+  for (std::size_t n = 0; n < gauges.size(); ++n) gauges[n] = std::pow(2.0, double(n));
   const auto gauge = [&](Gauge g) { return gauges[static_cast<std::size_t>(g)]; };
   const ContestValues values = contest_values_of(gauges);
   EXPECT_EQ(values[loss_figure], gauge(Gauge::copper) + gauge(Gauge::conduction) + gauge(Gauge::switching));
@@ -88,7 +89,8 @@ TEST(Contest, FiguresAreSumsOfGauges) {
   EXPECT_EQ(static_cast<std::size_t>(Gauge::none), std::size(contest_gauges));
 }
 
-/// A contest with invented results: two controllers that spread three values, as in contest_entries().
+/// A contest with invented results. Two controllers run with a spread of three values, as in
+/// contest_entries().
 struct MadeUp {
   Contest contest;
 
@@ -120,7 +122,7 @@ struct MadeUp {
   }
 };
 
-/// In a row, the values of the spread come first, and each figure keeps its name.
+/// A row begins with the values of the spread. Each figure is still found by its name.
 TEST(Contest, AFigureIsFoundByItsNameWhateverStandsBeforeIt) {
   MadeUp made;
   EXPECT_EQ(made.contest.columns->strayed.size(), 3U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of existing machines are accepted. Values that no machine can have are refused with the likely
-// cause: a wrong unit of time or voltage, wrong pole pairs or a wrong probe factor.
+// Recordings of existing machines are accepted. Values that no machine can have are refused. The message
+// names the likely cause: a wrong unit of time or voltage, wrong pole pairs or a wrong probe factor.
 #include "sixstep/analysis/identification/built_machines.hpp"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ std::string measured(const EmfTruth& t, std::optional<int> pole_pairs) {
   return found ? "" : told(found.problems());
 }
 
-/// K_e in V s per rad between two lines (peak), speed in rpm, pole pairs.
+/// line_V_s is the peak K_e between two lines, in V s per rad of the shaft.
 struct Machine {
   const char* name;
   double line_V_s, rpm;
@@ -67,7 +67,7 @@ TEST(BuiltMachines, WhatIsBuiltIsMeasured) {
 }
 
 TEST(BuiltMachines, WhatIsBuiltByNobodyIsRefused) {
-  // 5e-6 V per 1000 rpm, and 1e5 rad/s of the shaft.
+  // A back-EMF constant of 5e-6 V per 1000 rpm, and a shaft speed of 1e5 rad/s.
   const double krpm = 1000.0 * base::pi / 30.0, w = 1e5;
   EXPECT_THAT(
       measured(at(w / base::turn_rad, 5e-6 / krpm), 1),
@@ -108,7 +108,7 @@ TEST(BuiltMachines, TheBoundsAreThoseThatAreStated) {
   }
 }
 
-/// The named cause is the true cause: with the right unit, the same recording is accepted.
+/// The message names the true cause: with the right unit, the same recording is accepted.
 TEST(BuiltMachines, ATimeInTheWrongUnitIsNamedAndItsCureHolds) {
   const EmfTruth right = at(50.0, 2e-3);
   EXPECT_EQ(measured(right, 1), "");
@@ -124,7 +124,8 @@ TEST(BuiltMachines, ATimeInTheWrongUnitIsNamedAndItsCureHolds) {
   }
 }
 
-/// Logs of Hall lines have the same limits: the edges determine the speed, voltages the constant.
+/// The same limits apply to logs of Hall lines. The edges determine the speed, the voltages determine the
+/// constant.
 TEST(BuiltMachines, ALogOfHallLinesInAWrongUnitIsRefused) {
   HallTruth truth = drilled();
   EXPECT_TRUE(analysis::identify(drawn_log(truth).log));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts how often an interval contains the true value.
+// Counts how often intervals contain the true value.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 namespace sixstep::testing {
 
-/// Number of drawn cases: `usual`, or the count in SIXSTEP_BENCH_LOGS.
+/// Number of random cases: the value of the environment variable SIXSTEP_BENCH_LOGS, else `usual`.
 inline int drawn_count(int usual) {
   const char* const wanted = std::getenv("SIXSTEP_BENCH_LOGS");
   return wanted ? std::atoi(wanted) : usual;
@@ -29,9 +29,9 @@ class HeldOften {
   }
   double part() const { return held_ / all_; }
 
-  /// Expects that 95 % of the intervals contain the truth, within the accuracy of the count: 93 to 97 % for a
-  /// thousand cases or more, else four standard deviations of the binomial distribution. `cases`: number of
-  /// independent cases, if one case gives several intervals.
+  /// Expects that 95 % of the intervals contain the true value. Tolerance: 93 to 97 % for a thousand cases or
+  /// more, else four standard deviations of the binomial distribution. `cases` is the number of independent
+  /// cases, if one case gives several intervals.
   void expect_95(double cases = 0.0) const {
     const double n = cases > 0.0 ? cases : all_;
     const double width = width_of(n);
@@ -39,7 +39,7 @@ class HeldOften {
                 100.0 * part(), missed_.c_str());
     EXPECT_NEAR(part(), 0.95, width) << what_;
   }
-  /// Expects at least 95 %, within the same accuracy.
+  /// Expects that at least 95 % of the intervals contain the true value, with the same tolerance.
   void expect_at_least_95(double cases = 0.0) const {
     const double n = cases > 0.0 ? cases : all_;
     const double width = width_of(n);
@@ -48,8 +48,8 @@ class HeldOften {
   }
 
  private:
-  /// Width of the tolerance: 2.9 standard deviations of a binomial count, but at least 2 %, the narrowest
-  /// stated accuracy; four standard deviations in a short test.
+  /// Tolerance of the counted part. Full test: 2.9 standard deviations of a binomial count, but at least 2 %,
+  /// the narrowest stated accuracy. Short test: four standard deviations.
   static double width_of(double n) {
     const double deviation = std::sqrt(0.05 * 0.95 / n);
     return in_full() ? std::fmax(2.9 * deviation, 0.02) : 4.0 * deviation;

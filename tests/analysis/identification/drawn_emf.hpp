@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random recordings of open-circuit voltages, as an oscilloscope makes them, with their true values. The code
-// follows docs/reference/notation.md and shares nothing with the tested code.
+// follows docs/reference/notation.md and uses no function of the tested code.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -39,7 +39,8 @@ inline double phase_shape(const EmfTruth& t, double theta) {
   return sum;
 }
 
-/// Sets the Fourier series of a trapezoid with this flat top, so that the true value of each order is known.
+/// Sets the Fourier series of a trapezoid with a flat top of `flat_deg`, so that the true value of each order
+/// is known.
 inline void make_trapezoid(EmfTruth& t, double flat_deg) {
   const double ramp = (180.0 - flat_deg) / 2.0 * std::numbers::pi / 180.0;  // from zero to the top
   const double first = std::sin(ramp);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random logs of a motor turned by hand or by a drill, with their true values. The code shares with the
-// tested code only the conventions of docs/reference/notation.md. Its motion, probes, wires and noise are
-// separate, and the shaft follows a torque, while identification assumes a smooth motion.
+// tested code only the conventions of docs/reference/notation.md. The models of motion, probes, wires and
+// noise are independent of the tested code: a torque moves the shaft, while identification assumes a smooth
+// motion.
 #pragma once
 #include <array>
 #include <cmath>
@@ -29,8 +30,8 @@ struct HallTruth {
   int inverted = 0;  ///< each set bit inverts a line of the code
   bool spaced_60 = false;
   bool backward = false;       ///< the hand turns the shaft in the negative direction
-  double turns = 20.0;         ///< electrical
-  double usual_turns_s = 5.0;  ///< electrical
+  double turns = 20.0;         ///< electrical turns
+  double usual_turns_s = 5.0;  ///< electrical turns per second
   double glitches_s = 0.0;     ///< number per second of single rows with one wrong line
   double bursts_s = 0.0;       ///< number per second of intervals in which a loose contact makes one line
                                ///< wrong in every other row
@@ -44,8 +45,8 @@ struct HallTruth {
   std::array<double, 3> channel_offset_V{};
 };
 
-/// The code of probes 1, 2, 3 (bits 2, 1, 0) in a sector, as in docs/reference/notation.md; for 60 degrees as
-/// in hall.hpp.
+/// The code of probes 1, 2, 3 (bits 2, 1, 0) in a sector. For probes 120 degrees apart, the codes are from
+/// docs/reference/notation.md; for 60 degrees, they are from hall.hpp.
 inline int probe_code(int sector, bool spaced_60) {
   constexpr int apart_120[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   constexpr int apart_60[] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};
@@ -114,7 +115,7 @@ class Shaft {
         rate = 6.0;
         break;
     }
-    // The torque itself changes smoothly, like a spring with a mass.
+    // The torque follows its demand with a lag, so it changes smoothly.
     force_ += dt * 25.0 * (rate * (wanted - speed_) - force_);
     speed_ += dt * force_;
   }
@@ -127,8 +128,8 @@ class Shaft {
   bool pushing_ = false;
 };
 
-/// Switching of the probes. Each edge has its own angle, shifted by half the hysteresis and by a new jitter
-/// each time. The line changes after a delay.
+/// Switching of the probes. Each edge has an angle error, half the hysteresis, and a jitter that is drawn
+/// anew at each switching. The line changes after a delay.
 class Probes {
  public:
   Probes(const HallTruth& t, Draw& draw, double angle_deg) : t_(t), draw_(draw) {
@@ -138,7 +139,7 @@ class Probes {
     draw_again();
   }
   int sector() const { return sector_; }
-  /// Times of the changes of sector within a step from one angle to the next.
+  /// Times at which the sector changes while the rotor moves from one angle to the next.
   void move(double from_s, double from_deg, double to_s, double to_deg,
             std::vector<std::pair<double, int>>& changes) {
     for (;;) {

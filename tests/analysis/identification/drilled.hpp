@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A log of Hall lines from which the motor is identified without doubt.
+// A log of Hall lines without disturbances, which identify() accepts.
 #pragma once
 #include "tests/analysis/identification/drawn_hall_log.hpp"
 
 namespace sixstep::testing {
 
-/// Six electrical turns with a drill, forty rows per sector.
+/// A drill turns the motor by six electrical turns. The log has forty rows per sector.
 inline HallTruth drilled() {
   HallTruth t;
   t.turning = Turning::drill;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peaks clipped by the converter. For a sine of known peak, the recording is refused, or the bounds contain
-// the true peak.
+// The converter clips the peaks of a sine whose true peak is known. The recording is refused, or the bounds
+// contain the true peak.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr double frequency_Hz = 50.0, peak_V = 3.0;
 constexpr double true_peak = peak_V / (2 * std::numbers::pi * frequency_Hz);
 
 struct Cut {
-  double part = 0.0;  ///< lost part of the peak
+  double part = 0.0;  ///< part of the peak that is cut off
   double step_V = 0.0, noise_V = 0.0;
   bool both = true;  ///< true: both peaks are clipped; false: only the upper peak
 };
@@ -41,8 +41,8 @@ analysis::EmfRequest recorded(const Cut& cut) {
   return out;
 }
 
-/// A converter with 12 or 8 bits over 8 V, and noise of up to half a step: a peak that is clipped by three
-/// steps or more is always refused.
+/// The converter has 12 or 8 bits over 8 V, and the noise is up to half a step. A peak that is clipped by
+/// three steps or more is always refused.
 TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256})
     for (const double noise : {0.0, 0.3, 0.5})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of measure_emf() for random recordings, and for recordings with a known result.
+// measure_emf() is tested with random recordings, and with recordings whose result is known.
 #include "sixstep/analysis/identification/emf/emf.hpp"
 
 #include <gmock/gmock.h>
@@ -58,11 +58,12 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
     EXPECT_EQ(found->backward, t.backward) << "seed " << t.seed;
     lag.count(found->channels[1].phase_deg.holds(t.backward ? 240.0 : 120.0), t.seed);
   }
-  // Four of 4400 recordings are refused: their round tops have no noise that would prove them unclipped.
+  // Four of 4400 recordings are refused as clipped. Their tops are round, and without noise nothing proves
+  // that they are not clipped.
   EXPECT_LE(taken_for_clipped, 1 + count / 300);
   for (const HeldOften* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
-  // The interval of an absent harmonic starts at 0, so it can miss on one side only. Hum is equal in both
-  // channels and cancels in their phase.
+  // The interval of an absent harmonic starts at 0, so it can miss the true value on one side only. Hum is
+  // equal in both channels, so it cancels in the phase between them.
   none.expect_at_least_95(count);
   lag.expect_at_least_95();
 }
@@ -84,14 +85,15 @@ TEST(Emf, ATrapezoidBetweenLinesIsFoundAgain) {
     EXPECT_NEAR(h.in_phase, t.cos_part[order], 2e-6) << h.order;
     EXPECT_NEAR(h.across, 0.0, 2e-6) << h.order;
   }
-  // The line voltage of a 120 degree trapezoid reaches 2 K_e at one angle only. Line voltages do not contain
-  // harmonics that are equal in all phases. These harmonics do not contribute to the torque per ampere.
+  // The line voltage of a 120 degree trapezoid reaches 2 K_e at one angle only. Harmonics that are equal in
+  // all phases are absent from line voltages and do not contribute to the torque per ampere.
   const design::ShapeFactors ideal = design::shape_factors(design::BackEmfShape::trapezoid, 120.0);
   const double K_t = found->shape_sector_mean * found->constants.phase_peak.value;
   EXPECT_NEAR(K_t / found->constants.phase_fundamental.value, ideal.sector_mean / ideal.fundamental, 2e-3);
 }
 
-/// With a probe left at x10 or a heading in mV, the mean of the channels is a constant that no motor has.
+/// If a probe is set to x10, or a heading says mV instead of V, the mean of the channels is a constant that
+/// no motor has.
 TEST(Emf, ChannelsThatContradictEachOtherAreRefused) {
   for (const double factor : {0.001, 0.1, 0.5, 0.88, 1.2, 10.0}) {
     EmfTruth t = clean(false);
@@ -124,8 +126,8 @@ TEST(Emf, APhaseOfATrapezoidIsFlatForAsLongAsItIs) {
   t.star = true;
   const auto found = analysis::measure_emf(drawn_record(t));
   ASSERT_TRUE(found);
-  // A sum of 25 harmonics ripples by 1 % at the top. This widens the part above 95 % of the crest by a
-  // degree.
+  // A sum of 25 harmonics has a ripple of 1 % at the top. This ripple widens the part above 95 % of the peak
+  // by a degree.
   EXPECT_NEAR(found->flat_deg, analysis::flat_of_trapezoid_deg, 2.0);
   const auto at = [&](int deg) { return found->shape[static_cast<std::size_t>(deg / 2)]; };
   EXPECT_NEAR(at(60), 1.0, 0.01);
@@ -140,7 +142,8 @@ TEST(Emf, APhaseOfATrapezoidIsFlatForAsLongAsItIs) {
   EXPECT_NEAR(sine->shape_sector_mean, 3 * std::sqrt(3.0) / base::pi, 1e-7);
 }
 
-/// The shape over the angle is the same for both directions of rotation, and for line or phase voltages.
+/// The shape over the angle is the same for both directions of rotation, and for line voltages and phase
+/// voltages.
 TEST(Emf, TheShapeIsTheMotorsWhicheverWayItIsTurnedAndProbed) {
   for (const bool star : {false, true})
     for (const bool backward : {false, true}) {
@@ -163,14 +166,15 @@ TEST(Emf, TheShapeIsTheMotorsWhicheverWayItIsTurnedAndProbed) {
     }
 }
 
-/// A complete trapezoid of height 1, not only its first harmonics. The top is at y = 0, the flanks are
-/// straight.
+/// A complete trapezoid of height 1, not only the sum of its first harmonics. The middle of the top is at y =
+/// 0, and the flanks are straight.
 double whole_trapezoid(double y, double flat_deg) {
   const double off = std::fabs(std::remainder(y, 2 * base::pi)), half = flat_deg / 2 * base::rad_per_deg;
   return std::clamp((base::pi / 2 - off) / (base::pi / 2 - half), -1.0, 1.0);
 }
 
-/// A flat top has harmonics above the 25th. Their partial sum overshoots; the motor's voltage does not.
+/// A flat top has harmonics above the 25th. The sum of the first 25 harmonics overshoots; the motor's voltage
+/// does not.
 TEST(Emf, ThePeakIsThatOfTheWaveAndNotOfItsFirstHarmonics) {
   for (const double flat_deg : {30.0, 60.0, 90.0, 120.0, 150.0, 165.0})
     for (const bool star : {false, true}) {
@@ -230,7 +234,8 @@ TEST(Emf, TheShaftsSpeedGivesThePolePairs) {
   EXPECT_THAT(to_string(at_rpm(750.0, 7).problems()[0]), HasSubstr("makes 4 pole pairs, not 7"));
 }
 
-/// A sheet states a motor's constant in one frame: only this frame fits.
+/// A sheet states a motor's constant in one frame, such as line peak or phase rms. Only this frame agrees
+/// with the recording.
 TEST(FrameCheck, NamesTheFrameThatThePrintIsIn) {
   analysis::EmfRequest request = drawn_record(clean(false));
   request.pole_pairs = 4;
@@ -279,7 +284,7 @@ TEST(FrameCheck, EveryPrintOfTheTorqueConstantIsHeldAgainstTheVoltage) {
   EXPECT_EQ(without[0].key, "flux_linkage_mWb");
 }
 
-/// For each fault, one message names the place and the cure.
+/// For each fault, one message names the position in the recording and the remedy.
 TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   const auto told = [](const analysis::EmfRequest& request) {
     const auto found = analysis::measure_emf(request);

@@ -51,8 +51,8 @@ TEST(IdentifyAlike, AFactorOfOneColumnIsRefused) {
   for (const std::size_t column : {0, 2}) expect_told(against_b(), column);
 }
 
-/// The voltages u_ab and -u_bc are 60 degrees apart, so the third side of their triangle is sqrt(3) times as
-/// long.
+/// If one probe is reversed, the two recorded voltages are 60 degrees apart instead of 120. The third line
+/// voltage, computed from these two, is sqrt(3) times too large.
 TEST(IdentifyAlike, AProbeTheWrongWayRoundIsRefused) {
   for (const std::size_t column : {0, 1}) {
     HallLog log = between_lines(2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reliability of identify() over random logs. The 95 % intervals contain the truth in 93 to 97 of 100 cases.
-// Results with a stated probability p are right in the fraction p of the cases.
+// Reliability of identify() over random logs. The 95 % intervals contain the true value in 93 to 97 of 100
+// cases. Results with the stated probability p are right in the fraction p of the cases.
 #include "sixstep/analysis/identification/hall/identify.hpp"
 #include "tests/analysis/identification/counted.hpp"
 #include "tests/analysis/identification/drawn_hall_log.hpp"
@@ -95,9 +95,8 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// Only a log with rotation in both directions separates hysteresis from offset, and few random logs contain
-/// both directions. Jitter at the reversals biases the sample: many reversals with much jitter are the
-/// difficult cases.
+/// Only a log with rotation in both directions separates hysteresis from offset. Few random logs contain both
+/// directions, so this test draws such logs. The difficult logs have many reversals and much jitter.
 TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
   const int count = drawn_count(40);
   HeldOften hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");
@@ -117,7 +116,7 @@ TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
     if (place.delay_s) delay.count(place.delay_s->holds(truth.delay_s), truth.seed);
   }
   for (const HeldOften* held : {&hysteresis, &offset, &delay}) held->expect_95();
-  // Intervals must miss on both sides equally often. More misses on one side indicate a bias.
+  // Intervals must miss the true value equally often on both sides. More misses on one side show a bias.
   std::printf("hysteresis below its bounds in %.0f, above them in %.0f\n", missed_by_lower, missed_by_upper);
   const double missed = missed_by_lower + missed_by_upper;
   EXPECT_NEAR(missed_by_lower, 0.5 * missed, 2.0 * std::sqrt(missed) + 1.0);
@@ -154,8 +153,8 @@ TEST(IdentifyCalibration, BurstsOfALooseContact) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// If the offset is close to half a sector, the sector is uncertain, and the stated probability is
-/// correspondingly low.
+/// If the offset is close to half a sector, the sector is uncertain, and the stated probability is low. The
+/// counted frequency agrees with this probability.
 TEST(IdentifyCalibration, AnOffsetOfHalfASectorIsAsDoubtfulAsItSays) {
   const int count = std::min(drawn_count(60), 400);
   double right = 0.0, expected = 0.0, variance = 0.0, doubtful = 0.0;

@@ -47,8 +47,8 @@ TEST(HallWires, EveryOrderOfCodesHasOneWayOfProbes120DegreesApart) {
   EXPECT_TRUE(analysis::wires_behind({1, 1, 1, 1, 1, 1}).empty());
 }
 
-/// Probes 120 degrees apart never give 000 or 111 if no or all lines are inverted. The first wiring that
-/// identify() lists agrees with this.
+/// Probes 120 degrees apart never give the codes 000 and 111, if no line or every line is inverted. If these
+/// codes never occur, the first wiring in the list has such probes.
 TEST(HallWires, TheCodesThatNeverOccurAndTheSpacingAgree) {
   for (const bool spaced_60 : {false, true})
     for (int order = 0; order < 6; ++order)
@@ -90,8 +90,8 @@ TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
 }
 
 /// The cases are 6 orders, 8 inversions, 2 spacings and both directions, with line voltages and terminal
-/// voltages in turn. identify() finds the code of every sector. The true wiring is in the list of wirings
-/// with these codes.
+/// voltages in turn. identify() finds the code of every sector, and its list of wirings contains the true
+/// wiring.
 TEST(Identify, EveryWiringIsFoundWithVoltages) {
   int n = 0;
   for (const bool spaced_60 : {false, true})
@@ -121,8 +121,8 @@ TEST(Identify, EveryWiringIsFoundWithVoltages) {
       }
 }
 
-/// Each turn has a whole number of rows, so every edge is at the same position between two rows. More turns
-/// do not narrow the interval.
+/// Each turn has a whole number of rows, so every edge is at the same position between two rows in each turn.
+/// More turns therefore do not narrow the interval.
 TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   int held = 0, all = 0;
   double sum = 0.0;
@@ -169,7 +169,7 @@ TEST(Identify, CodesAloneTellWhichOnesNeverOccur) {
   }
 }
 
-/// An irregular magnet: only edges over a whole mechanical turn reveal it.
+/// The poles of an irregular magnet differ. Only edges over a whole mechanical turn show the difference.
 TEST(Identify, EdgesOfEachPolePairOfTheShaft) {
   HallTruth t = with_voltages(drilled());
   t.turns = 42.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter is compared with the same model solved as one dense system, and its parts with known numbers.
+// The filter is compared with the same model solved as one dense system. The parts of the filter are compared
+// with known numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -240,8 +241,8 @@ TEST(Distributions, AMixtureHas25InAThousandOnEachSide) {
   EXPECT_NEAR(mixture_95(certain).low, 4.0, 1e-9);
 }
 
-/// The coverage of the interval is equal to the counted coverage, for lengths of vectors with noise in both
-/// coordinates.
+/// length_95() returns an interval for the length of a vector with noise in both coordinates. The counted
+/// coverage is equal to the stated coverage.
 TEST(Distributions, ALengthIsHeldAsOftenAsItSays) {
   for (const double length : {0.0, 0.5, 2.0, 10.0}) {
     Draw draw(static_cast<std::uint64_t>(10.0 * length) + 1);
@@ -256,8 +257,8 @@ TEST(Distributions, ALengthIsHeldAsOftenAsItSays) {
     EXPECT_LT(part, length > 1.0 ? 0.95 + width : 1.0) << length;
   }
   EXPECT_EQ(length_95(3.0, 0.0).low, 3.0);
-  // Each end of the interval excludes 2.5 %, according to Rice's distribution as a sum of noncentral
-  // chi-square distributions with 2 degrees of freedom.
+  // Each end of the interval excludes 2.5 % of the cases. The expected value is Rice's distribution, a sum of
+  // noncentral chi-square distributions with 2 degrees of freedom.
   const auto below = [](double r, double length) {
     const double half = 0.5 * length * length, x = 0.5 * r * r;
     double sum = 0.0, weight = std::exp(-half), tail = std::exp(-x), gamma = 1.0 - tail;

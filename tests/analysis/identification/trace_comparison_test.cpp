@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's log is compared with a simulation; the differences are known.
+// A board's log is compared with a simulation. The differences between them are known.
 #include "sixstep/analysis/identification/log/trace_comparison.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ TEST(TraceComparison, StraightBetweenRowsAndOnTheLaterSideOfAJump) {
   EXPECT_DOUBLE_EQ(found[0].at_s, 2.0);
 }
 
-/// Codes are labels: other codes for the same states change nothing, and no code is nearer than another.
+/// Codes are labels: renaming the codes changes no result, and two labels are either equal or different.
 TEST(TraceComparison, LabelsDifferOrDoNot) {
   const std::vector<double> t_s{0, 1, 2, 2, 3, 4, 5}, logged_s{0.5, 1, 2, 2.5, 3, 4.5, 5};
   const int simulated[] = {1, 1, 1, 2, 2, 3, 3}, logged[] = {1, 2, 2, 2, 1, 2, 3};
@@ -47,7 +47,8 @@ TEST(TraceComparison, LabelsDifferOrDoNot) {
     ASSERT_EQ(found.size(), 1u);
     if (!first) first = found[0];
     EXPECT_EQ(found[0].rows, 7u);
-    // At 1 s it is another one, at 2 s that after the edge, at 3 s another one; at 4.5 s neither of the two.
+    // The labels differ at 1 s, 3 s and 4.5 s. At 2 s, the log has the simulated label after the edge, so
+    // this row agrees.
     EXPECT_EQ(found[0].differing, 3u);
     EXPECT_DOUBLE_EQ(found[0].at_s, 1.0);
     EXPECT_DOUBLE_EQ(found[0].rms, first->rms);
@@ -57,7 +58,7 @@ TEST(TraceComparison, LabelsDifferOrDoNot) {
                    .differing);
 }
 
-/// Hall codes alone give the shift of a clock, to where no row differs.
+/// The Hall codes alone determine the clock's shift: with this shift, no row differs.
 TEST(TraceComparison, FindsTheShiftByTheEdgesOfLabels) {
   constexpr double off = 1.3e-3;
   const auto code = [](double t) {
@@ -110,8 +111,8 @@ TEST(TraceComparison, FindsTheShiftOfARipple) {
   EXPECT_GT(trace_comparison(simulated, log, 0.0)[0].rms, 5e-2);
 }
 
-/// The first column changes slowly and does not show the clock's offset; the second column changes fast and
-/// does. A log that is the rounded run itself has a shift of 0.
+/// The speed changes slowly and does not show the clock's offset. The current changes fast and shows it. If
+/// the log is the rounded run itself, the shift is 0.
 TEST(TraceComparison, AllColumnsDecideTheShiftAndNothingIsGainedByNone) {
   study::Trace simulated = trace({{"t_s", {}}, {"speed_rad_s", {}}, {"i_m_A", {}}}), log = simulated,
                late = simulated;

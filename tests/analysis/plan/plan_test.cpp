@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of a plan are checked against the law of each sampling method.
+// The points of a plan are checked against the law of each sampling method.
 #include "sixstep/analysis/plan/plan.hpp"
 
 #include <gmock/gmock.h>
@@ -36,8 +36,8 @@ TEST(Plan, AGridHasEveryValueWithEveryOtherTheLastAxisFirst) {
   EXPECT_THAT(analysis::point_of_run(plan, 5), ElementsAre("\"hard\"", "2"));
 }
 
-/// A temperature's size counts from the ambient temperature on, a swing of temperature from 0. Another zero of the scale
-/// changes no size.
+/// The size of a temperature is its rise above ambient; the size of a difference of temperatures counts from
+/// 0. Another zero of the temperature scale changes no size.
 TEST(Plan, TheSizeOfATemperatureIsItsRise) {
   for (const double zero : {0.0, 273.15}) {
     study::Scenario s = sixstep::testing::maxon_scenario(control::Mode::duty, 1.0);

@@ -28,15 +28,16 @@ std::vector<double> asked(const Function& f, std::size_t keys, std::size_t rows,
   return figures;
 }
 
-/// sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1, each variable from -pi to pi (T. Ishigami and T. Homma, 1990).
+/// Ishigami's function sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1, each variable from -pi to pi (T. Ishigami and
+/// T. Homma, 1990).
 double ishigami(const std::vector<double>& u) {
   const auto x = [&](std::size_t k) { return base::pi * (2 * u[k] - 1); };
   const double s = std::sin(x(0)), t = std::sin(x(1));
   return s + 7 * t * t + 0.1 * std::pow(x(2), 4) * s;
 }
 
-/// Sobol's function g: the product of (|4 u - 2| + a)/(1 + a). The partial variance of each factor is 1/(3 (1
-/// + a)^2).
+/// Sobol's function g is the product of the factors (|4 u - 2| + a)/(1 + a). The partial variance of each
+/// factor is 1/(3 (1 + a)^2).
 constexpr double g_of[] = {0.0, 1.0, 4.5, 9.0};
 double sobol_g(const std::vector<double>& u) {
   double f = 1.0;
@@ -70,8 +71,8 @@ Truth of_g() {
   return truth;
 }
 
-// Law: 0 <= S_i <= T_i and sum S_i <= 1, with first-order index S_i and total index T_i. Exact indices obey
-// it, and so do estimates from enough rows.
+// The first-order indices S_i and the total indices T_i obey 0 <= S_i <= T_i and sum S_i <= 1. Estimates from
+// enough rows obey these laws too.
 TEST(Sensitivity, IndicesThatCannotBeAreOfTooFewRows) {
   const auto judged = [](const std::vector<double>& first, const std::vector<double>& total) {
     std::vector<SensitivityIndex> indices(first.size());
@@ -102,8 +103,8 @@ void expect_truth(const Function& f, const Truth& truth, std::size_t rows, doubl
 TEST(Sensitivity, IshigamisFunctionHasItsIndices) { expect_truth(ishigami, of_ishigami(), 16384, 0.005); }
 TEST(Sensitivity, SobolsFunctionHasItsIndices) { expect_truth(sobol_g, of_g(), 16384, 0.005); }
 
-/// With random rows, the bootstrap is valid: 95 % of the intervals contain the truth, within three standard
-/// deviations of a binomial distribution for 200 draws (4.6 %).
+/// With random rows, the bootstrap is valid: 95 % of the intervals contain the true value. The tolerance is
+/// three standard deviations of a binomial distribution for 200 draws (4.6 %).
 TEST(Sensitivity, IntervalsHoldTheTruthAsOftenAsTheySay) {
   const Truth truth = of_g();
   const std::size_t keys = truth.first.size();

@@ -12,7 +12,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-/// The values are Joe and Kuo's first ten points in three dimensions (their sobol.cc prints them).
+/// The values are the first ten points in three dimensions that sobol.cc by Joe and Kuo prints.
 TEST(SobolSequence, BeginsAsPublished) {
   const double points[10][3] = {{0, 0, 0},
                                 {0.5, 0.5, 0.5},
@@ -29,8 +29,8 @@ TEST(SobolSequence, BeginsAsPublished) {
       EXPECT_EQ(analysis::sobol_bits(d, n) * 0x1p-32, points[n][d]) << n << " " << d;
 }
 
-/// From any multiple of 2^m on, each block of 2^m points has exactly one point in each of 2^m equal parts, in
-/// every dimension.
+/// Each block of 2^m points that begins at a multiple of 2^m has exactly one point in each of 2^m equal
+/// parts, in every dimension.
 TEST(SobolSequence, EveryDimensionIsEven) {
   for (std::size_t d = 0; d < analysis::sobol_dimensions; ++d)
     for (const std::uint32_t from : {0u, 1024u, 1024u * 77u}) {
@@ -52,7 +52,7 @@ TEST(SobolSequence, TheFirstTwoDimensionsAreANet) {
   }
 }
 
-/// Shifted points remain even, differ between seeds, and are never 0 or 1.
+/// Shifted points are still evenly spread. They differ between seeds, and are never 0 or 1.
 TEST(SobolSequence, ShiftedPointsAreAsEven) {
   for (const std::uint64_t seed : {1u, 2u, 99u})
     for (std::size_t d = 0; d < 8; ++d) {
@@ -67,8 +67,8 @@ TEST(SobolSequence, ShiftedPointsAreAsEven) {
   EXPECT_NE(analysis::sobol(0, 5, 1), analysis::sobol(0, 5, 2));
 }
 
-/// The integral of the product of (1 + (x - 1/2)) over six dimensions is 1. The error with 4096 points is
-/// below the error with random points.
+/// The integral of the product of (1 + (x - 1/2)) over six dimensions is 1. With 4096 points, the error is
+/// below the error of as many random points.
 TEST(SobolSequence, IntegratesBetterThanChance) {
   double sum = 0.0;
   const int count = 4096;

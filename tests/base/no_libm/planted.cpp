@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of the C library that the check of symbols must find: a compiler cannot evaluate them.
+// These functions call the C library, and the compiler cannot replace the calls by constants. The check of
+// symbols must find them.
 #include <cmath>
 
 double planted(double x, double y) { return std::pow(x, y) + std::sqrt(x); }

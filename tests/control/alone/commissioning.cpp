@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning and the start by pulses in fixed point, as firmware uses them. Compiled without
+// Commissioning and the start by pulses in fixed point, as firmware uses them. This file is compiled without
 // floating-point registers if the compiler has such an option.
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "sixstep/control/commissioning/pulse_start.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only the decoders, for a chip, in fixed point. Compiled without floating-point registers if the compiler
-// has such an option.
+// Only the decoders, compiled for a chip in fixed point. This file is compiled without floating-point
+// registers if the compiler has such an option.
 #include "tests/control/alone/decoders.hpp"
 
 namespace firmware {

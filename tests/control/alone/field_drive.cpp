@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive in fixed point. Compiled without floating-point registers if the compiler has such an option.
+// The field-oriented drive in fixed point. This file is compiled without floating-point registers if the
+// compiler has such an option.
 #include "tests/control/alone/field_drive.hpp"
 
 namespace firmware {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive as firmware uses it: a decoder's angle, and the tick.
+// The field-oriented drive as firmware uses it: the angle from a decoder, and the tick.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""inserted_functions_test.py CLANG NM: the control library, compiled for chips, asks the linker for what docs/reference/blocks.md
-lists and for nothing else; and every row of that list is needed somewhere, so that it can fail."""
+"""inserted_functions_test.py CLANG NM: compiles the control library for chips. Its undefined functions are exactly
+those in docs/reference/blocks.md. Every row of that table must be necessary on some chip, so that a superfluous row
+fails."""
 import fnmatch
 import pathlib
 import re
@@ -21,7 +22,7 @@ TOOLS = []
 
 
 def listed():
-    """Patterns of each row of the table, and the chips that it names."""
+    """For each row of the table: the patterns of the names, and the chips that the row lists."""
     section = (REPOSITORY / "docs/reference/blocks.md").read_text(encoding="utf-8").partition("## Which functions the linker needs")[2]
     rows = [line.split("|")[1:4] for line in section.splitlines() if re.match(r"\| [^-f]|\| `", line)]
     return [(re.findall(r"`([^`]+)`", names), CHIPS if where.strip() == "all" else where) for _, names, where in rows]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive in fixed point. Compiled without floating-point registers if the compiler has such an
-// option: a floating-point operation at run time, which would call a library on a chip, would then not
-// compile.
+// The product's drive in fixed point. This file is compiled without floating-point registers if the compiler
+// has such an option. A floating-point operation at run time would call a library on a chip; with the option
+// it does not compile.
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/gates.hpp"
 #include "sixstep/control/pi_positional.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive without a rotor sensor, as firmware uses it: tick, compare match, Hall interrupt.
+// The sensorless drive as firmware uses it: tick, compare match and Hall interrupt.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 

@@ -14,8 +14,8 @@ using namespace sixstep::control;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The voltages between the legs are the commanded vector, in every direction, within six roundings of 2^-20
-/// of the bus.
+/// The voltages between the legs are equal to the commanded vector in every direction. The error is at most
+/// six roundings of 2^-20 of the bus voltage.
 template <class Scalar>
 void expect_vector(double digit) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -79,7 +79,7 @@ TEST(VectorAngle, IsTheArcTangent) {
     const auto x = static_cast<std::int64_t>(size * std::cos(rad)),
                y = static_cast<std::int64_t>(size * std::sin(rad));
     const double due = std::atan2(static_cast<double>(y), static_cast<double>(x)) * (2147483648.0 / pi);
-    // The error is half a unit in each of 24 steps, and the last step's angle.
+    // The error is half a unit in each of 24 steps, plus the angle of the last step.
     EXPECT_NEAR(way_between(static_cast<BinaryAngle>(static_cast<std::int64_t>(due)), vector_angle(x, y)), 0,
                 12 + 81 + 1)
         << seed;

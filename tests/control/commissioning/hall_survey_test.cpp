@@ -16,7 +16,7 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<HallSurveyState>);
 
-/// Probe k is high over half a turn, 120 k or 60 k degrees behind the first probe (model.md 3). `order`
+/// Probe k is high over half a turn. It is 120 k or 60 k degrees behind the first probe (model.md 3). `order`
 /// assigns probes to pins.
 struct Mounted {
   std::array<int, 3> order{0, 1, 2};
@@ -39,8 +39,8 @@ struct Turn {
   std::array<double, 6> own_deg{};
   int turns = 2, first = 0;
 
-  /// Survey over `turns` turns of the field forward, then as many backward. The field's angle leads the d
-  /// axis by the lag in the direction of rotation.
+  /// A survey over `turns` turns of the field forward, then over as many turns backward. The angle of the
+  /// field leads the d axis by the lag, in the direction of rotation.
   HallSurveyState survey(const HallSurveyConfig& config, const Mounted& mounted) const {
     HallSurveyState state;
     int sector = first;
@@ -61,8 +61,8 @@ struct Turn {
 constexpr std::array<std::array<int, 3>, 6> orders = {
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-/// For every order, inversion, spacing and lag, the survey finds the table, the name of each line, and each
-/// edge to two units.
+/// For every order, inversion, spacing and lag, the survey finds the table, the name of each line, and the
+/// angle of each edge within two units.
 TEST(HallSurvey, FindsEveryWiring) {
   const HallSurveyConfig config;
   for (const bool spaced_60 : {false, true})
@@ -93,8 +93,8 @@ TEST(HallSurvey, FindsEveryWiring) {
         }
 }
 
-/// A wiring that hall.hpp decodes directly needs no table. `plain` is set for these wirings, 4 of 96, and
-/// both decodings agree.
+/// A wiring that hall.hpp decodes directly needs no table. The survey sets `plain` for these wirings, 4 of
+/// 96. Both ways of decoding agree.
 TEST(HallSurvey, PlainOnesAreThoseThatHallDecodes) {
   const HallSurveyConfig config;
   int plain = 0;

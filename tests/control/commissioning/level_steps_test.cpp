@@ -15,7 +15,7 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<LevelStepsState>);
 
-/// A phase with the resistance r, in bus counts per count of current, and the time constant tau, in ticks.
+/// A phase has the resistance r, in bus counts per count of current, and the time constant tau, in ticks.
 /// Dead time and diodes reduce the voltage vector by `lost` bus counts.
 struct Phase {
   double r = 0.3, tau = 12.0, lost = 20.0, bus = 3000.0;
@@ -23,7 +23,7 @@ struct Phase {
   double steady(std::int32_t v) const { return (v * bus / whole_bus - lost) / r; }
 };
 
-/// The reading of exact exponential steps between the levels `low` and `high`. A new voltage acts
+/// The result for exact exponential steps between the levels `low` and `high`. A new voltage acts
 /// config.late_half_ticks half ticks after the sample. Currents are rounded to 1/`digit` of a count.
 LevelStepsReading stepped(const LevelStepsConfig& config, const Phase& phase, std::int32_t low,
                           std::int32_t high, double digit) {
@@ -51,17 +51,19 @@ TEST(LevelSteps, FindsResistanceLossAndTimeConstantOfAnExponential) {
       const LevelStepsConfig config{.ticks = 1024, .pairs = 2, .late_half_ticks = late};
       const LevelStepsReading reading = stepped(config, phase, 60'000, 120'000, 24.0);
       ASSERT_TRUE(reading.usable);
-      // The error is 1/24 of a count in about 570, for each of the two levels; the unit of 2^-20 is smaller.
+      // The error is 1/24 of a count in about 570, for each of the two levels. The rounding unit of 2^-20 is
+      // smaller.
       const double step = (phase.steady(120'000) - phase.steady(60'000)) * 24;
       EXPECT_NEAR(reading.resistance / 1048576.0, phase.r, phase.r * 1.0 / step) << int(late);
       EXPECT_NEAR(reading.lost / 256.0, phase.lost, 2 * phase.r * phase.steady(120'000) / step + 1.0 / 256);
-      // The error is the next term of the series, and the rounding of level_steps.hpp.
+      // The error is the next term of the series plus the rounding that level_steps.hpp states.
       const double allowed = std::pow(1 / tau, 4) / 500 + std::log(2 * step) / step;
       EXPECT_NEAR(reading.tau / 65536.0 / tau, 1.0, allowed) << int(late) << " " << tau;
     }
 }
 
-/// With currents in whole counts, as from a converter, the error is within the header's bound for any phase.
+/// With currents in whole counts, as a converter gives them, the error is within the header's bound for any
+/// phase.
 TEST(LevelSteps, RoundingStaysWithinWhatIsSaid) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Drawn drawn{seed};
@@ -87,8 +89,8 @@ TEST(LevelSteps, LevelsThatDoNotDifferAreNotUsable) {
   EXPECT_FALSE(level_steps_reading(config, state, 100, 200).usable);
 }
 
-/// The voltage is v = R i + j w L i + j w psi + lost s, in the frame of v. The EMF is the length of v - R i -
-/// j w L i - lost s.
+/// The voltage is v = R i + j w L i + j w psi + lost s, in the frame of v (model.md; s: direction of the
+/// current, lost: voltage lost to dead time and diodes). The EMF is the length of v - R i - j w L i - lost s.
 TEST(FluxTurn, SolvesTheVoltageEquation) {
   LevelStepsReading winding{.usable = true};
   winding.resistance = static_cast<std::int32_t>(0.4 * 1048576);
@@ -109,7 +111,7 @@ TEST(FluxTurn, SolvesTheVoltageEquation) {
     const double e_d = v * bus / whole_bus - 0.4 * d + X * q - 0.75 * 12 * s_d;
     const double e_q = -0.4 * q - X * d - 0.75 * 12 * s_q;
     const double e = std::hypot(e_d, e_q);
-    // The error is 1/24 of a count in R and X, and some units of 2^-8.
+    // The errors are 1/24 of a count in R and in the reactance X, and some units of 2^-8.
     EXPECT_NEAR(reading.emf / 256.0, e, (0.4 + X) / 24 + 9.0 / 24 + 8.0 / 256) << seed;
     EXPECT_NEAR(reading.flux / 16.0, reading.emf / 256.0 * 4294967296.0 / speed, 0.1) << seed;
   }

@@ -17,7 +17,7 @@ static_assert(std::is_trivially_copyable_v<PulsePositionState>);
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The law of the header, solved for the current i: i L(x, i) = constant.
+/// The law of the header, i L(x, i) = constant, is solved for the current i.
 struct Iron {
   double counts = 600.0;     ///< current where L is L_S
   double saliency = -0.1;    ///< L_D/L_S
@@ -63,8 +63,8 @@ double off(const PulsePositionReading& reading, double deg) {
   return degrees_of(way_between(of_turns(deg / 360), reading.electrical));
 }
 
-/// The polarity signal resolves either sign of the saliency. The angle's error is the noise plus the
-/// influence of saturation on the second harmonic: 3/32 of the saturation's square
+/// The polarity is found for either sign of the saliency. The error of the angle is the noise plus the effect
+/// of saturation on the second harmonic, which is 3/32 of the square of the saturation
 /// (rig/pulse_start_test.cpp).
 TEST(PulsePosition, FindsNorthAndTheAngle) {
   Drawn drawn{1};
@@ -80,21 +80,21 @@ TEST(PulsePosition, FindsNorthAndTheAngle) {
       }
 }
 
-/// For a rotor without saliency, the polarity signal alone gives the angle, to within its noise. The third
-/// harmonic of cos^3 has no effect.
+/// For a rotor without saliency, the polarity signal alone determines the angle, within the noise of this
+/// signal. The third harmonic of cos^3 has no effect.
 TEST(PulsePosition, SaturationAloneIsEnough) {
   Drawn drawn{2};
   for (int deg = 1; deg < 360; deg += 7) {
     const PulsePositionReading reading = pulse_position(usual, pulsed(usual, {.saliency = 0.0}, deg, drawn));
     ASSERT_TRUE(reading.seen) << deg;
     EXPECT_FALSE(reading.axis_seen);
-    // Besides the noise: 1/I distorts cos^3. Parts of its square alias onto the first harmonic, a tenth of
-    // the depth.
+    // Besides the noise, 1/I distorts cos^3. Parts of the square of this distortion alias onto the first
+    // harmonic, with a tenth of the depth.
     EXPECT_LT(std::fabs(off(reading, deg)), (5 * 16.0 / reading.north_16 + 0.06 / 10) * 180 / pi) << deg;
   }
 }
 
-/// Saliency alone gives no polarity. Different gains of the amplifiers give no axis.
+/// Saliency alone does not determine the polarity. Different gains of the amplifiers do not count as an axis.
 TEST(PulsePosition, SaysWhereNothingIsSeen) {
   Drawn drawn{3};
   for (int deg = 0; deg < 360; deg += 10) {
@@ -111,10 +111,10 @@ TEST(PulsePosition, SaysWhereNothingIsSeen) {
   EXPECT_FALSE(pulse_position(usual, pulsed(usual, {.offset = {150, 0, 0}}, 0, drawn)).seen);
 }
 
-/// A round rotor with noise and any offsets. The ratio of signal to noise is the length of two independent
-/// normal parts. 5 % of such lengths exceed sqrt(-2 ln 0.05) = 2.45, but none of 4000 draws may count as a
-/// detected rotor. With 8 counts of noise, s^2 is 2 64^2 and sigma^2 is 1408 + 45, of which 13 are rounding:
-/// exp(-3 1453/1421) = 4.65 % exceed the limit.
+/// A round rotor with noise and any offsets. The ratio of signal to noise is the length of a vector of two
+/// independent normal parts. This length exceeds sqrt(-2 ln 0.05) = 2.45 in 5 % of the draws, but none of
+/// 4000 draws may count as a detected rotor. With 8 counts of noise, s^2 is 2 64^2, and sigma^2 is 1408 + 45,
+/// of which 13 are rounding. Then exp(-3 1453/1421) = 4.65 % of the draws exceed the limit.
 TEST(PulsePosition, NoiseIsNotTakenForARotor) {
   int seen = 0, above = 0;
   const int draws = 4000;

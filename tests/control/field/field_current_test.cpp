@@ -27,7 +27,7 @@ template <class Scalar>
 class FieldBlocks : public ::testing::Test {};
 TYPED_TEST_SUITE(FieldBlocks, SensingScalars);
 
-/// Gains of order 1 relative to the bases, as in a scaled drive.
+/// Gains of order 1 relative to the bases, as in the scaled drive of a chip.
 template <class Scalar>
 FieldCurrentConfig<Scalar> decoupled(VoltageLimit limit) {
   FieldCurrentConfig<Scalar> c;
@@ -53,7 +53,7 @@ TYPED_TEST(FieldBlocks, TurningMakesTheVoltagesOfTheEquations) {
       }
 }
 
-/// Without a current error, the output is the feed-forward voltage e.
+/// Without a current error, the output is only the feed-forward voltage e.
 TYPED_TEST(FieldBlocks, WithoutAnErrorTheAnswerIsWhatTurningMakes) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   FieldCurrentState<TypeParam> state;
@@ -75,13 +75,13 @@ TYPED_TEST(FieldBlocks, TheVectorStaysWithinTheCircleAndDComesFirst) {
     EXPECT_LE(std::hypot(number(v.d), number(v.q)), circle + 4 * digit<TypeParam>());
   }
   EXPECT_NEAR(number(state.voltage.d), -circle, 4 * digit<TypeParam>()) << "all of it holds the field down";
-  // At q = 0, the voltage circle is parallel to the q axis: an error of one digit in d causes an error of
-  // about sqrt(2 digits) in q.
+  // At q = 0, the voltage circle is parallel to the q axis. An error of one digit in d therefore causes an
+  // error of about sqrt(2 digits) in q.
   EXPECT_NEAR(number(state.voltage.q), 0.0, 3 * std::sqrt(digit<TypeParam>()));
 }
 
-/// The voltage of the other axis changes an axis's bound. The PI stores the limited value, so the first error
-/// of the other sign leaves the limit at once.
+/// The bound of an axis depends on the voltage of the other axis. The PI stores the limited value, so the
+/// first error of the opposite sign leaves the limit at once.
 TYPED_TEST(FieldBlocks, NoAxisWindsUp) {
   for (const VoltageLimit limit : {VoltageLimit::axes, VoltageLimit::circle}) {
     const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(limit);
@@ -107,8 +107,8 @@ TYPED_TEST(FieldBlocks, EachAxisStaysWithinItsOwnLimit) {
   EXPECT_EQ(state.voltage.q, c.q.limit);
 }
 
-/// If |v| exceeds the fraction m of the voltage circle, i_d decreases in each period by K times the excess.
-/// If |v| is smaller, i_d increases to 0 in the same way.
+/// If the voltage |v| exceeds the fraction m of the voltage circle, i_d decreases in each period by K times
+/// the excess. If |v| is smaller, i_d increases to 0 with the same gain.
 TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   const FieldWeakeningConfig<TypeParam> c{Gain<TypeParam>(0.1), Gain<TypeParam>(0.9), TypeParam(0.5)};
   FieldWeakeningState<TypeParam> state;
@@ -125,8 +125,8 @@ TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   EXPECT_EQ(field_weakening_step(FieldWeakeningConfig<TypeParam>{}, state, v, TypeParam(0.9)), TypeParam{});
 }
 
-/// For any requested i_q, the bound keeps the voltage w p L_q i_q within the fraction m of the voltage
-/// circle. A request that needs less voltage is unchanged. Without weakening, every request is unchanged.
+/// The bound of i_q keeps the voltage w p L_q i_q within the fraction m of the voltage circle (speed w, pole
+/// pairs p). A smaller request for i_q is unchanged. Without weakening, every request is unchanged.
 TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   const FieldWeakeningConfig<TypeParam> weakens{Gain<TypeParam>(0.1), Gain<TypeParam>(0.5), TypeParam(0.5)};
@@ -135,17 +135,17 @@ TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   for (const double w : {-0.9, -0.5, 0.0, 0.7})
     for (const double most : {0.1, 0.5, 0.9}) {
       const double asked_V = std::fabs(w) * most * 0.5, allowed = asked_V > V ? most * V / asked_V : most;
-      // asked_V is accurate to two digits, and is at least 0.14 if it limits the current.
+      // The voltage asked_V is accurate to two digits. It is at least 0.14 if it limits the current.
       EXPECT_NEAR(number(voltage_bound(weakens, c, TypeParam(w), bus, TypeParam(most))), allowed,
                   16 * digit<TypeParam>());
       EXPECT_EQ(voltage_bound({}, c, TypeParam(w), bus, TypeParam(most)), TypeParam(most));
     }
 }
 
-/// On the curve of maximum torque per ampere, the torque is stationary along the current circle. On either
-/// side it is smaller.
+/// On the curve of maximum torque per ampere, the torque is the largest for its current: if the current
+/// vector is rotated in either direction, the torque is smaller.
 TYPED_TEST(FieldBlocks, ThereIsNoMoreTorquePerAmpere) {
-  const double saliency = 1.6;  // (L_q - L_d)/psi per ampere
+  const double saliency = 1.6;  // (L_q - L_d)/psi, in 1/A
   const TorquePerAmpereConfig<TypeParam> c{Gain<TypeParam>(saliency / 2)};
   const auto torque = [&](double d, double q) { return q - saliency * d * q; };
   for (const double i_q : {-0.85, -0.3, 0.05, 0.5, 0.85}) {
@@ -163,7 +163,7 @@ TYPED_TEST(FieldBlocks, ThereIsNoMoreTorquePerAmpere) {
 TYPED_TEST(FieldBlocks, TheMagnetPoints150DegreesBehindAndTurnsOnWithTheSpeed) {
   const FieldAdvanceConfig<TypeParam> c{Gain<TypeParam>(0.8)};
   constexpr double pi = std::numbers::pi;
-  // The tolerance is 3.1e-7 from sine.hpp, and two digits in 16 bits; the truncation of the angle is far
+  // The tolerance is 3.1e-7 from sine.hpp, plus two digits in 16 bits. The truncation of the angle is far
   // smaller.
   const double allowed = 4e-7 + 3 * digit<TypeParam>();
   for (int n = 0; n < 24; ++n)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The selection among the states of three legs is compared with a numerical solution of the winding's
-// equation and with a sort.
+// The block selects among the states of three legs. The selection is compared with a numerical solution of
+// the winding's equation, and with a sort of all states.
 #include "sixstep/control/field/finite_set.hpp"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ FiniteSetConfig<Scalar> config_of(const Machine& m) {
   return c;
 }
 
-/// Currents in the magnet's frame, by Runge-Kutta in many small steps with constant leg states. Unlike the
-/// block, the solver uses no half rotations and no exponentials.
+/// Currents in the magnet's frame with constant leg states, computed by Runge-Kutta in many small steps.
+/// Unlike the block, the solver uses no half rotations and no exponentials.
 Dq<double> solved(const Machine& m, Dq<double> i, unsigned legs, double bus_V, double magnet, double w) {
   const int steps = 50;
   const double h = m.T / steps, w_e = m.p * w;
@@ -110,9 +110,9 @@ std::array<Dq<double>, 8> currents(const Machine& m, const Case& x, bool foretel
 
 double distance(const Dq<double>& a, const Dq<double>& b) { return std::hypot(a.d - b.d, a.q - b.q); }
 
-/// The model's error with the angle in the middle of a period, for a period that turns by x = w_e T: x^2/24
-/// of voltage and e, and half of the current's change in the saliency term. A period changes the current by
-/// at most D.
+/// Bound of the model's error. The model uses the angle in the middle of a period, in which the rotor turns
+/// by x = w_e T. The error has two parts: x^2/24 of the voltage and of the back-EMF, and half of the
+/// current's change in the saliency term. The current changes by at most D in a period.
 double model_A(const Machine& m, const Case& x, bool foretells) {
   const double turn = std::fabs(m.p * x.w * m.T), b = m.T / m.L_d,
                D = b * (2 * x.bus_V / 3 + std::fabs(x.w) * m.p * m.psi);
@@ -142,8 +142,8 @@ TYPED_TEST(FiniteSet, ForetellsTheCurrentOfTheWindingsEquation) {
     }
 }
 
-/// No other state gives a current that is closer to the reference than the current of the chosen state, by
-/// more than the model's error.
+/// For no other state is the current closer to the reference, by more than the model's error, than for the
+/// chosen state.
 TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   const Machine m;
   std::mt19937 random(8);
@@ -164,7 +164,7 @@ TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   EXPECT_GT(changed, 500);
 }
 
-/// A sort of all states by their costs selects the same state. The costs use the block's own prediction of
+/// A sort of all states by their costs selects the same state. The costs use the block's own prediction for
 /// each state.
 TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   const Machine m;
@@ -196,7 +196,8 @@ TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
     std::sort(all.begin(), all.end());
     FiniteSetState<TypeParam> state{x.legs, {}};
     const LegBits legs = finite_set_step(c, state, in);
-    // Rounding may exchange two equal states: the selected state is as good as the first.
+    // If two states are equal, rounding may exchange them. The selected state must therefore have the same
+    // cost as the first state.
     const auto own =
         *std::find_if(all.begin(), all.end(), [&](const auto& a) { return std::get<3>(a) == legs; });
     const double rounding = 4000 * 64 * std::numeric_limits<TypeParam>::epsilon() + 4000 * 4e-7;
@@ -211,7 +212,8 @@ TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   EXPECT_GT(kept, 300);
 }
 
-/// If the reference is within the bus's hexagon, the distance to it is at most the radius of the triangles.
+/// If the reference is within the bus's hexagon, the current's distance to the reference is at most the
+/// radius of the triangles.
 TYPED_TEST(FiniteSet, ComesWithinTheRadiusOfTheTriangles) {
   Machine m;
   m.L_q = m.L_d;
@@ -277,7 +279,7 @@ TYPED_TEST(FiniteSet, TheDriveAnswersLegsThatStandForAPeriod) {
   EXPECT_FALSE(field_drive_step(c, state, in, Setpoint<TypeParam>{}, telemetry).enabled);
 }
 
-/// Both floating-point types select the same state, unless two states are equal.
+/// The types double and float select the same state, unless two states are equal.
 TEST(FiniteSets, DoubleAndFloatAgree) {
   const Machine m;
   std::mt19937 random(11);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents along the shape of a back-EMF are compared with the closed form for a trapezoid with 120 degrees
-// flat.
+// Currents that follow the shape of a back-EMF are compared with the closed form for a trapezoid with a flat
+// top of 120 degrees.
 #include "sixstep/control/field/harmonic_current.hpp"
 
 #include <gtest/gtest.h>
@@ -18,17 +18,17 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::control;
 
 constexpr double pi = std::numbers::pi;
-/// Peak of the trapezoid's fundamental: 4/pi sin(h)/h, where h = pi/6 is the ramp from the top to zero.
+/// Peak of the trapezoid's fundamental: 4/pi sin(h)/h. The ramp from the top to zero is h = pi/6.
 const double fundamental = 4 / pi * std::sin(pi / 6) / (pi / 6);
 
-/// Back-EMF shape of one phase, x rad from the middle of its flat top.
+/// Back-EMF shape of one phase at x, in rad from the middle of its flat top.
 double trapezoid(double x) {
   x = std::fabs(std::remainder(x, 2 * pi));
   return std::clamp((pi / 2 - x) / (pi / 6), -1.0, 1.0);
 }
 
-/// The shape vector g of the three phases in the magnet's frame, for the magnet's direction `magnet` in rad.
-/// The top of phase a is a quarter turn before the magnet's axis.
+/// The shape vector g of the three phases in the magnet's frame, if the magnet is in the direction `magnet`,
+/// in rad. The top of phase a is a quarter turn before the magnet's axis.
 Dq<double> exact(double magnet) {
   const Abc<double> f{trapezoid(magnet + pi / 2), trapezoid(magnet + pi / 2 - 2 * pi / 3),
                       trapezoid(magnet + pi / 2 - 4 * pi / 3)};
@@ -40,7 +40,8 @@ template <class Scalar>
 HarmonicCurrentConfig<Scalar> of_the_trapezoid() {
   HarmonicCurrentConfig<Scalar> c;
   c.on = true;
-  // Between the corners of a hexagon, the shape vector moves along a side. Its least length is the inradius.
+  // The end of the shape vector moves along the sides of a hexagon. The least length of the vector is the
+  // radius of the inscribed circle.
   c.least = static_cast<Scalar>(2 / std::numbers::sqrt3 / fundamental);
   for (int n = 0; n < shape_points; ++n) {
     const Dq<double> g = exact(n * pi / 3 / shape_points);
@@ -54,8 +55,8 @@ class HarmonicCurrent : public ::testing::Test {};
 using Floats = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(HarmonicCurrent, Floats);
 
-/// Straight lines between points at the distance D differ from g by at most D^2/8 times the largest |g''|,
-/// which is 1.6 here.
+/// Straight lines between points at the distance D differ from g by at most D^2/8 times the largest |g''|.
+/// For this shape, the largest |g''| is 1.6.
 constexpr double met = 1.6 * (pi / 96) * (pi / 96) / 8;
 
 template <class Scalar>
@@ -76,8 +77,9 @@ TYPED_TEST(HarmonicCurrent, TheTableMeetsTheShapeEverywhere) {
   }
 }
 
-/// The torque T = 3/2 p psi (g . i) is equal to the torque of I at every angle. A table error changes the
-/// torque by the relative error of |g|; a rotation of g has no effect of first order.
+/// The torque T = 3/2 p psi (g . i) is equal to the torque of I at every angle (symbols of model.md). An
+/// error of the table changes the torque by the relative error of |g|. A rotation of g has no effect of first
+/// order.
 TYPED_TEST(HarmonicCurrent, TheTorqueIsTheSameAtEveryAngleAndTheCurrentTheShortest) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double I = 4.0;
@@ -92,15 +94,16 @@ TYPED_TEST(HarmonicCurrent, TheTorqueIsTheSameAtEveryAngleAndTheCurrentTheShorte
     EXPECT_NEAR(std::hypot(d, q), shortest, shortest * (2 * met + 8 * eps<TypeParam>));
     square += (d * d + q * q) / angles;
   }
-  // The copper loss is f_1^2 times the mean of 1/|f|^2 over x = -1..1, with |f|^2 = 4/3 + 4 x^2/9. The mean
-  // gives f_1^2 sqrt 3 pi/8, which is 0.55 % more than with the constant i_q of the same mean torque.
+  // The copper loss, relative to a sine current, is f_1^2 times the mean of 1/|f|^2 over x = -1..1, with
+  // |f|^2 = 4/3 + 4 x^2/9 and the fundamental f_1. The mean gives f_1^2 sqrt 3 pi/8. This is 0.55 % more than
+  // the loss of the constant i_q with the same mean torque.
   const double copper = fundamental * fundamental * std::numbers::sqrt3 * pi / 8;
   EXPECT_NEAR(copper, 1.0055, 1e-4);
   EXPECT_NEAR(square / (I * I), copper, 4 * met + 8 * eps<TypeParam>);
 }
 
-/// The torque of a constant i_q is proportional to g_q, which varies from the middle of a hexagon's side to
-/// its corner, from 2/sqrt 3 to 4/3.
+/// The torque of a constant i_q is proportional to g_q. In the middle of a hexagon's side, g_q is 2/sqrt 3;
+/// at a corner, it is 4/3.
 TYPED_TEST(HarmonicCurrent, WithoutItTheTorqueSwingsAsTheShapeDoes) {
   const auto c = of_the_trapezoid<TypeParam>();
   double least = 2.0, most = 0.0;
@@ -124,8 +127,8 @@ TYPED_TEST(HarmonicCurrent, ASineGetsWhatItHadWithoutIt) {
   }
 }
 
-/// The weakening current is perpendicular to g and produces no torque. Its sum with the torque-producing
-/// current stays within the limit, because `least` bounds |g| from below.
+/// The weakening current is perpendicular to the shape vector g and produces no torque. Its sum with the
+/// torque-producing current stays within the limit, because the member `least` is a lower bound of |g|.
 TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double limit = 5.0, weakening = -3.0;
@@ -143,7 +146,8 @@ TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   EXPECT_NEAR(along, weakening, 0.01 * std::fabs(weakening)) << "the turn of g takes up to 0.6 % of it";
 }
 
-/// The drive uses the shape at the angle of the magnet `lead` later, in both directions of rotation.
+/// The drive uses the shape at a later angle of the magnet: the angle that is reached after the time `lead`.
+/// The test has both directions of rotation.
 TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   auto c = of_the_trapezoid<TypeParam>();
   c.lead_rad_s = static_cast<TypeParam>(2e-3);
@@ -160,7 +164,7 @@ TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   }
 }
 
-/// Both floating-point types give the same current, within the rounding of float.
+/// The types double and float give the same current, within the rounding of float.
 TEST(HarmonicCurrents, DoubleAndFloatAgree) {
   const auto wide = of_the_trapezoid<double>();
   const auto narrow = of_the_trapezoid<float>();
@@ -172,8 +176,8 @@ TEST(HarmonicCurrents, DoubleAndFloatAgree) {
   }
 }
 
-/// The feed-forward uses the back-EMF's shape at the instant at which it acts. A current at its reference
-/// then needs no other voltage.
+/// The feed-forward uses the back-EMF's shape at the instant at which the voltage acts. If the current is at
+/// its reference, no other voltage is needed.
 TYPED_TEST(HarmonicCurrent, TheDriveFeedsTheShapeForward) {
   FieldDriveConfig<TypeParam> c;
   c.drive.mode = Mode::current;

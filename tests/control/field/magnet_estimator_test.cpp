@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The estimators of the magnet's direction are compared with their equations: a pulsed winding of L_d and
-// L_q, saturating iron, and the flux of a rotating magnet.
+// The estimators of the magnet's direction are compared with their equations. The plants are a winding of L_d
+// and L_q with voltage pulses, saturating iron, and the flux of a rotating magnet.
 #include "sixstep/control/field/magnet_estimator.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ Direction<Scalar> along(double rad) {
 constexpr double L_d = 0.24e-3, L_q = 0.34e-3, T = 50e-6, V = 3.0;
 constexpr double Y_S = (1 / L_d + 1 / L_q) / 2, Y_D = (1 / L_d - 1 / L_q) / 2;
 
-/// Change of current over a period by the voltage v in the direction `at`, for a magnet in the direction
-/// `magnet`; R = 0.
+/// Change of the current over a period. The voltage v has the direction `at`, the magnet has the direction
+/// `magnet`, and R = 0.
 AlphaBeta<double> change(double v, double at, double magnet) {
   const double d = v * std::cos(at - magnet), q = v * std::sin(at - magnet);
   const double i_d = d * T / L_d, i_q = q * T / L_q;
@@ -40,7 +40,7 @@ AlphaBeta<double> change(double v, double at, double magnet) {
 }
 
 /// The response h after ten periods of injection. The voltage acts `late` periods later. A parabola over time
-/// is added to its current.
+/// is added to the measured current.
 template <class Scalar>
 Dq<Scalar> pulsed(double axis, double magnet, std::uint8_t late, double parabola_A) {
   const InjectionConfig<Scalar> c{static_cast<Scalar>(V), Scalar(1)};
@@ -92,14 +92,15 @@ NorthState<Scalar> looked(double saturation, double current_A) {
   NorthState<Scalar> state;
   for (int n = 0; n < 100; ++n) {
     const double i_d = static_cast<double>(north_current(c, state)) * saturation;
-    // The first periods, in which the block settles, are ignored: their h is wrong on purpose.
+    // In the first periods, the block settles and must ignore h. The test therefore gives a wrong h.
     const double h = state.ticks < 5 ? 100.0 : V * T / (L_d * (1 - i_d / 40.0));
     north_step(c, state, static_cast<Scalar>(h));
   }
   return state;
 }
 
-/// The ratio (h+ - h-)/(h+ + h-) is equal to I/I_sat, to the digit. Its sign reverses with the frame.
+/// The ratio (h+ - h-)/(h+ + h-) of the responses with current along and against the axis is equal to I/I_sat
+/// to the last digit. The sign of the ratio reverses with the frame.
 TYPED_TEST(MagnetEstimator, SaturationTellsNorth) {
   for (const double I : {2.0, 8.0}) {
     const NorthState<TypeParam> found = looked<TypeParam>(1, I), opposite = looked<TypeParam>(-1, I);
@@ -113,8 +114,8 @@ TYPED_TEST(MagnetEstimator, SaturationTellsNorth) {
   EXPECT_EQ(looked<TypeParam>(0.3, 8.0).phase, NorthPhase::unseen);
 }
 
-/// A magnet that turns by 0.05 rad per period, with currents along both axes. u is the voltage that R, these
-/// currents and the flux require, by the trapezoidal rule.
+/// A magnet that turns by 0.05 rad per period, with currents along both axes. The voltage u is computed by
+/// the trapezoidal rule: it is the voltage that the resistance R, these currents and the flux require.
 template <class Scalar>
 struct Turning {
   double R = 0.5, psi = 2e-3, i_d = -1.0, i_q = 3.0, angle = 0.3;
@@ -131,7 +132,7 @@ struct Turning {
     a = i_d * c - i_q * s;
     b = i_d * s + i_q * c;
   }
-  /// Advances by a period and returns its mean voltage.
+  /// Advances by one period and returns the mean voltage of this period.
   AlphaBeta<Scalar> period() {
     const Turning before = *this;
     angle += 0.05;
@@ -158,7 +159,7 @@ TYPED_TEST(MagnetEstimator, TheActiveFluxPointsAlongTheMagnet) {
   }
 }
 
-/// In the magnet's frame, an error decays by 1 - g each period.
+/// In the magnet's frame, an error of the flux decays by the factor 1 - g in each period.
 TYPED_TEST(MagnetEstimator, AnOffsetOfTheFluxFades) {
   Turning<TypeParam> m;
   m.put();
@@ -191,8 +192,8 @@ TYPED_TEST(MagnetEstimator, BehindTheMagnetTheWayBackIsShown) {
   }
 }
 
-/// Below w_low the estimate comes from injection, above w_high from the flux, between them from a linear
-/// blend. If only one of the two estimates exists, it is used.
+/// Below w_low, the estimate is computed from injection; above w_high, from the flux. Between these speeds,
+/// both are blended linearly. If only one of the two estimates exists, it is used alone.
 TYPED_TEST(MagnetEstimator, SpeedSaysWhichOneIsFollowed) {
   EstimatorConfig<TypeParam> c{};
   c.injection.voltage_V = TypeParam(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The currents that a voltage can maintain: they need at most the available voltage. A reachable reference is
-// unchanged, and for any other reference the result is as close to it as possible.
+// Tests the currents that the available voltage can maintain. A reachable reference is unchanged. For any
+// other reference, the result is as close to the reference as possible.
 #include "sixstep/control/field/reachable_current.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ template <class Scalar>
 class ReachableCurrent : public ::testing::Test {};
 TYPED_TEST_SUITE(ReachableCurrent, SensingScalars);
 
-/// Values relative to the bases; R and w p L are below 1.
+/// Values relative to the bases. The resistance R and the reactance w p L are below 1.
 template <class Scalar>
 FieldCurrentConfig<Scalar> machine() {
   FieldCurrentConfig<Scalar> c;
@@ -37,8 +37,8 @@ double length_of(const FieldCurrentConfig<double>& c, const Dq<double>& i, doubl
   return std::hypot(v.d, v.q);
 }
 
-/// The error of products of numbers below 1 is a digit each. Divided by |Z|^2 >= 0.04 and by |v|, it is at
-/// most some hundred digits.
+/// Each product of numbers below 1 has an error of one digit. After the division by |Z|^2 >= 0.04 and by |v|,
+/// the error is at most some hundred digits.
 TYPED_TEST(ReachableCurrent, ItNeedsNoMoreVoltageThanThereIs) {
   const auto c = machine<TypeParam>();
   const auto exact = machine<double>();
@@ -58,8 +58,8 @@ TYPED_TEST(ReachableCurrent, ItNeedsNoMoreVoltageThanThereIs) {
       }
 }
 
-/// A back-EMF above the bus causes a current of at least (|E| - V)/|Z|. With a zero reference, the current is
-/// equal to this value.
+/// A back-EMF E above the voltage limit V causes a current of at least (|E| - V)/|Z| in the impedance Z. With
+/// a zero reference, the current is equal to this value.
 TYPED_TEST(ReachableCurrent, BeyondTheBusTheLeastCurrentFlows) {
   for (const double w : {-0.9, 0.7}) {
     const Dq<TypeParam> i =
@@ -91,8 +91,9 @@ Drawn drawn(std::mt19937& random) {
   return x;
 }
 
-/// A projection does not increase the distance between two points, so |i'| <= |i| + the least current. At an
-/// unchanged i_d, the torque-producing current becomes smaller but never changes its sign.
+/// A projection does not increase the distance between two points. Therefore the resulting current i' obeys
+/// |i'| <= |i| + the least possible current. If i_d is unchanged, the torque-producing current becomes
+/// smaller but never changes its sign.
 TEST(ReachableCurrentLaw, ItIsNoLongerThanTheReferenceAndTheLeastCurrentTogether) {
   const unsigned seed = 20261127;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -116,8 +117,8 @@ TEST(ReachableCurrentLaw, ItIsNoLongerThanTheReferenceAndTheLeastCurrentTogether
   EXPECT_GT(beyond, 1000);
 }
 
-/// For a braked round rotor, the current is the closest possible one: no point of a fine polar grid of the
-/// disc is closer.
+/// For a braked round rotor, the resulting current is the closest possible one: no point of a fine polar grid
+/// over the disc of possible currents is closer.
 TEST(ReachableCurrentLaw, ABrakedRotorGetsTheNearestCurrent) {
   std::mt19937 random(7);
   int tried = 0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field-oriented drive that is turned beyond the bus voltage, with a winding solved in the rotor's frame:
-// R, L and a magnet. The voltage of the three duties is constant over each period in the stator's frame.
+// A field-oriented drive is turned faster than the bus voltage allows. Its winding (R, L and a magnet) is
+// solved in the rotor's frame. The voltage of the three duties is constant over each period in the stator's
+// frame.
 //
 // The law for any request: the current stays below the sum of three terms:
 // - the reference: i_q and, with field weakening, at most weakening_A;
-// - the least current within the voltage circle, (|E| - V)/|Z|;
-// - a margin, the change by the whole voltage until the next answer acts, (n + 1) T V/L.
+// - the least current within the voltage circle, (|E| - V)/|Z| (back-EMF E, voltage limit V, impedance Z);
+// - a margin: the change by the whole voltage until the next command acts, (n + 1) T V/L (delay of n periods
+//   T).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,8 +72,8 @@ class Winding {
   Complex current() const { return i_ * std::polar(1.0, angle_); }
   double length() const { return std::abs(i_); }
   double angle() const { return angle_; }
-  /// Integrates di/dt = (v e^(-j theta) - R i - j w (L i + psi))/L over an interval shorter than both time
-  /// constants. The only approximation is that v has the angle in the middle of the interval.
+  /// Integrates di/dt = (v e^(-j theta) - R i - j w (L i + psi))/L over an interval that is shorter than both
+  /// time constants. The only approximation is the angle of v, which is taken in the middle of the interval.
   void go(const Complex& stator_V, double w, double dt) {
     const double w_e = w * x_.pole_pairs;
     const Complex rate(x_.R / x_.L, w_e), v = stator_V * std::polar(1.0, -(angle_ + w_e * dt / 2));
@@ -134,7 +136,8 @@ Seen turned(const Case& x) {
   return seen;
 }
 
-/// A motor of 7 pole pairs, 5.12 mWb, 22.3 uH on 60 V. The back-EMF reaches the voltage circle at 966 rad/s.
+/// A motor with 7 pole pairs, a flux linkage of 5.12 mWb and 22.3 uH, on a bus of 60 V. The back-EMF reaches
+/// the voltage circle at 966 rad/s.
 Case hand_brake() {
   return {.R = 0.0187,
           .L = 22.3e-6,
@@ -147,8 +150,8 @@ Case hand_brake() {
           .to_rad_s = 1000};
 }
 
-/// Without this limitation, the current was 460 A in each case, 2 psi/L: the current of a sudden short
-/// circuit.
+/// Without this limitation, the current would be 460 A in each case. This is 2 psi/L, the current of a sudden
+/// short circuit.
 TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
   for (const double i_q : {0.0, 80.0, -80.0, -20.0})
     for (const double weakening_A : {0.0, 5.0, 40.0, 150.0})
@@ -157,7 +160,8 @@ TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
         x.i_q = i_q;
         x.weakening_A = weakening_A;
         x.bandwidth_rad_s = 2 * std::numbers::pi * bandwidth_Hz;
-        // The requested d current lowers the voltage to 95 % of the circle: 20 A of the 150 A.
+        // The requested d current lowers the voltage to 95 % of the circle. It needs 20 A of the allowed 150
+        // A.
         const double most = std::hypot(i_q, std::min(weakening_A, 20.0)) + x.least_A(1000);
         const Seen seen = turned(x);
         EXPECT_LT(seen.peak_A, most + 5.0) << i_q << ' ' << weakening_A << ' ' << bandwidth_Hz;
@@ -165,8 +169,8 @@ TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
   EXPECT_NEAR(hand_brake().least_A(1000), 7.6, 0.1);
 }
 
-/// The limit also applies without decoupling, or with each axis limited to half the bus voltage, whose circle
-/// is smaller.
+/// The law also holds without decoupling. It also holds if each axis is limited to half the bus voltage,
+/// although the circle within these limits is smaller.
 TEST(ShortBus, OtherLimitsHoldItToo) {
   for (const double i_q : {0.0, 80.0, -80.0})
     for (const bool axes : {false, true}) {
@@ -184,8 +188,8 @@ Case drawn(std::mt19937_64& random) {
   const auto decades = [&](double a, double b) { return a * std::pow(b / a, between(0, 1)); };
   Case x;
   x.delay = between(0, 1) < 0.5;
-  // The magnet turns by up to 0.4 rad per period at the bus's limit, and 0.8 rad at twice this speed. The
-  // advance of the angle is limited to 1 rad.
+  // The magnet turns by up to 0.4 rad per period at the speed at which the bus limits, and by 0.8 rad at
+  // twice this speed. The advance of the angle is limited to 1 rad.
   const double w_0 = decades(0.01, x.delay > 0 ? 0.25 : 0.4) / x.period_s;
   x.psi = x.bus_V / std::numbers::sqrt3 / w_0;
   x.L = decades(0.3, 30) * x.R / w_0;
@@ -219,9 +223,9 @@ TEST(ShortBus, ItIsHeldWhateverIsAskedForUpToTwiceTheSpeedWithoutALoad) {
   }
 }
 
-/// The drive starts beyond the bus voltage without a current. At first, the whole voltage is too small for
-/// the current that it can maintain later. The current oscillates around this final value by at most the
-/// initial difference, and settles there.
+/// The drive starts without a current, at a speed beyond the bus voltage. At first, the available voltage is
+/// too small for the current that it can maintain later. The current oscillates around this final value by at
+/// most the initial difference, and settles there.
 TEST(ShortBus, BegunBeyondTheBusItSwingsOnce) {
   const unsigned seed = 20261128;
   SCOPED_TRACE("seed " + std::to_string(seed));

@@ -46,7 +46,7 @@ TEST(BinaryAngle, ConstantsOfDegreesAreTheNearestAndWrap) {
   for (const double degrees : {0.0, 60.0, 90.0, 359.999, 360.0, 400.25, -1.0, -90.0, -719.5, 1e6})
     EXPECT_LE(
         std::fabs(std::remainder(static_cast<double>(binary_degrees(degrees)) - degrees / 360 * turn, turn)),
-        // half a unit of rounding, and the rounding of the turns in double
+        // half a unit of rounding, plus the rounding of the turns in double
         0.5 + std::fabs(degrees) / 360 * 0x1p-52 * turn)
         << degrees;
   static_assert(binary_degrees(90) == quarter_turn && binary_degrees(-180) == half_turn);
@@ -113,7 +113,7 @@ TYPED_TEST(BinaryAngleIn, HalfTurnsAndWholeNumbersAreRoundedOnce) {
   Drawn drawn{5};
   for (int n = 0; n < 10000; ++n) {
     const auto angle = static_cast<std::int32_t>(drawn.word());
-    // one digit: half of rounding, half more where the format ends below 1
+    // one digit: half a digit of rounding, and half a digit more if the range of the format ends below 1
     ASSERT_NEAR(static_cast<double>(AngleTraits<S>::half_turns(angle)), angle * 0x1p-31, digit<S>())
         << drawn.seed;
     const auto x = static_cast<std::int32_t>(drawn.word()) >> drawn.below(31);
@@ -150,7 +150,7 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
   using S = TypeParam;
   for (double rad = -1; rad <= 1; rad += 0.0117) {
     const double units = static_cast<double>(static_cast<S>(rad)) * 4294967296.0 / (2 * std::numbers::pi);
-    // 31 fractional bits, rounded towards 0, and the product to a unit
+    // 31 fractional bits are rounded towards 0, and the product is rounded to a unit
     EXPECT_NEAR(angle_of_rad(static_cast<S>(rad)), units, 1.5) << rad;
   }
   EXPECT_EQ(angle_of_rad(one<S>), -angle_of_rad(-one<S>)) << "both directions alike";
@@ -159,9 +159,9 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
 TYPED_TEST(BinaryAngleIn, SineAndCosineAreRightToTheStatedError) {
   using S = TypeParam;
   const double cubic = std::pow(std::numbers::pi / 256, 3) / 6;
-  // In fixed point, the table, two products and the range adjustment are each rounded by half a digit. A
-  // format whose range ends below 1 adds up to one digit, and the rounding before a gain adds a hundredth. In
-  // floating point, the table and two sums are each rounded by at most a quarter of a digit.
+  // In fixed point, the table, two products and the range adjustment are each rounded by half a digit. If the
+  // range of the format ends below 1, up to one digit is added, and the rounding before a gain adds a
+  // hundredth. In floating point, the table and two sums are each rounded by at most a quarter of a digit.
   const double digits = is_fixed<S> ? 2.1 + (static_cast<double>(one<S>) < 1 ? 0.6 : 0.0) : 1.0;
   const double bound = cubic + 1e-9 + digits * digit<S>();
   double worst = 0;

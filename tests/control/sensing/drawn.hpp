@@ -20,7 +20,7 @@ struct Drawn {
 /// Degrees of a signed binary angle.
 inline double degrees_of(std::int32_t angle) { return angle * (360.0 / 4294967296.0); }
 
-/// A real angle in turns, as a wrapped and rounded binary angle.
+/// An angle in turns, converted to a wrapped and rounded binary angle.
 inline std::uint32_t of_turns(double turns) {
   const double whole = turns * 4294967296.0;
   return static_cast<std::uint32_t>(

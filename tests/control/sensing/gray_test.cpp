@@ -17,8 +17,8 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<GrayState>);
 
-/// The code by its definition as a reflected list: the codes of n-1 bits, then the same codes in reverse
-/// order with bit n-1 set.
+/// The code by its definition as a reflected list. The list has the codes of n-1 bits, followed by the same
+/// codes in reverse order with bit n-1 set.
 std::uint32_t reflected(std::uint32_t place, std::uint8_t bits) {
   if (bits == 0) return 0;
   const std::uint32_t half = 1u << (bits - 1);
@@ -76,8 +76,8 @@ TYPED_TEST(GrayIn, FollowsManyTurns) {
           if (n < span) {
             ASSERT_EQ(static_cast<double>(r.speed), 0.0);
           } else {
-            // The error is one step of the code, and the rounding of the format: gain and angle have a
-            // relative error of 2^-15, 2^-31 or one digit.
+            // The error is one step of the code, plus the rounding of the format. Gain and angle have a
+            // relative error of 2^-15, of 2^-31, or of one digit.
             const double own = is_fixed<S> ? std::ldexp(1.0, sizeof(S) == 2 ? -14 : -30) : 2 * digit<S>();
             const double bound = 2 * std::numbers::pi * step / (span * period) * (1 + own) +
                                  std::fabs(w) * own + (is_fixed<S> ? digit<S>() * base / 2 : 0.0);
@@ -89,8 +89,8 @@ TYPED_TEST(GrayIn, FollowsManyTurns) {
       }
 }
 
-/// A track breaks to a fixed level while the rotor turns by some counts per tick. The first jump names this
-/// track or none, never another track.
+/// A track breaks to a fixed level while the rotor turns by some counts per tick. The first detected jump
+/// names this track or no track, but never another track.
 TEST(Gray, ABrokenTrackIsNamed) {
   constexpr std::uint8_t bits = 12;
   int named = 0, untold = 0, never = 0, coarse = 0;
@@ -115,8 +115,8 @@ TEST(Gray, ABrokenTrackIsNamed) {
         else
           ++(r.track == no_track ? untold : named);
         ASSERT_TRUE(r.track == track || r.track == no_track) << int{track} << " of seed " << seed;
-        // A broken track gives the code of a mirrored position. It differs by one count for track 0 and by at
-        // most three for track 1, which is within the tolerance.
+        // A broken track gives the code of a mirrored position. The mirrored position differs by one count
+        // for track 0 and by at most three counts for track 1. These differences are within the tolerance.
         ASSERT_TRUE(r.jump || track < 2) << int{track} << " of seed " << seed;
         ASSERT_TRUE(r.track == no_track || track > 2) << "its mirror, of 7 counts, is within four tolerances";
       }
@@ -125,7 +125,7 @@ TEST(Gray, ABrokenTrackIsNamed) {
   EXPECT_GT(named, 0.6 * coarse);
 }
 
-/// The prediction replaces a single wrong code. The position afterwards is the true position.
+/// The decoder replaces a single wrong code by its prediction. The next position is the true position.
 TEST(Gray, AWrongCodeIsBridged) {
   constexpr std::uint8_t bits = 12;
   GrayState state;
@@ -139,7 +139,8 @@ TEST(Gray, AWrongCodeIsBridged) {
     if (wrong) {
       EXPECT_EQ(r.track, 10) << n;
     }
-    // the prediction extrapolates from two codes, each accurate to a step; the later code counts twice
+    // the prediction extrapolates from two codes, each accurate to a step; the later code has twice the
+    // weight
     EXPECT_NEAR(r.position.turns + r.position.angle / 4294967296.0, turns - step / 2,
                 step * (wrong ? 1.5 : 0.5) + 1e-9)
         << n;
@@ -147,8 +148,8 @@ TEST(Gray, AWrongCodeIsBridged) {
   EXPECT_EQ(state.faults, 40u);
 }
 
-/// A permanent jump is accepted after `patience` codes. The turn count changes as if the rotor had turned in
-/// the shorter direction.
+/// A permanent jump is accepted after `patience` codes. The turn count then changes as if the rotor had
+/// turned in the shorter direction.
 TEST(Gray, AJumpThatStaysIsBelieved) {
   GrayState state;
   const auto c = config<double>(12, 1);

@@ -43,8 +43,8 @@ double off_deg(BinaryAngle angle, double degrees) {
   return std::remainder(angle * (360 / 4294967296.0) - degrees, 360.0);
 }
 
-/// A rotor that turns at constant speed `deg_per_s` from 0 on and is read four times per sector. `look`
-/// receives the results.
+/// A rotor turns at the constant speed `deg_per_s`, starting at 0, and is read four times per sector. The
+/// function `look` receives the results.
 template <class S, class Look>
 void turning(const HallAngleConfig<S>& c, const HallProbes& probes, double deg_per_s, Look look) {
   HallAngleState state;
@@ -68,8 +68,8 @@ template <class Scalar>
 class HallAngleIn : public ::testing::Test {};
 TYPED_TEST_SUITE(HallAngleIn, SensingScalars);
 
-/// With known misplacement, hysteresis and delay of the probes, angle and speed are accurate to ticks of the
-/// timer.
+/// If misplacement, hysteresis and delay of the probes are known, angle and speed are accurate to ticks of
+/// the timer.
 TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 1000.0 : 1.0;
@@ -82,9 +82,9 @@ TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
         const HallAngleConfig<S> c = config<S>(misplaced, span, base);
         turning(c, misplaced, deg_per_s, [&](int n, const HallAngle<S>& found, double truth) {
           if (n <= 2) return;
-          // The edge's time is truncated to a tick. One more tick over k sectors of at least 55 degrees, and
-          // half a tick per turn, act over at most a sector of 66 degrees and the delay. Widths are rounded
-          // to units.
+          // The time of an edge is truncated to a tick. Two errors act over at most a sector of 66 degrees
+          // and the delay: one more tick in k sectors of at least 55 degrees, and half a tick per turn. The
+          // widths of sectors are rounded to units.
           const int k = std::min(n - 2, int{span});
           const double ticks = 55 * k / deg_per_tick, half_tick = 0.5 / (360 / deg_per_tick);
           const double drawn_out = 66 + misplaced.delay_s * std::fabs(deg_per_s);
@@ -104,7 +104,8 @@ TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
   EXPECT_GT(worst, 0.5);
 }
 
-/// If misplaced probes are assumed to be evenly placed, angles are wrong and the speed has a ripple.
+/// If the decoder assumes evenly spaced probes but the probes are misplaced, angles are wrong and the speed
+/// has a ripple.
 TEST(HallAngle, WhatIsNotCalibratedIsWrong) {
   const double w = 60, deg_per_s = w * pole_pairs * 180 / std::numbers::pi;
   HallAngleConfig<double> plain = config<double>(misplaced, 1);
@@ -116,14 +117,14 @@ TEST(HallAngle, WhatIsNotCalibratedIsWrong) {
     worst_deg = std::max(worst_deg, std::fabs(off_deg(found.angle, truth)));
     worst_speed = std::max(worst_speed, std::fabs(found.speed / w - 1));
   });
-  // The law: the angle just after edge 1 is wrong by the sum of the offset 5, the hysteresis 2, the probe's
-  // misplacement 3 and the delay's 1.65 degrees.
+  // Just after edge 1, the error of the angle is the sum of four angles: the offset of 5 degrees, the
+  // hysteresis of 2 degrees, the probe's misplacement of 3 degrees, and 1.65 degrees of delay.
   EXPECT_GT(worst_deg, 5 + 2 + 3 + 120e-6 * deg_per_s - 0.1);
   EXPECT_NEAR(worst_speed, 60 / 55.0 - 1, 0.001) << "the narrowest sector, of 55 degrees";
 }
 
-/// For any edge times, the estimate is equal to the definition in double, and never exceeds the next edge
-/// plus the margin.
+/// For any edge times, the estimate is equal to its definition, computed in double. It never exceeds the next
+/// edge plus the margin.
 TEST(HallAngle, IsItsDefinitionForAnyTimes) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Drawn drawn{seed};
@@ -146,7 +147,7 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
         const HallAngle<double> found = hall_angle(c, state, now + since);
         if (known < 1) {
           ASSERT_EQ(found.speed, 0.0);
-          // The middle of the sector between its actual edges.
+          // The middle of the sector between its two true edges.
           const int low = direction > 0 ? m : m - 1;
           ASSERT_LE(std::fabs(off_deg(found.angle, (misplaced.at(low) + misplaced.at(low + 1)) / 2)), 1e-6);
           continue;
@@ -156,8 +157,8 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
         const double to_next = std::fabs(misplaced.at(m + direction) - misplaced.at(m));
         const double way = std::min(width * since / ticks, to_next + margin) + width * 120 / ticks;
         const double expected = switches(misplaced, m, direction) + direction * way;
-        // The decoder rounds the ticks of a turn to a whole number: an error of half a tick per turn, here
-        // over the angle `way`.
+        // The decoder rounds the ticks of a turn to a whole number. This is an error of half a tick per turn,
+        // which acts over the angle `way`.
         const double turn_ticks = ticks * 360 / width;
         ASSERT_LE(std::fabs(off_deg(found.angle, expected)), 0.5 / (turn_ticks - 0.5) * way + 1e-6)
             << "seed " << seed;
@@ -172,8 +173,9 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
   }
 }
 
-/// The decoder is called through hall_step, as in firmware. A reversal, an impossible code and a time-out
-/// discard the history. The angle is then the sector's middle, within 30 degrees of any angle in the sector.
+/// The decoder is called through hall_step(), as in firmware. A reversal, an impossible code and a time-out
+/// discard the history. The angle is then the middle of the sector, which is within 30 degrees of any angle
+/// in the sector.
 TEST(HallAngle, ReversalFaultAndTimeOutBeginAnew) {
   const HallProbes even;
   const HallAngleConfig<double> c = config<double>(even, 6);

@@ -21,7 +21,7 @@ static_assert(std::is_trivially_copyable_v<HallCalibrationState>);
 const HallProbes planted{{0, 3, -2, 1, -4, 2}, 7, 2, 100e-6};
 constexpr double hz = 50;  // electrical frequency
 
-/// A run that passes each angle at the time `when`, s as a function of degrees. The times have a jitter that
+/// A run that passes each angle (degrees) at the time when(angle), in s. The times have a jitter that
 /// corresponds to `jitter_deg` at the mean speed.
 HallCalibrationState run(const HallCalibrationConfig& config, const HallProbes& probes, int direction,
                          int first, const std::function<double(double)>& when, double jitter_deg,
@@ -39,8 +39,9 @@ HallCalibrationState run(const HallCalibrationConfig& config, const HallProbes& 
 }
 double steadily(double degrees) { return degrees / 360 / hz; }
 
-/// The misplacements are found to 0.1 degrees. The error is that of the mean of n jittered times, minus the
-/// common part of all six edges: sigma sqrt(5/6/n).
+/// The misplacements are found within 0.1 degrees. The error of an edge is the mean of n jittered times,
+/// minus the common part of all six edges: sigma sqrt(5/6/n), with the standard deviation sigma of the
+/// jitter.
 TEST(HallCalibration, FindsWhatWasPlanted) {
   const HallCalibrationConfig config{.turns = 256, .steady = 32};
   const double sigma = 0.2;
@@ -54,7 +55,7 @@ TEST(HallCalibration, FindsWhatWasPlanted) {
     ASSERT_EQ(state.result, HallCalibration::done) << "seed " << seed;
     const HallDeviations found = hall_deviations(state);
     for (int n = 0; n < 6; ++n) {
-      // the misplacements own_deg sum to 0, like the deviations
+      // the misplacements own_deg sum to 0, and so do the deviations
       const double off = degrees_of(found.at[n]) - planted.own_deg[n];
       EXPECT_LT(std::fabs(off), 0.1) << n << " of seed " << seed;
       worst = std::max(worst, std::fabs(off));
@@ -68,7 +69,7 @@ TEST(HallCalibration, FindsWhatWasPlanted) {
   EXPECT_NEAR(rms, law, 0.23 * law);
 }
 
-/// Without jitter the error is one tick of the timer.
+/// Without jitter, the error is one tick of the timer.
 TEST(HallCalibration, IsRightToATick) {
   const double tick_deg = 360 * hz / timer_Hz;
   Drawn drawn{1};
@@ -82,8 +83,8 @@ TEST(HallCalibration, IsRightToATick) {
       }
 }
 
-/// The edges' times do not contain the offset that all edges have in common, so the offset is given. Runs in
-/// both directions separate it from the hysteresis.
+/// The times of the edges do not show the offset that all edges have in common, so the test supplies the
+/// offset. Runs in both directions separate the offset from the hysteresis.
 TEST(HallCalibration, OffsetAndHysteresisPartWhereBothDirectionsAreGiven) {
   Drawn drawn{2};
   const HallCalibrationConfig config;
@@ -97,14 +98,14 @@ TEST(HallCalibration, OffsetAndHysteresisPartWhereBothDirectionsAreGiven) {
   for (int n = 0; n < 6; ++n)
     EXPECT_NEAR(degrees_of(way_between(binary_degrees(planted.at(n)), edges.at[n])), 0, near) << n;
   EXPECT_NEAR(degrees_of(static_cast<std::int32_t>(edges.half_hysteresis)), late_deg, 1e-6);
-  // A run in one direction uses the hysteresis of the data sheet.
+  // After a run in one direction only, the hysteresis of the data sheet is used.
   const HallEdges one = hall_edges(forward, static_cast<std::int32_t>(binary_degrees(7)), binary_degrees(2));
   for (int n = 0; n < 6; ++n)
     EXPECT_NEAR(degrees_of(way_between(binary_degrees(planted.at(n)), one.at[n])), 0, near) << n;
   EXPECT_EQ(one.half_hysteresis, binary_degrees(2));
 }
 
-/// Each edge has a different hysteresis, which cancels in the mean of both directions.
+/// The hysteresis of each edge is different. It cancels in the mean of both directions.
 TEST(HallCalibration, HysteresesThatDifferCancelInTheMeanOfBothDirections) {
   HallProbes forward = planted, backward = planted;
   const double more[6] = {0.5, -0.3, 0.2, -0.6, 0.1, 0.1};
@@ -120,14 +121,15 @@ TEST(HallCalibration, HysteresesThatDifferCancelInTheMeanOfBothDirections) {
                 1.5 * 360 * hz / timer_Hz);
 }
 
-/// The time of a turn drifts by the fraction d over n turns. This shifts angles by at most d/(8 n) turns; the
-/// test reaches this bound.
+/// The time of a turn drifts by the fraction d over n turns. This drift shifts angles by at most d/(8 n)
+/// turns, and the test reaches this bound.
 TEST(HallCalibration, DriftBendsByItsLaw) {
   Drawn drawn{4};
   const HallProbes even;
   const HallCalibrationConfig config{.turns = 32, .steady = 64};
   const double d = 0.9 / 64, n = config.turns;
-  // The time is t = x T (1 + d x/(2 n)) over x turns: each turn takes d/n of T longer than the previous turn.
+  // x turns take the time t = x T (1 + d x/(2 n)) (T: time of a turn), so each turn takes d/n of T longer
+  // than the previous turn.
   const auto drifting = [&](double degrees) {
     const double x = degrees / 360;
     return x / hz * (1 + d * x / (2 * n));
@@ -166,7 +168,7 @@ TEST(HallCalibration, RefusesAReversalAndAMissedEdge) {
   }
 }
 
-/// A run of some days: the sums have more than 32 bits.
+/// The run lasts some days, so the sums have more than 32 bits.
 TEST(HallCalibration, LongRunsDoNotOverflow) {
   HallCalibrationState state;
   const HallCalibrationConfig config{.turns = 65535};
@@ -176,8 +178,8 @@ TEST(HallCalibration, LongRunsDoNotOverflow) {
     hall_calibrate(config, state, static_cast<std::uint8_t>(n % 6), 1, t + (n % 6 == 3 ? sector / 10 : 0));
   ASSERT_EQ(state.result, HallCalibration::done);
   const HallDeviations found = hall_deviations(state);
-  // One edge is 6 degrees off. The mean of the six edges, 1 degree, is subtracted, which gives 5 and -1. Sums
-  // keep 32 bits of a turn, rounded down.
+  // One edge is 6 degrees off. The mean of the six edges, 1 degree, is subtracted, so the results are 5 and
+  // -1 degrees. Sums have a resolution of 2^-32 turns and are rounded down.
   for (int n = 0; n < 6; ++n) EXPECT_NEAR(degrees_of(found.at[n]), n == 3 ? 5 : -1, 4 * 360 / 4294967296.0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall edges of a rotor by their definition (model.md 3 and 10): edge n is at 60 n degrees plus an offset,
-// the edge's misplacement and half the hysteresis in the direction of motion. It is detected after a delay.
+// Hall edges of a rotor by their definition (model.md 3 and 10). Edge n is at 60 n degrees plus three angles:
+// an offset, the edge's misplacement, and half the hysteresis in the direction of motion. The edge is
+// detected after a delay.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -28,7 +29,7 @@ inline std::uint32_t ticks_at(double s) {
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(s * timer_Hz) + 0xffff0000u);
 }
 
-/// The detection of edge m (of any turn), passed at `passed_s`.
+/// The detection of edge m (of any turn) that the rotor passes at `passed_s`.
 inline SeenEdge seen(const HallProbes& probes, int m, int direction, double passed_s) {
   const int sector = direction > 0 ? m : m - 1;
   return {static_cast<std::uint8_t>(((sector % 6) + 6) % 6), static_cast<std::uint8_t>(((m % 6) + 6) % 6),

@@ -28,14 +28,14 @@ PulseSpeedConfig<S> config(double base = 1.0) {
 }
 
 /// An encoder whose position, in counts, is a monotonic function of time between two control ticks. Each edge
-/// has its own timer count.
+/// is captured with its own timer count.
 class Encoder {
  public:
   explicit Encoder(std::function<double(double)> place) : place_(std::move(place)) {
     at_ = std::floor(place_(0));
   }
 
-  /// Advances to time t; bisection finds edges to 1e-10 of a second.
+  /// Advances to the time t. Bisection finds the edges to 1e-10 s.
   void run(PulseSpeedState& state, double t) {
     const double end = std::floor(place_(t));
     for (; at_ < end; ++at_) pulse_edge(state, 1, 1, ticks(passing(at_ + 1, t)));
@@ -66,8 +66,8 @@ template <class Scalar>
 class PulseSpeed : public ::testing::Test {};
 TYPED_TEST_SUITE(PulseSpeed, SensingScalars);
 
-/// From 1 to 10000 rad/s, in both directions, the speed is accurate to one timer tick in the time T. T is at
-/// least the period minus the time of a count, and at least the time of a count.
+/// From 1 to 10000 rad/s, in both directions, the speed is accurate to one timer tick in the measuring time
+/// T. T is at least the time of a count, and at least the period minus the time of a count.
 TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 10400.0 : 1.0, period = 1e-3;
@@ -84,8 +84,9 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
         const double found = static_cast<double>(pulse_speed(c, state, Encoder::ticks(t))) * base;
         if (t < 2 * (period + count_s)) continue;  // two ticks with an edge
         const double T_ticks = timer_Hz * std::max(count_s, period - count_s);
-        // Times are truncated to ticks: T by one tick, and `since`, which bounds the speed, also by one. The
-        // ratio in the format is rounded by half a digit, relative to the product for M = 1.
+        // Times are truncated to ticks. T is wrong by up to one tick, and so is the time `since`, which
+        // bounds the speed. The format rounds the ratio by half a digit; for M = 1 edge, this is relative to
+        // the product.
         const double ratio = is_fixed<S> ? 0.5 * digit<S>() * base / (timer_Hz / counts_per_rad) : digit<S>();
         const double bound = w * (1 / (T_ticks - 1) + ratio) + digit<S>() * (is_fixed<S> ? base : w);
         ASSERT_NEAR(found, sign * w, bound) << w << " at " << n;
@@ -96,7 +97,8 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   EXPECT_GT(worst_part, 0.5) << "the bound is no wider than it must be";
 }
 
-/// If a rotor stops, the speed decreases at least as fast as the missing edge implies, then becomes 0.
+/// If the rotor stops, the estimated speed decreases at least as fast as the missing edge implies. Then it
+/// becomes 0.
 TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   const auto c = config<double>();
   Encoder encoder([](double t) { return 400.0 * counts_per_rad * std::min(t, 0.05); });
@@ -120,8 +122,8 @@ TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   }
 }
 
-/// The edges are at 1000 and 1500, truncated to ticks. 2000 ticks after the last edge, the true interval may
-/// be only 1999 ticks.
+/// The edges are at 1000 and 1500 ticks, truncated to ticks. 2000 ticks after the last edge, the true
+/// interval may be only 1999 ticks.
 TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   const PulseSpeedConfig<double> c{1e6, 100000};
   PulseSpeedState state;
@@ -135,8 +137,9 @@ TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   EXPECT_EQ(pulse_speed(c, state, 4510), -2e6 / 3000);
 }
 
-/// During a reversal, the speed is the rotor's movement divided by the time between the last edges of two
-/// ticks, or the limit from a missing edge. An edge that is passed backwards adds nothing.
+/// During a reversal, the speed is the movement of the rotor divided by the time between the last edges of
+/// two ticks. The limit from a missing edge also applies. An edge that is passed forward and backward adds no
+/// movement.
 TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
   const auto c = config<double>();
   const auto place = [](double t) { return 1000.5 - 4e5 * (t - 0.1003) * (t - 0.1003); };
@@ -157,7 +160,7 @@ TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
     const double T_ticks = (to - from) * timer_Hz, since_ticks = (t - to) * timer_Hz;
     const double mean = (place(to) - place(from)) / counts_per_rad / (to - from);
     const double allowed = timer_Hz / counts_per_rad / (since_ticks + 1);
-    // T is accurate to a tick, positions to 1e-10 s.
+    // T is accurate to a timer tick, positions are accurate to 1e-10 s.
     EXPECT_LE(std::fabs(w), std::fabs(mean) * (1 + 1 / (T_ticks - 1)) + 1e-4) << t;
     EXPECT_GE(std::fabs(w), std::fmin(std::fabs(mean) * (1 - 1 / T_ticks), allowed) - 1e-4) << t;
     EXPECT_GE(w * mean, 0) << t;
@@ -169,7 +172,7 @@ TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
   EXPECT_GT(bounded, 0);
 }
 
-/// Oscillation around one edge gives a speed of 0, for any number of passes.
+/// Oscillation around one edge gives a speed of 0, for any number of passes over this edge.
 TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   const auto c = config<double>();
   PulseSpeedState state;
@@ -186,9 +189,9 @@ TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   }
 }
 
-/// Every 37th edge is missing. Edges are 1000 timer ticks apart. The control tick shifts by one timer tick
-/// relative to the edges, so that every phase occurs equally often. According to the header, the mean is
-/// reduced by 2 - ln 2 - 1/(M (M + 1)) times the missing fraction.
+/// Every 37th edge is missing. Edges are 1000 timer ticks apart, and a control tick contains M edges. The
+/// control tick shifts by one timer tick relative to the edges, so that every phase occurs equally often.
+/// According to the header, the mean speed is lowered by 2 - ln 2 - 1/(M (M + 1)) times the missing fraction.
 TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
   for (const int M : {1, 2, 3, 5, 9}) {
     const PulseSpeedConfig<double> c{1000.0, 1000000};  // one edge per 1000 ticks is a speed of 1
@@ -211,8 +214,8 @@ TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
       ticks += to - from;
     }
     const double share = 1.0 / 37, law = 2 - std::log(2.0) - 1.0 / (M * (M + 1));
-    // The tolerance is a tick of 1000 in the bound, and a thousandth of the control ticks, in which M + 1
-    // edges occur.
+    // The tolerance has two parts: a tick of 1000 in the bound, and a thousandth of the control ticks, in
+    // which M + 1 edges occur.
     EXPECT_NEAR(sum / (readings - 2) / share, law, 0.004) << M;
     EXPECT_NEAR(1000 * counted / ticks, 1 - share, 1.0 / (readings * M))
         << "over its own windows, but for a miss at their ends";

@@ -14,8 +14,8 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<QuadratureState>);
 
-/// The encoder by its definition (model.md 10), as a function of its position in counts: A is high over the
-/// first half of a line, B a quarter of a line later, Z over the first line of a turn.
+/// The encoder by its definition (model.md 10), as a function of its position in counts. A is high over the
+/// first half of a line. B is high a quarter of a line later. Z is high over the first line of a turn.
 struct Lines {
   bool a, b, z;
 };
@@ -76,8 +76,8 @@ TEST(Quadrature, BothLinesAtOnceAreIllegalAndCountTwoOn) {
   }
 }
 
-/// A disturbance makes the count wrong by n. The next index, in either direction, reports n, and the angle is
-/// correct from then on.
+/// A disturbance makes the count wrong by n. The next index, in either direction, reports n. After this
+/// index, the angle is correct.
 TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})
@@ -105,8 +105,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
     }
 }
 
-/// If the edges of an index are less than two counts early or late, the index is still evaluated at the right
-/// count.
+/// The index is evaluated at the right count even if its edges are less than two counts early or late.
 TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})
@@ -119,8 +118,8 @@ TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
           const Lines l = lines_at(in_turn, 64);
           quadrature_step(config, state, l.a, l.b, signed_place >= rises && signed_place < 4 + falls);
         }
-        // The index is evaluated only at the third count. Z must be high at this count, and low four counts
-        // before and after it.
+        // The index is evaluated only at the third count. Z must be high at this count, and low both four
+        // counts before it and four counts after it.
         const bool sound = rises > -2 && rises <= 2 && falls > -2 && falls <= 2;
         const auto place = static_cast<std::uint32_t>((direction * 399 % 64 + 64) % 64);
         EXPECT_EQ(state.referenced && state.corrections == 0 && state.in_turn == place, sound)

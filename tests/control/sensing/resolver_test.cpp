@@ -23,7 +23,7 @@ constexpr double pi = std::numbers::pi, turn = 4294967296.0;
 constexpr double amplitude = 0.6;  // relative to the chip's signals
 
 /// Windings and converter by their definition (model.md 10): amplitude k V_R, offsets and noise in counts,
-/// amplitude imbalance a, skew q in rad.
+/// amplitude imbalance a, and skew q in rad.
 struct Windings {
   double counts = 1800, a = 0, q = 0, cos_offset = 2048, sin_offset = 2048, noise = 0;
   int most = 4095;
@@ -50,7 +50,7 @@ ResolverConfig<S> config(const Windings& w, const SecondOrder& loop) {
           .lost_after = 3};
 }
 
-/// Error, in rad, of the angle after `samples` results of a rotor at rest at `phi`.
+/// Error of the angle, in rad, after `samples` samples of a rotor at rest at `phi`.
 template <class S>
 double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn& drawn, int samples = 400) {
   ResolverState state;
@@ -62,9 +62,9 @@ double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn
   return std::remainder(r.angle / turn * 2 * pi - phi, 2 * pi);
 }
 
-/// Bound of the angle's error at rest, rad. Half a count is rounded in the halved difference of each winding
-/// (two half counts). Four digits of the format are rounded in each signal and in the two products of the
-/// detector, with the sine table.
+/// Bound of the angle's error at rest, in rad. The halved difference of each winding has a rounding error of
+/// half a count. Each signal, and the two products of the detector with the sine table, have a rounding error
+/// of four digits of the format.
 template <class S>
 double static_bound(const Windings& w) {
   const double digits = is_fixed<S> ? 8 * digit<S>() / amplitude : 8 * digit<S>();
@@ -75,7 +75,8 @@ template <class Scalar>
 class Resolver : public ::testing::Test {};
 TYPED_TEST_SUITE(Resolver, SensingScalars);
 
-/// Known imbalance, skew and offsets are corrected over the whole turn. Unknown ones remain as errors.
+/// Known imbalance, skew and offsets are corrected over the whole turn. If they are not known to the decoder,
+/// they cause errors of the angle.
 TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -92,13 +93,13 @@ TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   }
   std::printf("largest error %.3g rad, bound %.3g\n", worst, static_bound<S>(w));
   EXPECT_LE(worst, static_bound<S>(w));
-  // The law: the error is the largest a/2 sin 2 phi + q (1 + cos 2 phi)/2, which is q/2 + sqrt((a/2)^2 +
-  // (q/2)^2). Terms of second order change it by less than a tenth.
+  // The error is the largest value of a/2 sin 2 phi + q (1 + cos 2 phi)/2, with imbalance a and skew q. This
+  // value is q/2 + sqrt((a/2)^2 + (q/2)^2). Terms of second order change it by less than a tenth.
   const double law = w.q / 2 + std::hypot(w.a / 2, w.q / 2);
   EXPECT_NEAR(worst_plain, law, 0.1 * law);
 }
 
-/// A constant offset in a demodulated signal is subtracted too.
+/// A constant offset in a demodulated signal is also subtracted.
 TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -119,7 +120,7 @@ TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   EXPECT_NEAR(static_cast<double>(x.s), 0.40, half_count + own);
 }
 
-/// The loop locks to the rotor from any angle, also from exactly half a turn off.
+/// The loop locks to the rotor from any initial error, including exactly half a turn.
 TYPED_TEST(Resolver, LocksFromAnywhere) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.8);
@@ -130,13 +131,13 @@ TYPED_TEST(Resolver, LocksFromAnywhere) {
       ResolverConfig<S> c = config<S>(w, loop);
       c.normalise = normalise;
       const double phi = 2 * pi * k / 64;
-      // Without normalisation, the loop's natural frequency decreases with the amplitude.
+      // Without normalisation, the natural frequency of the loop decreases with the amplitude.
       EXPECT_LE(std::fabs(error_at(phi, w, c, drawn, 1000)), static_bound<S>(w)) << k << ' ' << normalise;
     }
 }
 
-/// For a turning rotor, the result is the angle in the middle between two samples, a quarter of an excitation
-/// period earlier.
+/// For a turning rotor, the result is the angle in the middle between two samples, which is a quarter of an
+/// excitation period before the later sample.
 TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -150,8 +151,8 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
       const auto r = resolver_step(c, state, w.at(phi, n % 2 == 0, drawn), n % 2 == 0);
       if (n < 300) continue;
       const double off = std::remainder(r.angle / turn * 2 * pi - (phi - per_sample / 2), 2 * pi);
-      // The loop predicts from earlier results. Their rounding errors, weighted by the loop's step response,
-      // at most double the error.
+      // The loop predicts from earlier results. Their rounding errors are weighted by the loop's step
+      // response, and at most double the error.
       const double tail = 1 + loop.K_p() + loop.K_i();
       ASSERT_LE(std::fabs(off), 2 * tail * static_bound<S>(w)) << per_sample;
       ASSERT_NEAR(r.speed / turn * 2 * pi, per_sample, 4 * (loop.K_p() + loop.K_i()) * static_bound<S>(w));
@@ -159,7 +160,8 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   }
 }
 
-/// Small steps decay as in the linear loop: the detector's tangent exceeds the error e by at most e^3/3.
+/// Small steps decay as in the linear loop, because the tangent in the detector exceeds the error e by at
+/// most e^3/3.
 TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.6);
@@ -185,7 +187,8 @@ TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
   }
 }
 
-/// At the constant acceleration alpha the angle lags by alpha/K_a.
+/// At the constant acceleration alpha, the angle lags by alpha/K_a, with the acceleration constant K_a of the
+/// loop.
 TEST(ResolverLaw, ConstantAccelerationLeavesAlphaByKa) {
   const SecondOrder loop(0.05, 0.7);
   Windings w{.counts = 28000, .cos_offset = 32768, .sin_offset = 32768, .most = 65535};
@@ -223,7 +226,8 @@ TEST(ResolverLaw, TheAmplitudeTakenForOneMakesTheLoopSlower) {
   EXPECT_NEAR(first[0] / first[1], amplitude, 2 * std::sqrt(0.5) / w.counts / 0.02);
 }
 
-/// A broken excitation, a broken winding at its peak, and a short circuit raise the alarm after three results; noise does not.
+/// A broken excitation, a winding that breaks at its peak, and a short circuit raise the alarm after three
+/// results. Noise does not raise the alarm.
 TYPED_TEST(Resolver, LossOfSignalIsTold) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.8);
@@ -245,7 +249,8 @@ TYPED_TEST(Resolver, LossOfSignalIsTold) {
   EXPECT_EQ(lost_after({4095, 4095}, {0, 0}), 4) << "both at their ends";
 }
 
-/// A sequence of two results outside the limits and one inside never has three in a row outside.
+/// In a sequence of two results outside the limits and one result inside, three results in a row are never
+/// outside.
 TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   const SecondOrder loop(0.1, 0.8);
   const Windings w;
@@ -255,7 +260,8 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   ResolverState state;
   int outside = 0;
   for (int n = 0; n < 300; ++n) {
-    // A missing sample makes two results wrong: those with the sample before it and after it.
+    // A missing sample makes two results wrong: the difference with the sample before it, and the difference
+    // with the sample after it.
     const bool missing = n % 3 == 2;
     const auto r = resolver_step(
         c, state, missing ? ResolverCounts{2048, 2048} : w.at(0.5, n % 2 == 0, drawn), n % 2 == 0);

@@ -20,7 +20,8 @@ static_assert(std::is_trivially_copyable_v<TrackingState>);
 
 constexpr double turn = 4294967296.0;
 
-/// After a step of the angle, the error is that of the linear loop, computed from the poles.
+/// After a step of the angle, the loop's error decays like the error of the linear loop, which is computed
+/// from the poles.
 TEST(Tracking, AStepDecaysAsThePolesSay) {
   for (const double damping : {0.4, 0.7, 0.95})
     for (const double x : {0.003, 0.03, 0.3}) {
@@ -38,7 +39,8 @@ TEST(Tracking, AStepDecaysAsThePolesSay) {
     }
 }
 
-/// Over many turns, the error is 0 at constant speed and a/K_a at constant acceleration a.
+/// Over many turns, the error is 0 at constant speed. At the constant acceleration a, it is a/K_a, with the
+/// acceleration constant K_a of the loop.
 TEST(Tracking, ConstantAccelerationLeavesItsErrorAndNoMore) {
   for (const double damping : {0.5, 1.0})
     for (const double x : {0.01, 0.1})
@@ -54,7 +56,8 @@ TEST(Tracking, ConstantAccelerationLeavesItsErrorAndNoMore) {
           place += speed;
         }
         EXPECT_NEAR(state.error, e, rounding + std::fabs(e) * 1e-6) << damping << ' ' << x << ' ' << a;
-        // The next step is w[n+1] + K_p e, so the speed lags the true speed by K_p e.
+        // The next step of the angle is w[n+1] + K_p e, so the estimated speed w is below the true speed by
+        // K_p e (error e, proportional gain K_p).
         EXPECT_NEAR(tracking_speed(state), static_cast<double>(speed) - law.K_p() * e,
                     2 * rounding + std::fabs(e) * 1e-6);
         EXPECT_GT(std::abs(place), std::int64_t{1} << (a == 0 ? 33 : 22)) << "it moved";
@@ -74,7 +77,7 @@ TEST(Tracking, ForwardAndBackwardAreMirrored) {
   }
 }
 
-/// The speed stays within half a turn per tick, for an error of any duration.
+/// The estimated speed stays within half a turn per tick, however long the error lasts.
 TEST(Tracking, TheSpeedIsBounded) {
   const SecondOrder law(0.5, 0.7);
   TrackingState state;

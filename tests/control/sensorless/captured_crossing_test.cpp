@@ -13,8 +13,8 @@ using namespace sixstep::testing;
 constexpr ZeroCrossingConfig crossing{NeutralSeen::on_time, 96, 20, 20, 0};
 constexpr std::uint32_t tick = 480, sector_ticks = 16 * tick;
 
-/// One sector, whose terminals look() samples at given ticks. Tests pass the edges of the floating leg by
-/// capture_lines().
+/// One sector. look() samples its terminals at given ticks, and capture_lines() gives the edges of the
+/// floating leg.
 struct Sector {
   std::uint8_t sector = 0;
   double emf = 400.0;
@@ -48,8 +48,8 @@ TEST(CapturedCrossing, IsWhereTheEdgeWasWhicheverWayTheBackEmfGoes) {
   }
 }
 
-/// Edges during freewheeling are ignored. The first edge after the freewheeling counts, even if no sample
-/// before it showed the level of the line.
+/// Edges during freewheeling are ignored. The first edge after freewheeling is used, even if no sample has
+/// shown the line's level before it.
 TEST(CapturedCrossing, TheFreewheelsEdgesAreNotTheBackEmfs) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);
@@ -71,8 +71,8 @@ TEST(CapturedCrossing, TheFreewheelsEdgesAreNotTheBackEmfs) {
   EXPECT_EQ(seen.at, 8 * tick + 50);
 }
 
-/// A line whose level has not changed since the freewheeling gives no edge. The samples then give the
-/// crossing, delayed like an edge.
+/// A line whose level has not changed since freewheeling gives no edge. The crossing then comes from the
+/// samples, with the same delay as an edge.
 TEST(CapturedCrossing, WhileTheLineHasNotComeBackTheSamplesTell) {
   Sector s;
   s.config.lag_ticks = 200;
@@ -101,8 +101,9 @@ TEST(CapturedCrossing, ASampleIsToldAsLateAsAnEdge) {
   EXPECT_EQ(at(200), at(0) + 200);
 }
 
-/// The comparators' reference is half the bus voltage. An edge in the pulse is the crossing of the back-EMF.
-/// An edge in the pause is caused by the pulse itself, and the middle of the pause replaces it.
+/// The comparators' reference is half the bus voltage. An edge within the pulse is a crossing of the
+/// back-EMF. An edge within the pause is caused by the pulse itself, so the middle of the pause is used as
+/// the time of the crossing.
 TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   const auto at = [](std::uint32_t edge, std::uint32_t on_ticks) {
     Sector s;
@@ -125,8 +126,8 @@ TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   EXPECT_EQ(at(now - 300, tick), now - 300) << "there is no pause";
 }
 
-/// An edge before the earliest possible crossing does not count at once. It counts from this earliest time
-/// on, and the crossing has this time.
+/// An edge before the earliest possible crossing is not reported at once. It is reported from the earliest
+/// time on, and the time of the crossing is this earliest time.
 TEST(CapturedCrossing, AnEdgeTooEarlyCountsWhenItMay) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back-EMF observers are compared with closed forms: placed poles, lags for a ramp, the threshold of the flux
-// linkage. The phase is simulated by the exact solution of L di/dt = w - R i - g (w: voltage, g: back-EMF),
-// without the design's formulas.
+// Back-EMF observers are compared with closed forms: placed poles, the lag for a ramp, the threshold of the
+// flux linkage. The phase is simulated by the exact solution of L di/dt = w - R i - g (current i, voltage w,
+// back-EMF g). The simulation does not use the design's formulas.
 #include "sixstep/control/sensorless/observer.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ constexpr double R = 0.5, L = 0.3e-3, T = 30e-6, p = 0.3, k = 24.0, share = 0.5;
 const double a = std::exp(-R * T / L), b = (1 - a) / R;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// The bases are 20 A, 30 V.
+/// The bases are 20 A and 30 V.
 constexpr double ampere = 20.0, volt = 30.0;
 
 template <class Scalar>
@@ -71,7 +71,7 @@ TEST(Luenberger, ItsErrorFollowsTheTwoPolesThatWerePlaced) {
   EXPECT_LT(std::fabs(error.back()), 1e-12);
 }
 
-/// Lag, in periods, of an observer of a leg without current whose back-EMF is a ramp. The ramp's mean over a
+/// Lag, in periods, of an observer for a leg without current. The back-EMF is a ramp, whose mean over a
 /// period is equal to its value in the middle of the period.
 template <class Step>
 double lag_of_a_ramp(Step&& step) {
@@ -122,11 +122,12 @@ TEST(SlidingMode, OutsideTheLayerItIsDrivenInByTheWholeGain) {
     EXPECT_LT(state.error_A, before) << "it only shrinks: k is above the back-EMF";
     before = state.error_A;
   }
-  // Each period reduces the error by b (k - g). The winding's decay reduces it further.
+  // Each period reduces the error by at least b (k - g), with the observer's gain k and the back-EMF g. The
+  // decay of the winding reduces the error further.
   EXPECT_LE(periods, 40 * k / (k - g) + 2);
 }
 
-/// The observers in the given scalar. The inputs are a current and a voltage in SI units, rounded to this
+/// The observers in each scalar type. The inputs are a current and a voltage in SI units, rounded to the
 /// scalar.
 template <class Scalar>
 class Observers : public ::testing::Test {};
@@ -141,9 +142,9 @@ TYPED_TEST(Observers, FollowTheOnesOfDoubleWithinTheirRounding) {
   SlidingModeState<double> sliding_double;
   SlidingModeState<S> sliding_state;
   double i = 0;
-  // The rounding per period is half a digit of i, w, i^ and two products, and a few digits for float. The
-  // gain converts it to V. With double poles at p, the sum stays below 1/(1 - p)^2; with the low-pass, below
-  // 1.
+  // Per period, half a digit is rounded in the current i, the voltage w, the estimated current i^ and two
+  // products; in float, a few digits. The gain converts these roundings to V. With double poles at p, their
+  // sum stays below 1/(1 - p)^2; with the low-pass filter, below 1.
   const double per_A = a / b * A;
   const double bound = 8 * d * (per_A + V) / ((1 - p) * (1 - p));
   for (int n = 0; n < 400; ++n) {
@@ -160,8 +161,8 @@ TYPED_TEST(Observers, FollowTheOnesOfDoubleWithinTheirRounding) {
   }
 }
 
-/// Flux linkage in thresholds of 1/4, for a trapezoid of peak E and `ticks` periods per sector. psi_c = E T
-/// ticks/6 V s is the area under 2/3 E theta/30 degrees over half a sector.
+/// Flux linkage in units of four thresholds, for a trapezoid with the peak E and `ticks` periods T per
+/// sector. The threshold psi_c = E T ticks/6 V s is the area under 2/3 E theta/30 degrees over half a sector.
 template <class Scalar>
 FluxLinkageConfig<Scalar> flux(double level_V_ticks) {
   const double A_per_V = base_of<Scalar>(volt) / base_of<Scalar>(ampere);
@@ -171,8 +172,9 @@ FluxLinkageConfig<Scalar> flux(double level_V_ticks) {
 
 template <class S>
 void expect_level_at_thirty_degrees(double ticks, double growth) {
-  // The angle after the crossing, in sectors, is x(t) = t/ticks (1 + growth t/ticks). At any speed, the flux
-  // falls by the integral over the angle, E ticks (2/3) x^2, because e = (4/3) E x w/w_0.
+  // The angle after the crossing, in sectors, is x(t) = t/ticks (1 + growth t/ticks). The back-EMF is e =
+  // (4/3) E x w/w_0 (speed w, initial speed w_0). At any speed, the flux falls by the integral over the
+  // angle, E ticks (2/3) x^2.
   const double E = 6.0, level = E * ticks / 6.0;
   const FluxLinkageConfig<S> config = flux<S>(level);
   FluxLinkageState<S> state;
@@ -185,9 +187,9 @@ void expect_level_at_thirty_degrees(double ticks, double growth) {
     S part{};
     if (!flux_level_comes(config, state, part)) continue;
     const double at = t + 1 + static_cast<double>(part), error_deg = 60 * (x_of(at) - 0.5);
-    // The peak of psi is between two samples. The error is at most 1/8 of the slope of e, while psi falls by
-    // (ticks/2)^2/2 of this slope. The interpolation within the last period, and rounding by half a digit per
-    // period, add to the error.
+    // The peak of psi is between two samples. Its error is at most 1/8 of the slope of e, while psi falls by
+    // (ticks/2)^2/2 of this slope. Two further errors are the interpolation within the last period and the
+    // rounding by half a digit per period.
     const double missed = 1.0 / (ticks * ticks) + 0.5 / (ticks * ticks);
     const double rounded = is_fixed<S> ? ticks * digit<S>() / 0.25 : 1e-5;
     EXPECT_LT(std::fabs(error_deg), 30 * (missed + rounded) + 0.02) << ticks << " periods, growth " << growth;
@@ -215,7 +217,7 @@ TEST(FluxLinkage, AnUnknownPeriodGoesOnAlongTheLine) {
   EXPECT_NEAR(missed.top - missed.psi, seen.top - seen.psi, 1e-9);
 }
 
-/// Terminals of a sector as in terminals.hpp, with 3200 counts for 24 V.
+/// Terminals of a sector as in terminals.hpp. A voltage of 24 V is 3200 counts.
 constexpr FloatingVoltageConfig<double> voltages{24.0 / bus_counts / 3, 60, true};
 
 TEST(FloatingVoltage, IsTheBackEmfWithoutCurrentAndTheRailWithOne) {
@@ -226,7 +228,8 @@ TEST(FloatingVoltage, IsTheBackEmfWithoutCurrentAndTheRailWithOne) {
     const FloatingVoltage<double> v = floating_voltage(voltages, s, 2, true, command, 24.0);
     EXPECT_TRUE(v.known);
     EXPECT_FALSE(v.held);
-    // The value is 2/3 of the trapezoid, which falls through zero at 30 degrees. Terminals are in counts.
+    // The expected value is 2/3 of the trapezoid, which crosses zero downwards at 30 degrees. Terminals are
+    // in counts.
     EXPECT_NEAR(v.w_V, 2.0 / 3.0 * E * (30 - deg) / 30, 2 * 24.0 / bus_counts) << deg;
   }
   TerminalSample s = driven_sample(0, 20.0, counts, 0);
@@ -250,7 +253,8 @@ TEST(Observer, TheDefaultFollowsTheTerminalsOwnCrossings) {
   EXPECT_FALSE(o.follows);
 }
 
-/// While the old current decays, no crossing is reported. A crossing in this time is reported afterwards.
+/// While the old current decays, no crossing is reported. A crossing during this time is reported after the
+/// decay.
 TEST(Observer, IsBlindUntilTheOldCurrentHasRunOut) {
   for (const Follow which : {Follow::luenberger, Follow::sliding_mode, Follow::flux}) {
     ObserverConfig<double> config;
@@ -281,8 +285,8 @@ TEST(Observer, IsBlindUntilTheOldCurrentHasRunOut) {
   }
 }
 
-/// The rotor passes all six sectors in both directions. In each sector, y falls from 2 E to -2 E, in the
-/// counts of the crossing finder.
+/// The rotor passes all six sectors in both directions. In each sector, y falls from 2 E to -2 E (back-EMF
+/// E), in the counts of the crossing finder.
 TEST(Observer, GoesOverFromLegToLeg) {
   for (const Follow which : {Follow::luenberger, Follow::sliding_mode, Follow::flux})
     for (const int way : {1, -1}) {
@@ -306,7 +310,8 @@ TEST(Observer, GoesOverFromLegToLeg) {
         command.pair = way > 0 ? positive_pair(sector) : swapped(positive_pair(sector));
         const TerminalSample s = driven_sample(sector, deg, way * E, static_cast<std::uint32_t>(n));
         const Observed o = observer_step(config, state, s, command, {.bus_V = 24.0}, sector);
-        // The response to the previous sector has decayed, so y is equal to the true y, delayed by the lag.
+        // The response to the previous sector has decayed, so the observer's y is equal to the true y,
+        // delayed by the lag.
         const double since = std::fmod(n + 0.25, ticks);
         if (n < ticks || since < 8) continue;
         const double y = 2 * E * (1 - 2 * (since - lag) / ticks);

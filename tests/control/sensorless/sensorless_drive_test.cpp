@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole drive in every arithmetic, with a rotor of prescribed motion. The commands for the same counts
-// are equal, except that currents and speeds are rounded to the digits of each format.
+// The whole drive in every arithmetic. The motion of the rotor is prescribed, so all formats have the same
+// counts. Their commands are equal, except for the rounding of currents and speeds.
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ static_assert(std::is_trivially_copyable_v<SensorlessDriveState<Q15>>);
 
 constexpr std::uint32_t tick = 500;  // timer counts per control period
 
-/// The bases are 10 A, 25 V, 1000 rad/s. The gains are arbitrary, because the rotor's motion is prescribed.
+/// The bases are 10 A, 25 V and 1000 rad/s. The gains are arbitrary, because the motion of the rotor is
+/// prescribed.
 template <class Scalar>
 SensorlessDriveConfig<Scalar> chip() {
   SensorlessDriveConfig<Scalar> c;
@@ -55,7 +56,8 @@ struct Seen {
   bool operator==(const Seen&) const = default;
 };
 
-/// A rotor that turns when half the duty is requested, is blocked from tick 900 to 1200, and turns again.
+/// A rotor that turns when half of the full duty is requested. It is blocked from tick 900 to tick 1200, and
+/// then turns again.
 template <class Scalar>
 std::vector<Seen> ridden(double sense) {
   const SensorlessDriveConfig<Scalar> config = chip<Scalar>();
@@ -116,7 +118,7 @@ TEST(SensorlessDrive, TheDefaultNeverDrives) {
   }
 }
 
-/// After the ramp, the duty continues without a jump, and then changes by a fixed step per tick.
+/// After the ramp, the duty continues without a jump. Then it changes by a fixed step per tick.
 TEST(SensorlessDrive, ApproachesADutyFromWhereTheStartLeavesIt) {
   const SensorlessDriveConfig<double> config = chip<double>();
   SensorlessDriveState<double> state;

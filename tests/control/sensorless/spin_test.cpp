@@ -35,8 +35,8 @@ TEST(Spin, FindsSectorDirectionAndTimeOfEveryCrossingBothWays) {
       ++crossings;
       EXPECT_EQ(r.direction, sense) << "seed " << seed << " draw " << n;
       const double crossed_deg = from_deg + sense * 60 * static_cast<double>(r.at - origin) / T;
-      // The threshold is 4 counts of e, which has a slope of `emf` per 30 degrees. At the first sample, the
-      // rotor may be beyond the crossing by this threshold.
+      // The threshold is 4 counts of the back-EMF e, which changes by `emf` in 30 degrees. At the first
+      // sample, the rotor may be beyond the crossing by the angle of this threshold.
       EXPECT_NEAR(std::remainder(crossed_deg - (60.0 * r.sector + 30.0), 360.0), 0.0,
                   0.5 + 120.0 / std::fabs(emf))
           << "seed " << seed << " draw " << n;

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
-/// Control ticks at which the ramp advances the field.
+/// The control ticks at which the ramp advances the field.
 std::vector<double> field_steps(const StartUpConfig<double>& config, int count) {
   StartUpState state;
   ramp_begin(config, state, 0);
@@ -75,7 +75,7 @@ TEST(StartUp, CountsCrossingsThatFollowEachOther) {
   EXPECT_EQ(state.trusted, 0) << "the field had to go on by itself";
 }
 
-/// An oscillation without friction: the current is low while the speed increases, and full while it
+/// An oscillation without friction. The current is low while the speed increases, and full while the speed
 /// decreases.
 TEST(StartUp, TheSwingsSpeedIsToldToGrowOrToShrink) {
   const StartUpConfig<double> config{.swing_shift = 4, .swing_threshold = 20};

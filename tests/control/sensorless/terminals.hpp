@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terminal voltages of a rotor with prescribed motion, in the converter's counts. Written from model.md 1 and
-// 2, independent of the tested code.
+// Terminal voltages, in counts of the converter, of a rotor with prescribed motion. The code follows model.md
+// 1 and 2, and is independent of the tested code.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace sixstep::testing {
 
 inline constexpr std::uint16_t bus_counts = 3200;
 
-/// The trapezoid of phase k with 120 degrees flat.
+/// The trapezoid of phase k with a flat top of 120 degrees.
 inline double emf_shape(double electrical_deg, int k) {
   const double from_top = std::remainder(electrical_deg - 120.0 * k - 60.0, 360.0);
   return std::fmax(-1.0, std::fmin(1.0, (90.0 - std::fabs(from_top)) / 30.0));
@@ -22,8 +22,8 @@ inline std::uint16_t held_to_rails(double counts) {
       std::fmin(static_cast<double>(bus_counts), std::fmax(0.0, std::floor(counts + 0.5))));
 }
 
-/// The pair of a sector at the rails, the third leg floating. `emf`: back-EMF on the flat top in counts, with
-/// the sign of the rotation.
+/// The pair of a sector is connected to the rails, and the third leg floats. `emf` is the back-EMF on the
+/// flat top, in counts, with the sign of the rotation.
 inline control::TerminalSample driven_sample(std::uint8_t sector, double electrical_deg, double emf,
                                              std::uint32_t at) {
   constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
@@ -39,7 +39,7 @@ inline control::TerminalSample driven_sample(std::uint8_t sector, double electri
   return s;
 }
 
-/// All legs floating with the bridge off.
+/// All legs float, because the bridge is off.
 inline control::TerminalSample coasting_sample(double electrical_deg, double emf, std::uint32_t at) {
   control::TerminalSample s;
   s.bus = bus_counts;

@@ -33,8 +33,8 @@ TEST(ZeroCrossing, LiesInTheMiddleOfEverySectorBothWaysWhateverTheSamplesPhase) 
       if (r.crossing == Crossing::none) continue;
       seen = true;
       EXPECT_EQ(r.crossing, Crossing::seen);
-      // The interpolation of a straight line has an error from the rounding of the counts (slope 4 |emf| per
-      // sector) and from whole ticks.
+      // The interpolation of a straight line has two errors: the rounding of the counts (the slope is 4 |emf|
+      // per sector), and the rounding to whole ticks.
       EXPECT_NEAR(static_cast<double>(r.at - origin), T / 2, 2 + 2.0 * T / (4 * std::fabs(emf)))
           << "seed " << seed << " draw " << n;
     }
@@ -42,8 +42,8 @@ TEST(ZeroCrossing, LiesInTheMiddleOfEverySectorBothWaysWhateverTheSamplesPhase) 
   }
 }
 
-/// In sector 0, the back-EMF of leg c falls. The old current keeps the terminal at the lower rail, which
-/// resembles a crossing.
+/// In sector 0, the back-EMF of leg c falls. The old current keeps this leg's terminal at the lower rail,
+/// which resembles a crossing.
 TEST(ZeroCrossing, WaitsForTheOldCurrentAndMeasuresIt) {
   ZeroCrossingState state;
   zero_crossing_begin(state, 0, 0, 1000);
@@ -93,8 +93,9 @@ TEST(ZeroCrossing, NoneBeforeTheEarliestTime) {
   EXPECT_EQ(zero_crossing_step(config, state, driven_sample(0, 55, 800, 600), true).crossing, Crossing::seen);
 }
 
-/// The old current ends before tick 200. No crossing is reported within the margin after the first sample
-/// without this current. A crossing within the margin is reported at the first sample after it.
+/// The old current ends before tick 200. No crossing is reported until the margin after the first sample
+/// without this current has passed. A crossing within the margin is reported at the first sample after the
+/// margin.
 TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   for (const std::uint32_t margin : {0u, 1u, 100u, 101u, 250u}) {
     ZeroCrossingConfig c = config;
@@ -112,15 +113,16 @@ TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   }
 }
 
-/// Until the filter has settled, the filtered voltage still belongs to the previous pair. It then indicates
-/// neither the end of freewheeling nor a crossing.
+/// Before the filter has settled, the filtered voltage is the voltage of the previous pair. This voltage must
+/// indicate neither the end of freewheeling nor a crossing.
 TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   for (const std::uint32_t settle : {0u, 50u, 51u}) {
     ZeroCrossingConfig c = config;
     c.settle_ticks = settle;
     ZeroCrossingState state;
     zero_crossing_begin(state, 0, 0, 1000);
-    // The filtered voltage falls from the upper rail to the lower rail, where the diode now keeps it.
+    // The filtered voltage falls from the upper rail to the lower rail. The diode then keeps the terminal at
+    // the lower rail.
     zero_crossing_step(c, state, driven_sample(0, 40, 800, 1050), true);
     TerminalSample held = driven_sample(0, 5, 800, 1150);
     held.u[2] = 0;
@@ -130,8 +132,9 @@ TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   }
 }
 
-/// The off-time of soft chopping: both driven legs are at the lower rail. If e_f is positive, u_f = 3/2 e_f;
-/// otherwise a diode keeps the terminal at the rail. Index f: floating leg.
+/// The off-time of soft chopping, with both driven legs at the lower rail. If the back-EMF e_f of the
+/// floating leg is positive, the terminal voltage is u_f = 3/2 e_f. Otherwise a diode keeps the terminal at
+/// the rail.
 TerminalSample soft_freewheel(double e_f, std::uint32_t at) {
   TerminalSample s;
   s.bus = bus_counts;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of fixed-point operations checked at compile time, so that a compiler with 16-bit int can check
-// them without a chip. They must be the same bits as on the host, where fixed_test.cpp compares them with
-// exact arithmetic.
+// Results of fixed-point operations that are checked at compile time. A compiler with 16-bit int can
+// therefore check them without a chip. They must have the same bits as on the host, where fixed_test.cpp
+// compares them with exact arithmetic.
 #pragma once
 #include <cstdint>
 
@@ -11,8 +11,8 @@
 
 namespace sixstep::control::facts {
 
-/// Every operation on a grid of numbers, including the ends of the range and both sides of 0, mixed into 32
-/// bits.
+/// Every operation on a grid of numbers, with all results mixed into 32 bits. The grid includes the ends of
+/// the range and both sides of 0.
 template <class F>
 constexpr std::uint32_t digest() {
   using T = ScalarTraits<F>;

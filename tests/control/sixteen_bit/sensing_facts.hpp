@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of the decoders checked at compile time, as in facts.hpp: one digest for hosts and for chips with
-// 16-bit int. Gains are whole numbers, as in an export.
+// Results of the decoders that are checked at compile time, as in facts.hpp. Hosts and chips with 16-bit int
+// have the same digest. Gains are whole numbers, as in an export.
 #pragma once
 #include <cstdint>
 

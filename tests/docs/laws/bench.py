@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of what a bench finds: constants of one back-EMF in all frames, intervals around their value, and what the log was made with."""
+"""Laws of bench results: the constants of the back-EMF agree in all frames, the intervals contain their value, and
+the results agree with the data that made the log."""
 import re
 from math import pi, sin, sqrt
 
@@ -40,7 +41,8 @@ def emf(test, spot):
 
 
 def harmonics(test, spot):
-    """Lines between terminals show no third harmonic of the motor; the sizes and their bounds are parts of the fundamental."""
+    """Between two terminals no third harmonic of the motor is visible. The sizes and their limits are relative to the
+    fundamental."""
     for order, size, low, high in re.findall(r"^  (\d+) +([\d.]+) +([\d.]+) \.\. ([\d.]+) ", spot.text, re.M):
         between(test, spot, f"harmonic {order}", size, low, high)
         test.assertTrue(float(high) < 30 and 2 <= int(order) < 60, f"{spot}: harmonic {order}")
@@ -55,7 +57,8 @@ def harmonics(test, spot):
 
 
 def clipped(test, spot):
-    """A sine cut off at c, by its own Fourier integral; of the peak the orders 3, 9, 15.. are missing between two terminals."""
+    """A sine that is cut off at the level c. The fundamental is its Fourier integral. Between two terminals the
+    orders 3, 9, 15.. do not contribute to the peak."""
     rows = [[float(x) for x in re.findall(r"([\d.]+) %", line)] for line in spot.text.splitlines() if "%" in line]
     steps = 20000
     for cut, fundamental, peak in zip(*rows, strict=True):
@@ -73,7 +76,7 @@ def held_against(test, spot):
 
 
 def identify(test, spot):
-    """The log is simulated: what it was made with stands in the scenario above it."""
+    """The log is simulated. The scenario above it states the true values."""
     for name, value, low, high in re.findall(r"^  (offset|hysteresis|delay|flux linkage) +([\d.]+) \S+ +([\d.]+) \.\. ([\d.]+)", spot.text, re.M):
         between(test, spot, name, value, low, high)
         truth = {"offset": 7.0, "hysteresis": 1.5, "delay": 50.0, "flux linkage": 0.0335 / 2 / 8 * 12 / pi**2 * 1e3}[name]
@@ -90,7 +93,7 @@ def identify(test, spot):
 
 
 def commission_sheet(test, spot):
-    """What is found, off by what is told, within its bound."""
+    """The printed error is the difference of the found and the true value, and is within the printed bound."""
     rows = re.findall(r"^  (\S.*?) {2,}([-\d.]+) (\S+) {2,}([-\d.]+) \S+ {2,}([-+][\d.]+) (\S+) {2,}([\d.]+) \S+$", spot.text, re.M)
     test.assertGreaterEqual(len(rows), 9, str(spot))
     for name, found, unit, truth, off, off_unit, bound in rows:
@@ -121,6 +124,6 @@ def hall_places(test, spot):
     rows = re.findall(r"offset +(-?[\d.]+): found +(-?[\d.]+) degrees, worst edge off by ([\d.]+)", spot.text)
     test.assertGreaterEqual(len(rows), 15)
     for offset, found, worst in rows:
-        # A trapezoid's rotor rests up to 1.12 degrees from a field of sines.
+        # The rest angle of a rotor with trapezoidal back-EMF differs by up to 1.12 degrees from the angle of a sinusoidal field.
         test.assertLessEqual(abs(float(found) - float(offset)), 1.12, str(spot))
         test.assertLessEqual(float(worst), 1.12, str(spot))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of docs/howto/size-a-capacitor.md: the current of a chopped drive's capacitor, its worst duty, and the energy of braking."""
+"""Laws of docs/howto/size-a-capacitor.md: the current in the capacitor of a chopped drive, the worst duty, and the
+energy of braking."""
 import re
 import tomllib
 from math import sqrt
@@ -16,14 +17,14 @@ def written(page, name):
 
 
 def least_and_worst(law):
-    """The largest value of law(duty), and the duty there, on a fine grid."""
+    """The duty at which law(duty) is largest, and this largest value, on a fine grid."""
     grid = [n / 12000 for n in range(1, 12000)]
     worst = max(grid, key=law)
     return worst, law(worst)
 
 
 def worst_duty(test, spot):
-    """A limited current is chopped to sqrt(d (1 - d)); a held rotor draws d U/R at first."""
+    """A limited current I gives the rms current I sqrt(d (1 - d)), with the duty d. On a held rotor I is d U/R."""
     limited, held = (row[1:] for row in spot.rows())
     test.assertEqual((0.5, 0.5), least_and_worst(lambda d: sqrt(d * (1 - d))))
     test.assertIn("I/2 rms", limited[1])
@@ -38,8 +39,9 @@ def worst_duty(test, spot):
 
 
 def capacitor_current(test, spot):
-    """At half the duty the capacitor carries half the current, within 6 % for the current's ripple and commutations; at standstill
-    I sqrt(d (1 - d)). By the speed the rms current has one maximum, near a duty of a half: at most a row beside it, and the page names its row."""
+    """At half the duty the capacitor has half the motor current, within 6 % for ripple and commutations. At
+    standstill it has I sqrt(d (1 - d)). As a function of the speed the rms current has one maximum, at most one row
+    away from a duty of 0.5. The page names this row."""
     current = written(spot.page, "capacitor.toml")["reference"]["value"]
     rows = [[quantity(c) for c in CELL.split(line.strip())] for line in spot.text.splitlines() if re.match(r"^ +\d+  ", line)]
     test.assertGreater(len(rows), 3, str(spot))
@@ -56,7 +58,8 @@ def capacitor_current(test, spot):
 
 
 def braking(test, spot):
-    """The bus stays below the energy of smooth current, by less than a tenth of its rise; a chopper holds its upper line."""
+    """The energy of a smooth current gives an upper limit of the bus voltage. The measured rise is less than a tenth
+    below this limit. With a brake chopper the voltage stays at its upper threshold."""
     s = written(spot.page, "braking.toml")
     sheet = motor(s["motor"])
     J, K_t, R = value(sheet["inertia_gcm2"]) * 1e-7, value(sheet["torque_constant_mNm_A"]) * 1e-3, terminal_ohm(sheet)

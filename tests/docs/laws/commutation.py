@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of the torque's dip and the current's peak at commutations, by the three legs' mean voltages, docs/explanation/currents.md.
+"""Laws of the torque dip and the current peak at commutations, from the mean voltages of the three legs
+(docs/explanation/currents.md).
 
-E is a phase's back-EMF, R and L are a phase's. While all three phases carry current, the star point lies at a third of the legs'
-voltages less that of the back-EMFs. With the staying phase positive and the leaving one through its upper diode:
+E is the back-EMF of a phase; R and L are the values of a phase. U is the bus voltage, u the mean voltage of the pair,
+i the current. While all three phases have current, the voltage of the star point is a third of the sum of the leg
+voltages, less a third of the sum of the back-EMFs. The staying phase is positive, and the upper diode of the leaving
+phase conducts:
   entering leg chopped:  leaving falls at (u + 2 E)/(3 L),      staying falls at (4 E + 3 R i - u)/(3 L)
-  staying leg chopped:   leaving falls at (2 U - u + 2 E)/(3 L), staying falls at (4 E + 3 R i + U - 2 u)/(3 L)
-"""
+  staying leg chopped:   leaving falls at (2 U - u + 2 E)/(3 L), staying falls at (4 E + 3 R i + U - 2 u)/(3 L)"""
 import re
 from math import pi
 
@@ -17,7 +19,8 @@ ROW = re.compile(r"^  (least torque|mean current|peak of a phase current, as sam
 
 
 def left_at_a_fixed_duty(emf, bus_part):
-    """The staying phase's current where the leaving one is gone; bus_part: the staying leg is chopped."""
+    """The current of the staying phase when the leaving phase has no current. bus_part: true if the staying leg is
+    chopped."""
     u = 2 * emf + 2 * R * I
     leaving = (2 * U - u + 2 * emf if bus_part else u + 2 * emf) / (3 * R)
     staying = (4 * emf + U - 2 * u if bus_part else 4 * emf - u) / (3 * R)
@@ -30,7 +33,7 @@ def ripple(emf, current, period_s):
 
 
 def runs(text):
-    """(command, {row: (SI value, told deviation)}) of each run in the block."""
+    """(command, {row: (SI value, printed deviation)}) for each run in the block."""
     for part in re.split(r"^\$ ", text, flags=re.M)[1:]:
         rows = {m[1]: (float(m[2]) * (1e-3 if m[3] else 1.0), float(m[4])) for m in ROW.finditer(part)}
         if rows:
@@ -46,12 +49,13 @@ def judge_run(test, spot, command, rows):
     (torque, dip), (mean, missed), (sampled, spike), (peak, rise) = (rows[name] for name in sorted(rows))
     for value, against, deviation in ((torque, K_T * I, dip), (mean, I, missed), (sampled, I, spike), (peak, I, rise)):
         test.assertLess(abs(100 * (value / against - 1) - deviation), 0.06, told)
-    # The loop holds the ripple's minimum at the reference. The torque falls below K_t I only at commutations, and by at most the dip of a
-    # constant duty, apart from the delay of a sample and a period.
+    # The loop controls the minimum of the ripple to the reference. The torque is below K_t I only at commutations. Its dip is at
+    # most the dip at a constant duty and the change within a sample delay and a period.
     floor = left_at_a_fixed_duty(emf, "pattern=upper" in command) - ripple(emf, I, period) / 2
     test.assertLess(K_T * floor, torque, told)
     test.assertLess(torque, K_T * I, told)
-    # Peak and sampled current differ by the ripple at the peak. The duty there belongs to the peak's current, or still falls to it.
+    # The peak and the sampled current differ by the ripple at the peak. There the duty is that of the peak current, or is still
+    # decreasing to it.
     apart = (peak - sampled) / ripple(emf, sampled, period)
     test.assertTrue(0.7 < apart < 1.1, f"{told}: {apart} ripples apart")
     test.assertTrue(torque / K_T < mean < sampled and I < sampled, told)
@@ -59,14 +63,14 @@ def judge_run(test, spot, command, rows):
 
 
 def judge(test, spot):
-    """Each run by its bounds; a measure that the page calls a cure is one."""
+    """Compares each run with its bounds. A measure that the page calls a cure must improve the result."""
     found = {command: judge_run(test, spot, command, rows) for command, rows in runs(spot.text)}
     test.assertTrue(found, str(spot))
 
     def of(*words, but=()):
         return next((x for command, x in found.items() if all(w in command for w in words) and not any(w in command for w in but)), None)
 
-    plain = (K_T * I * (1 - 0.185), I * 1.128)  # as the page's text gives for its first run
+    plain = (K_T * I * (1 - 0.185), I * 1.128)  # the values that the page's text states for its first run
     if of("pattern=upper"):
         step, short = of("duty-step", but=["period_s"]), of("period_s", but=["duty-step"])
         both, slow = of("period_s", "duty-step"), of("settle_s=2e-3")
@@ -78,7 +82,8 @@ def judge(test, spot):
 
 
 def judge_edge(test, spot):
-    """Rows around an edge: three currents sum to nothing, i_m is half the pair's difference, edges are a sector apart; and the run."""
+    """The rows around an edge: the sum of the three currents is 0, i_m is half the difference of the pair's currents,
+    and the edges are one sector apart. It also checks the run."""
     judge(test, spot)
     edges = [float(x) for x in re.findall(r"edge before ([\d.]+) ms", spot.text)]
     test.assertLess(abs(edges[1] - edges[0] - 1e3 * pi / 3 / PAIRS / 150), 1e3 * T, str(spot))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of controllers side by side: what a figure can be on that motor, sums, and that the worst of the tolerances is no better
-than the nominal drive."""
+"""Laws of the comparison of controllers: bounds of the figures for this motor, sums, and that the worst drive is not
+better than the nominal drive."""
 import re
 
 from laws.quantities import quantity
@@ -12,7 +12,7 @@ MORE_IS_WORSE = {"settles", "overshoot", "peak", "load error", "load settles", "
 
 
 def tables(text):
-    """Each table as {controller: {column: cell}}; "of worst" says whether it stands below that heading."""
+    """(worst, {controller: {column: cell}}) for each table. worst: true if the table is below the heading "Worst of"."""
     worst, rows, columns = False, None, None
     for line in text.splitlines():
         if line.startswith("Worst of"):
@@ -72,13 +72,14 @@ def judge(test, spot):
                 test.assertGreaterEqual(b * 1.006, a, f"{spot}: {controller}: the worst {column} is better than the nominal one")
     if of_worst:
         test.assertEqual(set(nominal), set(of_worst), str(spot))
-        # A drive with a wide nominal margin holds within some of its tolerances.
+        # A drive with a wide nominal margin passes with a part of its tolerances.
         test.assertTrue(any(not cells["hold"].startswith("0 of") for cells in of_worst.values()), f"{spot}: not one drive of any controller holds")
     sentences(test, spot, nominal)
 
 
 def sentences(test, spot, nominal):
-    """"(6.82 A, the next 6 % more)": the number is the table's, of the controller whose sentence it is."""
+    """A sentence such as "(6.82 A, the next 6 % more)": the number is in the table, in the row of the same
+    controller."""
     text = re.sub(r"\s+", " ", spot.text[spot.text.rfind("* least of"):])
     for controller in nominal:
         m = re.search(rf"{re.escape(controller)} has the least (.*?)\. ", text)

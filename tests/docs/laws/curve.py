@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of a torque-speed curve: every column by the others, the motor's sheet and model.md."""
+"""Laws of a torque-speed curve. Each column follows from the other columns, the motor's sheet and model.md."""
 import re
 from math import pi, sqrt
 
@@ -9,7 +9,7 @@ COLUMNS = ("rpm", "torque", "ideal", "ripple", "current", "rms", "peak", "supply
 
 
 def points(text):
-    """Rows of the table by their names, in SI; a row without a name is called by its speed."""
+    """(name, row) for each row of the table, in SI. A row without a name has its speed as name."""
     for line in text.splitlines():
         m = re.match(r"^(locked|just turning|no load|best efficiency|nominal torque|)\s+(-?\d[\d.]*)\s+(.*)$", line)
         if not m or len(m.group(3).split()) < 14:
@@ -40,13 +40,15 @@ def point(test, spot, name, p, duty):
     test.assertLessEqual(p["supply"], p["current"] * 1.001, f"{spot}: {name}: a chopped drive takes less than flows in the motor")
 
 
-# The 251601's thermal lines are in K/W and s, winding to housing, housing to air.
+# The thermal data of the 251601 in K/W and s: first winding to housing, then housing to air.
 THERMAL = {"thermal_resistance_winding_housing_K_W": 4.5, "thermal_resistance_housing_ambient_K_W": 4.25,
            "thermal_time_constant_winding_s": 17.7, "thermal_time_constant_motor_s": 212.0}
 
 
 def winding_after(lines, current, seconds, ambient=25.0, steps=4000):
-    """The two bodies, stepped: P = I^2 R (1 + a (T_w - 25)) into the winding, nothing else into the housing at rest."""
+    """Integrates the temperatures of winding and housing step by step. The winding is heated by P = I^2 R (1 + a (T_w
+    - 25)), with the temperature coefficient a and winding temperature T_w. At standstill the housing has no losses of
+    its own."""
     r_wh, r_ha, tau_w, tau_m = lines.values()
     winding = housing = ambient
     for _ in range(steps):
@@ -58,7 +60,8 @@ def winding_after(lines, current, seconds, ambient=25.0, steps=4000):
 
 
 def stands(test, spot):
-    """What the winding stands takes it to its limit, by the values and by the worse ends of the thermal ranges."""
+    """The printed current heats the winding to its limit, with the plain values and with the worse ends of the
+    thermal ranges."""
     told = re.findall(r"(?:ranges \(([^)]*)\) )?the winding stays below ([\d.]+) degC with ([\d.]+) A \([^)]*\) for ever, ([\d.]+) A for 60 s, ([\d.]+) A for 10 s", spot.text)
     for ends, limit, *amperes in told:
         lines = THERMAL | {k: float(v) for k, v in re.findall(r"(\w+) = ([\d.]+)", ends) if k in THERMAL}
@@ -91,7 +94,8 @@ def judge(test, spot):
 
 
 def short(test, spot):
-    """A page's excerpt of the first columns: torque at or below the ideal line, and standstill on it."""
+    """The first columns of a table, as excerpt on a page. The torque is at or below the ideal line, and at standstill
+    it is on the line."""
     rows = re.findall(r"^(?:locked|just turning|no load)?\s+(\d+)\s+([\d.]+)\s+([\d.]+)", spot.text, re.M)
     test.assertGreaterEqual(len(rows), 1, str(spot))
     duty = 0.5 if "duty 0.5" in spot.text else 1.0

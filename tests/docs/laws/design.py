@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of a design's print: intermediate values by their own formulas, comparisons by their two numbers, verdicts by their words."""
+"""Laws of a design's text. Intermediate values follow from their formulas, comparisons from their two numbers, and
+verdicts from their words."""
 import re
 from math import cos, exp, pi, sin, sqrt
 
@@ -31,7 +32,7 @@ def pole_placement(test, spot, s):
 
 
 def deviations(test, spot):
-    """"900 us  930 us  +3.33 %": the third is that of the first two."""
+    """In a row such as "900 us  930 us  +3.33 %" the third number is the relative difference of the first two."""
     for line in spot.text.splitlines():
         cells = re.split(r" {2,}", line.strip())
         for n in range(len(cells) - 2):
@@ -43,7 +44,8 @@ def deviations(test, spot):
 
 
 def verdict(test, spot):
-    """The first line: what is reached is no worse than the worst, and USABLE goes with phase margins and a run that settles."""
+    """The first line of the text: the nominal value is at most the worst value. A design called USABLE has sufficient
+    phase margins and a run that settles."""
     first = spot.text.splitlines()[0]
     for nominal, worst in re.findall(r"settles within \d+ % in ([\d.]+ \w+)(?: \([^)]*\))?, ([\d.]+ \w+) at worst", first):
         test.assertLessEqual(quantity(nominal)[0], quantity(worst)[0], first)
@@ -52,7 +54,8 @@ def verdict(test, spot):
 
 
 def loops(test, spot):
-    """Margins by hand: delay = phase/(360 f), one period later costs 360 f T of phase, sensitivity at least what gain margin asks."""
+    """Margins by hand. The delay margin is phase/(360 f). A command one period T later reduces the phase by 360 f T.
+    The sensitivity is at least as large as the gain margin requires."""
     rows = {}
     for line in spot.text.splitlines():
         cells = re.split(r" {2,}", line.strip())
@@ -62,7 +65,7 @@ def loops(test, spot):
         return
     for n, f in enumerate(rows["crossover"]):
         at_once, late = (rows[f"phase margin, {when}"][n][0] for when in ("no computation delay", "one period late"))
-        if n == 0:  # an outer loop has its delay within the inner one
+        if n == 0:  # the delay of an outer loop is within its inner loop
             close(test, spot, "phase margin, one period late", late, at_once - 360 * f[0] * T, 0, 0.2)
             close(test, spot, "delay margin", rows["delay margin, one period late"][n][0], late / 360 / f[0], 1e-2)
         peak = rows["peak of sensitivity, one period late"][n][0]
@@ -73,7 +76,7 @@ def loops(test, spot):
 
 
 def limits(test, spot):
-    """What bus and PWM allow at the nominal current of the 251601."""
+    """The limits by bus and PWM at the nominal current of the 251601."""
     if "current ripple" not in spot.text or "voltage left" not in spot.text:
         return
     a = exp(-T / 2 * R / L)
@@ -87,21 +90,23 @@ def limits(test, spot):
 
 
 def hall(test, spot):
-    """A speed from Hall edges: the time of a sector and how late the mean over k of them is."""
+    """The speed from Hall edges: the duration of a sector, and the delay of the mean over k sectors."""
     m = re.search(r"w_low +([\d.]+) rad/s.*\n +T +([\d.]+) ms +\(pi/3\)/\(p w_low\)", spot.text)
     if m:
         close(test, spot, "T", float(m.group(2)) * 1e-3, pi / 3 / 8 / float(m.group(1)), 1e-4)
-    for line in spot.text.splitlines():  # the loop is never faster with a slower rotor
+    for line in spot.text.splitlines():  # at a lower speed the loop is not faster
         cells = re.split(r" {2,}", line.strip())
         if cells[0].startswith("Hall, ") and len(cells) == 4:
             times = [quantity(c)[0] for c in cells[1:]]
             test.assertEqual(times, sorted(times, reverse=True), f"{spot}: {line}")
-            # The longest delay, (k + 1)/2 sectors, falls with the speed; the settling time falls by at most the same ratio.
+            # The longest delay is (k + 1)/2 sectors, which decreases with the speed. The settling time decreases by at most the
+            # same ratio.
             test.assertLessEqual(times[0] / times[2], 5.05, f"{spot}: {line}")
 
 
 def sensors(test, spot):
-    """What a loop is told by an encoder, a resolver or crossings, by the formulas that stand beside the numbers."""
+    """The values of an encoder, a resolver or zero crossings. They follow from the formulas that are printed beside
+    the numbers."""
     s, text = steps(spot.text), spot.text
     if "(2 pi/4N)/w_low" in text:
         lines = int(re.search(r"encoder, (\d+) lines", text).group(1))
@@ -115,22 +120,22 @@ def sensors(test, spot):
         close(test, spot, "w_min", s["w_min"], s["dw"], 1e-6)
         close(test, spot, "delay", s["delay"], s["T"] / 2 + s["t_l"], 1e-4)
         test.assertLess(abs(s["T"] / (T * 1e6) - round(s["T"] / (T * 1e6))), 1e-6, "whole periods")
-    if "dw_3" in s:  # sectors of 54 and 66 degrees
+    if "dw_3" in s:  # here the sectors are 54 and 66 degrees
         close(test, spot, "dw_3", s["dw_3"], s["w_low"] / 10, 1e-4)
     if "2 D/w_n" in text:
         close(test, spot, "2 D/w_n", s["2 D/w_n"], 2e6 / s["w_n"], 1e-4)
         close(test, spot, "delay", s["delay"], s["2 D/w_n"] + s["t_l"], 1e-4)
         close(test, spot, "t_l", s["t_l"], T * 1e6, 1e-6)
-    if "dw_high" in s:  # far above the lowest speed: the same step, and the immediate response of both loops
+    if "dw_high" in s:  # far above the lowest speed: the same step of the speed, and the immediate response of both loops
         w, dw, I_N, full = s["w_high"], s["dw_high"], 2.33, 2.5 * 2.33
         test.assertTrue(0.89 * (U - R * I_N) / K_T < w < 0.9 * (U - R * I_N) / K_T * 1.001, f"{spot}: w_high")
         if "(2 pi/4N)/w_low" in text:
             close(test, spot, "dw_high", dw, w / s["w_low"] * s["dw"], 1e-4)
         elif "Speed from the absolute" in text:
             close(test, spot, "dw_high", dw, s["dw"], 1e-6)
-        else:  # six Hall edges, one tick of 1 MHz
+        else:  # the mean of six Hall edges, with ticks of 1 MHz
             close(test, spot, "dw_high", dw, w / (6e6 * pi / 3 / 8 / w), 1e-4)
-        # The crossover by d1 alone is d1 T_max/J, with T_max = K_t 2.5 I_N; the current loop's placed pair gives its d1.
+        # The crossover with d1 alone is d1 T_max/J, with T_max = K_t 2.5 I_N. The poles of the current loop give its d1.
         close(test, spot, "d1 dw", s["d1 dw"], s["w_c"] * 135e-7 / (K_T * full) * dw, 2e-3)
         close(test, spot, "u_left", s["u_left"], U - K_T * w - R * I_N / 2, 1e-3)
         close(test, spot, "du", s["du"] * (1e-3 if re.search(r"du +\S+ mV", text) else 1), s["d1 dw"] * full * 4.09559, 1e-3)
@@ -148,13 +153,14 @@ def sensors(test, spot):
 
 
 def seconds(text, symbol):
-    """A row of a derivation in s, whichever unit it is shown in."""
+    """A row of a derivation in s. The row may show us, ms or s."""
     value, unit = re.search(rf"^  {symbol} +([\d.]+) (us|ms|s) ", text, re.M).groups()
     return float(value) * {"us": 1e-6, "ms": 1e-3, "s": 1.0}[unit]
 
 
 def swing(test, spot):
-    """Nothing swings by more than the no-load speed; what an ideal sensor leaves is less than what a late one does."""
+    """The speed swings by less than twice the no-load speed. With ideal sensors the swing is smaller than with the
+    real sensor."""
     m = re.search(r"swings by ([\d.]+) rad/s without end; with ideal sensors by ([\d.]+) rad/s", spot.text)
     if m:
         test.assertTrue(float(m.group(2)) < float(m.group(1)) < 2 * U / K_T, str(spot))
@@ -163,7 +169,8 @@ def swing(test, spot):
 
 
 def position(test, spot):
-    """The gain is no more than what no limit asks for; a step of Hall probes is 60/p degrees; 1/K_p as it says."""
+    """The gain is at most the gain that the nominal motor allows. That gain is between the two ends of the search. A
+    Hall step is 60/p degrees."""
     found = re.search(r"between ([\d.]+) \(full torque.*?and ([\d.]+) \(no limit", spot.text)
     gain = re.search(r"K_p +([\d.]+) rad/s/deg", spot.text)
     if found and gain:
@@ -175,7 +182,7 @@ def position(test, spot):
 
 
 def linear(test, spot):
-    """The 251601 unrolled at 20 mm: F = T/r, m = J/r^2, tau = pi r/p."""
+    """The 251601 as a linear motor with the radius r = 20 mm: force F = T/r, mass m = J/r^2, pole pitch tau = pi r/p."""
     if "K_f" not in spot.text:
         return
     r = 0.02

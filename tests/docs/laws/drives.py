@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of single blocks about motors, drives and boards, each by hand from the sheet."""
+"""Laws of single blocks about motors, drives and boards. Each is computed by hand from the sheet."""
 import re
 from math import pi
 
@@ -10,7 +10,7 @@ from page import REPOSITORY
 
 
 def kv(test, spot):
-    """920 rpm/V of a sine's peak between two terminals, or of its mean over the driven pair."""
+    """920 rpm/V, as the peak of a sine between two terminals, or as the mean of the driven pair."""
     told = [float(x) for x in re.findall(r"K_t +([\d.]+) mNm/A", spot.text)]
     peak = 1e3 / (920 * 3.14159265 / 30)
     curve.same(test, spot, "line-peak", told[0], peak * 3 / 3.14159265, 1e-3)
@@ -18,7 +18,7 @@ def kv(test, spot):
 
 
 def taken_over(test, spot):
-    """L_d and L_q lie half the difference of 4.1 uH beside 22.3 uH; the other values are those of the file, in smaller units."""
+    """L_d and L_q differ from 22.3 uH by half of 4.1 uH. The other values are those of the file, in smaller units."""
     told = {key: float(x) for key, x in re.findall(r"^(\w+) = \{ value = ([\d.]+)", spot.text, re.M)}
     for key, value in (("d_axis_inductance_uH", 22.3 - 4.1 / 2), ("q_axis_inductance_uH", 22.3 + 4.1 / 2), ("resistance_ohm", 0.0187),
                        ("flux_linkage_mWb", 5.12)):
@@ -26,7 +26,8 @@ def taken_over(test, spot):
 
 
 def asked(test, spot):
-    """Half of 0.23 ohm between two terminals; 920 rpm/V of the peak between two terminals, or of the mean over the driven pair."""
+    """The resistance 0.23 ohm is of a phase, or between two terminals. 920 rpm/V is of the peak between two
+    terminals, or of the mean of the driven pair."""
     phase, terminal = (float(x) for x in re.findall(r"R_s = ([\d.]+) ohm", spot.text))
     peak, mean = (float(x) for x in re.findall(r"K_e = ([\d.]+) mV s", spot.text))
     curve.same(test, spot, "phase", phase, 0.23, 1e-9)
@@ -36,13 +37,14 @@ def asked(test, spot):
 
 
 def answered(test, spot):
-    """The number of the sketch, in both meanings."""
+    """The number in the sketch of the file, for both possible meanings."""
     for x in re.findall(r"value = ([\d.]+)", spot.text):
         curve.same(test, spot, "resistance", float(x), 0.23, 1e-9)
 
 
 def frames(test, spot):
-    """0.42 Nm/A of a sine: terminal as it is, peak 2 K/3 of a phase, rms that over sqrt 2; terminal is 1.654 K_e."""
+    """A torque constant of 0.42 Nm/A with a sine, in three frames. "terminal": unchanged. "peak": two thirds of it
+    are K_e of a phase, and the terminal value is 1.654 K_e. "rms": the peak value divided by sqrt 2."""
     terminal, peak, rms = (float(x) for x in re.findall(r"constant of ([\d.]+) mNm/A", spot.text))
     curve.same(test, spot, "terminal", terminal, 420, 1e-3)
     curve.same(test, spot, "peak", peak, 420 * 2 / 3 * 1.65399, 1e-3)
@@ -50,7 +52,7 @@ def frames(test, spot):
 
 
 def trade_units(test, spot):
-    """By the definitions of pound, ounce and inch."""
+    """Conversion factors from the definitions of pound, ounce and inch."""
     pound, inch, g = 0.45359237, 0.0254, 9.80665
     for words, number in {r"1 oz-in is ([\d.]+) mNm": pound / 16 * g * inch * 1e3, r"1 lb-in ([\d.]+) mNm": pound * g * inch * 1e3,
                           r"1 kg cm ([\d.]+) mNm": g * 10, r"1 oz-in-s2 is ([\d.]+) g cm2": pound / 16 * g * inch * 1e7,
@@ -59,7 +61,8 @@ def trade_units(test, spot):
 
 
 def beyond_the_bus(test, spot):
-    """Least current inside of the circle V = U/sqrt 3 against E = w p psi over Z; what flows beside what is asked for is little more."""
+    """Above a certain speed the back-EMF E = w p psi exceeds the voltage circle V = U/sqrt 3. Then the current is at
+    least (E - V)/Z, with the impedance Z. The measured current is only a little larger."""
     pairs, psi, inductance, resistance, bus, w = 7, 5.12e-3, 22.3e-6, 18.7e-3, 60, 1000
     V, E, Z = bus / 3**0.5, w * pairs * psi, ((w * pairs * inductance)**2 + resistance**2)**0.5
     least = (E - V) / Z
@@ -73,8 +76,8 @@ def beyond_the_bus(test, spot):
 
 
 def bring_up(test, spot):
-    """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction,
-    and the log has the ripple's valley."""
+    """The expected readings of the steps, from the sheet. A Hall line has p times the frequency of the shaft. The
+    current overcomes load and friction, and the log shows the lower end of the ripple."""
     hall_order(test, spot)
     text = spot.text.replace("Hall 1 at ", "")
     steps = re.findall(r"([\d.]+) rad/s, ([\d.]+) A, [\d.]+(?: at 0.02 N m of load)?[;,] ([\d.]+) Hz", text)
@@ -93,8 +96,8 @@ def bring_up(test, spot):
 
 
 def crossed_loop(test, spot):
-    """Backward each mean speed is the setpoint with the other sign; late it is one speed, whatever is
-    asked; humming the load turns it backward; early it trips."""
+    """With the wiring "backward" each mean speed has the sign opposite to the setpoint. With "late" the mean speed is
+    the same for every setpoint. With "hums" the load turns the motor backward. With "early" the drive trips."""
     asked = (100, 300, 70)
     cells = {c[1]: c for c in (re.split(r" {2,}", line.strip()) for line in spot.text.splitlines()) if c[0].isdigit()}
     speeds = {wires: [float(re.match(r"-?[\d.]+", c[n]).group(0)) for n in (2, 4, 6)] for wires, c in cells.items()}
@@ -109,7 +112,7 @@ def crossed_loop(test, spot):
 
 
 def bring_up_avr(test, spot):
-    """Its scenario's PWM frequency and dead time are what the steps have at the scope."""
+    """The PWM frequency and dead time that the steps show on the scope agree with the scenario."""
     hall_order(test, spot)
     scenario = read(REPOSITORY / "data/scenarios/firmware/avr.toml")
     told = float(re.search(r"([\d.]+) kHz pulses", spot.text).group(1))
@@ -126,7 +129,8 @@ def bring_up_avr(test, spot):
 
 
 def lifted(test, spot):
-    """Two bodies at the worse ends, warmed for 40 s by the current of weight and friction, which grows as the magnets lose 0.12 %/K."""
+    """Winding and housing with the worse ends of the ranges, heated for 40 s. The current overcomes weight and
+    friction. It increases, because the magnets lose 0.12 %/K."""
     to_housing, to_air, tau_w, tau_h, w = 5.3, 4.25, 11.7, 212, 200
     winding, housing, dt = 25.0, 25.0, 1e-3
     for _ in range(40000):
@@ -148,7 +152,7 @@ def laid_over(test, spot):
 
 
 def throttle(test, spot):
-    """The slew is half as fast where complementary chopping brakes; K_t^2 I_N/(J U) of the 251601 by its sheet."""
+    """The slew rate is half as large if complementary chopping brakes. For the 251601 it follows from the sheet."""
     for ten, half in re.findall(r"duty from 10 to 100 % in +(\d+) ms, complementary in +(\d+) ms", spot.text):
         test.assertLess(abs(int(half) / int(ten) - 2), 0.03, str(spot))
     told = int(re.search(r"maxon-251601 .*? in +(\d+) ms", spot.text).group(1))
@@ -168,13 +172,13 @@ def braking(test, spot):
 
 
 def exported(test, spot):
-    """A gain in 16 bits is that of the design to a digit of its own."""
+    """A gain in 16 bits differs from the designed gain by less than one unit of its last digit."""
     held, gain = re.search(r"// ([\d.]+) V/A, held as ([\d.]+)", spot.text).groups()
     test.assertLess(abs(float(held) - float(gain)), 2.0**-13, str(spot))
 
 
 def devices(test, spot):
-    """Warm by what it loses: sink 40 degC and 40 K/W, as the page's scenario says."""
+    """Each device is heated by its losses: 40 degC at the sink and 40 K/W, as in the page's scenario."""
     for name, body in re.findall(r'"device": "(T\d)",\n(.*?)\}', spot.text, re.S):
         losses = sum(float(x) for x in re.findall(r'_W": ([\d.]+)', body))
         degC = float(re.search(r'junction_degC": ([\d.]+)', body).group(1))
@@ -184,7 +188,7 @@ def devices(test, spot):
 
 
 def hall_order(test, spot):
-    """The positive way passes the codes of notation.md's sectors in their order."""
+    """In positive direction the Hall codes have the order of the sectors in notation.md."""
     order = re.search(r"\| (\d(?: \d){5}) and again", spot.text).group(1).split()
     page = (REPOSITORY / "docs/howto/find-a-wiring-fault.md").read_text(encoding="utf-8")
     codes = re.findall(r"^  \d +\d+\.\. ?\d+ deg +\d +\d +\d +(\d) ", page, re.M)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Law of the table that the example of a firmware prints."""
+"""The law for the table that the firmware example prints."""
 from math import pi
 
-POLE_PAIRS, BUS_V, R_PAIR_OHM, NO_LOAD_RAD_S = 7, 12, 2 * 0.1153, 12 / 11.15e-3  # of the DJI 2212 920 KV
+POLE_PAIRS, BUS_V, R_PAIR_OHM, NO_LOAD_RAD_S = 7, 12, 2 * 0.1153, 12 / 11.15e-3  # data of the DJI 2212 920 KV
 
 
 def course(test, spot):
-    """Six commutations are an electrical turn, at a speed between those of two rows; no current is above U/R, no speed above the
-    no-load speed at that throttle, unless it falls."""
+    """Six commutations are one electrical turn, with a speed between the speeds of two rows. No current is above U/R.
+    No speed is above the no-load speed of its throttle, except while the speed falls."""
     rows, before = [line.split() for line in spot.text.splitlines()[1:] if line != "..."], None
     test.assertGreater(len(rows), 10, str(spot))
     for ms, throttle, speed, current, state, commutations, missed, desyncs in rows:

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which law judges which block. A block is found by its page and a piece of its text or heading."""
+"""The law of each block. A block is found by its page and a part of its text or heading."""
 import re
 
 from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, tables
 from page import REPOSITORY
 
-# Blocks of a reader's input are no results.
+# Blocks with a reader's input contain no results.
 INPUT = {"run", "c", "write", "file", "chip", "host", "programs", "python"}
 
 TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
 
 
 def measured_by_a_test(test, spot):
-    """The table repeats what named tests hold, each by a law of its own: those tests are there."""
+    """The table repeats results that named tests check. These tests must exist."""
     named = [group for m in TEST_NAMED.finditer(section_of(spot)) for group in m.groups() if group]
     test.assertTrue(named, f"{spot}: names no test that measures it")
     for name in named:
@@ -28,7 +28,7 @@ def measured_by_a_test(test, spot):
 
 
 def section_of(spot):
-    """The text between the block's heading and the next one of any level."""
+    """The text from the block's heading to the next heading of any level."""
     page = (REPOSITORY / spot.page).read_text(encoding="utf-8")
     start = page.index(f"# {spot.heading}\n")
     end = re.search(r"\n#+ ", page[start:])
@@ -36,12 +36,12 @@ def section_of(spot):
 
 
 def definition(test, spot):
-    """Names, ranges, commands and formulas: no number in it is a result."""
+    """Names, ranges, commands and formulas: none of the numbers is a result."""
     test.assertNotRegex(spot.text, r"\d+ experiments?:", str(spot))
 
 
 def default_in_range(test, spot):
-    """Of a table of keys: a number that stands in for what is not given lies in the key's own range."""
+    """In a table of keys, each default that is a number is within the range of its key."""
     if "default" not in spot.head():
         return
     range_at, default_at = spot.head().index("value"), spot.head().index("default")
@@ -60,12 +60,13 @@ def default_in_range(test, spot):
 
 
 def message(test, spot):
-    """A message repeats what was given, or what is allowed: no result."""
+    """A message repeats the user's input, or the allowed values: none of its numbers is a result."""
     test.assertNotRegex(spot.text, r"\d+ experiments?:|at worst", str(spot))
 
 
 def motor_check(test, spot):
-    """Each relation's deviation is that of its two sides, and its verdict that of what is tolerated."""
+    """Each deviation follows from the two sides of the relation. Each verdict follows from the deviation and its
+    tolerance."""
     rows = re.findall(r"^  (ok|BROKEN|known) +(\S.*?) {2,}(\S.*?) {2,}([\d.]+) +([\d.]+) .*? ([-+][\d.]+) % +([-+][\d.]+) +([-+][\d.]+) %", spot.text, re.M)
     for verdict, name, _, computed, printed, told, low, high in rows:
         deviation = 100 * (float(computed) / float(printed) - 1)
@@ -81,7 +82,7 @@ def motor_check(test, spot):
 
 
 def capacitor_store(test, spot):
-    """The least sum of the table of that plan on its page, and as many runs as it has that pass."""
+    """The smallest sum, and the number of passing runs, agree with the table of this plan on its page."""
     table = (REPOSITORY / "docs/reference/plan-file.md").read_text(encoding="utf-8")
     rows = re.findall(r"^ +\d+ +[\d.]+ us +(\w+) +[\d.]+ [nu]s +(.*?) +ok$", table, re.M)
     for chopping, least, runs in re.findall(r"│ (\w+) +│ ([\d.]+) +│ (\d+) ", spot.text):
@@ -101,7 +102,8 @@ def rotor_angles(test, spot):
 
 
 def bode(test, spot):
-    """The linear loop holds its voltage over the period; a pulse that ends sooner decays from its end on: lower by that at every line."""
+    """The linear model holds the voltage for the whole period. The current of a shorter pulse decays from the pulse's
+    end on. Thus the measured gain is smaller by the same amount at every frequency."""
     from math import exp, log10
     from gallery_sheet import L, R, T, U
     rows = re.findall(r"^ +([\d.]+) +(-?[\d.]+) +(-?[\d.]+) +[\d.]+ +(-?[\d.]+) +(-?[\d.]+)$", spot.text, re.M)
@@ -114,7 +116,7 @@ def bode(test, spot):
 
 
 def bode_of_a_locked_rotor(test, spot):
-    """What a locked rotor leaves is the loop that was designed, and the hold of a real pulse."""
+    """With a locked rotor the measured loop agrees with the designed loop within 3 %."""
     rows = re.findall(r"^ +(crossover|phase margin) +([\d.]+) \w+ +([\d.]+) \w+$", spot.text, re.M)
     test.assertEqual(len(rows), 2, str(spot))
     for name, measured, designed in rows:
@@ -122,7 +124,7 @@ def bode_of_a_locked_rotor(test, spot):
 
 
 def session(test, spot):
-    """Duty and torque: the speed rises, at most by K_t U/R/J."""
+    """With duty and a load torque the speed rises by at most K_t U/R/J per second."""
     times, speeds = zip(*((float(t), float(w)) for t, w in re.findall(r"^([\d.]+) ms: ([\d.]+) rad/s", spot.text, re.M)))
     from gallery_sheet import J, K_T, STALL
     test.assertLess(speeds[1] - speeds[0], K_T * STALL / J * 1e-3 * (times[1] - times[0]), str(spot))
@@ -130,7 +132,8 @@ def session(test, spot):
 
 
 def held_by_the_supply(test, spot):
-    """A pair on the supply, then through its diodes against the supply: two exponentials of L/R."""
+    """The pair is at the supply, and then its diodes connect it against the supply. The current consists of two
+    exponentials with the time constant L/R."""
     from math import exp
     from gallery_sheet import STALL, TAU
     on, off = (float(x) for x in re.findall(r"^([\d.]+) A$", spot.text, re.M))
@@ -139,7 +142,7 @@ def held_by_the_supply(test, spot):
 
 
 def signals_at_2_ms(test, spot):
-    """At a driven pair the currents sum to 0; the current loop holds its 5 A within a ripple of U T/(4 L)."""
+    """In a driven pair the sum of the currents is 0. The current loop controls 5 A within a ripple of U T/(4 L)."""
     from gallery_sheet import L, T, U
     a, b, c = (float(x) for x in re.findall(r"^i_._A = (-?[\d.]+) A", spot.text, re.M))
     test.assertLess(abs(a + b + c), 2e-4, str(spot))
@@ -148,7 +151,7 @@ def signals_at_2_ms(test, spot):
 
 
 def first_lines(test, spot):
-    """A current of 5 A turns the rotor by K_t 5 A/J, less friction."""
+    """A current of 5 A accelerates the rotor by K_t 5 A/J, less friction."""
     from gallery_sheet import J, K_T
     for t, speed, current in re.findall(r"^([\d.]+) ms +([\d.]+) rad/s +([\d.]+) A$", spot.text, re.M):
         most = K_T * 5 / J * 1e-3 * float(t)
@@ -156,7 +159,8 @@ def first_lines(test, spot):
 
 
 def costs_of_calls(test, spot):
-    """The goals of the library for C; a step costs at least its part of a long one; a load opens and simulates."""
+    """The goals of the C library. One step takes at least as long as its part of a long advance. A load takes longer
+    than opening a file, because it also simulates."""
     us = {name.strip(): float(x) for name, x in re.findall(r"^(.*?) +([\d.]+) us$", spot.text, re.M)}
     test.assertLess(us["open a file"], 1000)
     test.assertLess(us["open a file"], us["open the first file"])
@@ -167,7 +171,8 @@ def costs_of_calls(test, spot):
 
 
 def rows_at_the_leader(test, spot):
-    """Reading and storing a row is what limits the rows a second that the page promises."""
+    """Reading and storing a row takes most of the leader's time. This time limits the number of rows per second,
+    which the page states."""
     times = [float(cells[1].split()[0]) for cells in spot.rows()]
     page = (REPOSITORY / spot.page).read_text(encoding="utf-8")
     test.assertIn(f"make {times[0] + times[1]:.1f} us", page)
@@ -222,7 +227,7 @@ MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tou
             ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
             ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),
             ("docs/howto/size-a-capacitor.md", "grep ripple")]
-# Pages and tables of definitions: names, formulas, commands, exit codes, and pages of code.
+# Pages and tables with definitions: names, formulas, commands, exit codes, and pages with code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
 DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
@@ -239,7 +244,7 @@ DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file |
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
             ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |"), ("docs/howto/compare-a-log.md", "| quantity |"),
             ("docs/howto/take-over-parameters.md", "| program |")]
-# Tables with a named test that measures every row and has its own law.
+# Tables whose rows are all checked by a named test with its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
                  ("docs/reference/loops.md", "| law | a step"), ("docs/gallery/beliefs.md", "| wrong belief |")]

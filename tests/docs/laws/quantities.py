@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Printed quantities as numbers in SI: "55.8 mA" is 0.0558 A."""
+"""Converts printed quantities to numbers in SI: "55.8 mA" is 0.0558 A."""
 import re
 from math import pi
 
@@ -13,7 +13,7 @@ QUANTITY = re.compile(r"^([-+]?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?))\s*(.*)$")
 
 
 def unit_of(text):
-    """(dimension, factor), or None for what is no unit here."""
+    """(dimension, factor), or None if the text is no known unit."""
     text = text.strip()
     if text in PLAIN:
         return PLAIN[text]

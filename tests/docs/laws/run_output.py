@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of the tables that a run prints: a verdict is that of its limits, a deviation is that of its two numbers, a summary counts
-what stands above it, and no quantity passes what motor and supply allow."""
+"""Laws of the tables that a run prints. A verdict follows from its limits, a deviation from its two numbers, and a
+summary counts the rows above. No quantity exceeds the bounds of motor and supply."""
 import re
 
 from laws.quantities import quantity
@@ -12,7 +12,8 @@ LIMIT = re.compile(r"^(?:(<=|>=) )?(.+)$")
 
 
 def limits(text):
-    """(least, most) in SI of "<= 1 ms", ">= 4 A", "5.1 .. 5.2 A", "0.8 .. 0.9"; None where it is no requirement."""
+    """(least, most) in SI, from a text such as "<= 1 ms", ">= 4 A", "5.1 .. 5.2 A" or "0.8 .. 0.9". None if the row
+    has no requirement."""
     if " .. " in text:
         low, high = text.split(" .. ")
         found = quantity(high)
@@ -87,7 +88,7 @@ class Table:
 
 
 def tables_in(text):
-    """(command above it, lines, summary line) of each table of experiments."""
+    """(command above it, lines, summary line) for each table of experiments."""
     command, lines, inside = "", [], False
     for line in text.splitlines() + [""]:
         if line.startswith("$ "):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a scenario's motor and supply allow at most, read from its files by another way than the program's."""
+"""The upper bounds of a scenario's motor and supply. They are read from the files by a second implementation."""
 import functools
 import re
 import tomllib
@@ -33,15 +33,15 @@ def motor(name):
 
 
 def terminal_ohm(sheet):
-    """Resistance between two terminals, whichever the sheet gives."""
+    """The resistance between two terminals, from a sheet with a terminal or a phase value."""
     entry = sheet["resistance_ohm"]
     frame = entry.get("frame", "terminal") if isinstance(entry, dict) else "terminal"
     return value(entry) * (2 if frame == "phase" else 1)
 
 
 class Most:
-    """Largest current and line voltage of a scenario: both ends of a winding on the bus, the back-EMF of twice the no-load speed
-    helping, as when a drive is reversed at speed."""
+    """The largest current and line voltage of a scenario. Assumption: both ends of a winding are at the bus, and a
+    back-EMF of twice the no-load speed adds to it, as after a reversal at speed."""
 
     def __init__(self, scenario, settings=()):
         for key, text in settings:
@@ -72,7 +72,8 @@ COMMAND = re.compile(r"(?:\./run|sixstep) run (.*)")
 
 
 def most_of_command(command, written):
-    """Of the first scenario that a command line runs. `written`: files that the page has written, by name."""
+    """The bounds of the first scenario that a command line runs. `written`: the files that the page has written, by
+    name."""
     m = COMMAND.search(command)
     if not m:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of many runs: order of the statistics, counts, verdicts that are those of their limits, and the sums of a plan."""
+"""Laws of many runs: the order of the statistics, the counts, the verdicts and their limits, and the sums of a plan."""
 import re
 from math import sqrt
 
@@ -47,7 +47,8 @@ def meets(value, asked):
 
 
 def judge_plan(test, spot):
-    """A plan's table: "!" where a figure misses its limit, FAIL where one does, FAULT where the run was stopped, and the counts below."""
+    """The table of a plan. "!" marks a figure that misses its limit. FAIL marks a run with such a figure, FAULT a run
+    that was stopped. The line below has their counts."""
     asked = dict(re.findall(r"^  \[(\d)\] (.*)$", spot.text, re.M))
     passed = runs = 0
     for line in spot.text.splitlines():
@@ -62,7 +63,7 @@ def judge_plan(test, spot):
                 test.assertFalse(cell.endswith("!"), f"{spot}: {line}: nothing is asked of [{n + 1}]")
                 continue
             bound = quantity(re.search(r"at (?:most|least) (.*)$", asked[str(n + 1)]).group(1))
-            if value[0] != bound[0]:  # equal in print: either is possible
+            if value[0] != bound[0]:  # the printed numbers are equal, so either verdict is possible
                 test.assertEqual(not meets(value[0], asked[str(n + 1)]), cell.endswith("!"), f"{spot}: {line}")
             misses += cell.endswith("!")
         if cells[-1] != "FAULT":
@@ -74,8 +75,8 @@ def judge_plan(test, spot):
 
 
 def which_pwm(test, spot):
-    """12 A on 24 V: copper is R I^2 and what the ripple adds, switching goes with the frequency, ripple grows with the period, and
-    the capacitor carries no more than the motor."""
+    """12 A at 24 V. The copper loss is R I^2 and a part of the ripple. The switching loss is proportional to the
+    frequency, and the ripple increases with the period. The current in the capacitor is at most the motor's current."""
     if "switching loss" not in spot.text:
         return
     found = {}
@@ -95,7 +96,8 @@ def which_pwm(test, spot):
 
 
 def judge_best_pwm(test, spot):
-    """Each figure of the optimum is within its limit, each key within its range; one that limits is at its limit."""
+    """Each figure of the optimum is within its limit, and each key is within its range. The figure that limits the
+    optimum is at its limit."""
     limited = re.search(r"limited by ([^(]*?) \(", spot.text).group(1)
     for name, value, asked in re.findall(r"^  (\S.*?) {2,}(\S+ ?(?:\S+ ?)*?)(?:  (at most .*|in .*))?$", spot.text, re.M):
         if asked.startswith("at most"):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the pages print numbers: fenced blocks and tables, each with its page, line, heading and the words before it."""
+"""Finds the numbers that the pages print, in fenced blocks and tables. Each spot has its page, line, heading and the
+words before it."""
 import re
 import typing
 
@@ -7,23 +8,23 @@ from page import BLOCK, REPOSITORY
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TABLE = re.compile(r"^\|.*\|\n\|[-|: ]+\|\n((?:\|.*\n)+)", re.M)
-FEWEST = 2  # number of values from which a block needs a law
+FEWEST = 2  # a block with this number of values needs a law
 
 
 class Spot(typing.NamedTuple):
     page: str
     line: int
     heading: str
-    kind: str     # of the block's test, or "table"
-    detail: str   # of the block's test
+    kind: str     # the kind of test of the block, or "table"
+    detail: str   # the details of the block's test
     text: str
-    before: str   # the paragraph above it
+    before: str   # the paragraph before it
 
     def __str__(self):
         return f"{self.page}:{self.line}"
 
     def rows(self):
-        """Of a table: cells of each row, without the heading."""
+        """The cells of each row of a table, without the heading."""
         lines = self.text.splitlines()
         return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 

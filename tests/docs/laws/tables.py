@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of tables that are not printed by one run: counts, speeds, costs, motors."""
+"""Laws of tables that are not the output of one run: counts, speeds, costs, motors."""
 import re
 import sys
 from math import pi
@@ -16,8 +16,8 @@ ORDER = ["duty", "hysteresis", "current", "speed", "position", "product"]
 
 
 def drive_costs(test, spot):
-    """A position loop has a speed loop in it, that a current loop, that a duty: none may cost less than what it contains; 99.9 % of
-    the calls cost no more than the worst."""
+    """A position loop contains a speed loop, a speed loop contains a current loop, and a current loop contains a duty
+    drive. No loop costs less than the loops it contains. The cost of 99.9 % of the calls is at most the worst cost."""
     head = spot.head()
     for cells in spot.rows():
         row = dict(zip(head, cells))
@@ -32,8 +32,9 @@ def drive_costs(test, spot):
 
 
 def block_costs(test, spot):
-    """A Cortex-M0 lacks instructions that a Cortex-M3 has, and takes no fewer in any block; the M4 executes the M3's. A block in 32
-    bits takes no less than in 16, but for what hangs on no format."""
+    """A Cortex-M0 lacks instructions of a Cortex-M3, so no block costs less on it. A Cortex-M4 executes all
+    instructions of the M3. A block in 32 bits costs at least as much as in 16 bits, unless its cost is independent of
+    the format."""
     head = spot.head()
     test.assertGreater(len(spot.rows()), 50)
     for cells in spot.rows():
@@ -50,7 +51,7 @@ def block_costs(test, spot):
 
 
 def digests(test, spot):
-    """As many digests as the table of the target test has."""
+    """The numbers of digests are equal to those in the table of the target test."""
     stored = (REPOSITORY / "tests/target/digests.txt").read_text(encoding="utf-8")
     for arithmetic, count in spot.rows():
         lines = [line for line in stored.splitlines() if re.search(rf"\b{arithmetic}\b", line) and not line.startswith("#")]
@@ -58,8 +59,8 @@ def digests(test, spot):
 
 
 def speed(test, spot):
-    """Simulated seconds per second are 30 us over the time of 30 us; a user's run takes no less than the engine alone; a tenth of the
-    step takes ten times as long."""
+    """The simulated seconds per second are 30 us divided by the time for 30 us. A user's run takes at least as long
+    as the engine alone. With a tenth of the step, a run takes ten times as long."""
     alone = {}
     for cells in spot.rows():
         name, kernel, ns, per_s = cells[0], cells[1], float(cells[2]), float(cells[3])
@@ -79,7 +80,7 @@ def speed(test, spot):
 
 
 def speed_in_short(test, spot):
-    """Each number is that of the whole table."""
+    """Each number is equal to the number in the complete table."""
     whole = performance.written_rows((REPOSITORY / performance.PLACES["speed"]).read_text(encoding="utf-8"), "speed")
     test.assertEqual(performance.short_table(whole), [spot.head(), *spot.rows()], str(spot))
 
@@ -108,7 +109,8 @@ def shares(test, spot):
 
 
 def reference(test, spot):
-    """Largest differences from float128: what double can resolve over some thousand segments. A page may leave rows out."""
+    """The largest differences from float128 are small: a double sums up its rounding errors over some thousand
+    segments. A page may omit rows."""
     rows = re.findall(r"^(R\w+|G\w+) .*? (\d+) +(\S+) +(\S+) +(\S+)(?: +(\S+))?$", spot.text, re.M)
     told = int(re.search(r"(\d+) of (\d+) cases match", spot.text).group(2))
     (test.assertLess if "\n...\n" in spot.text else test.assertEqual)(len(rows), told, f"{spot}: rows and cases")
@@ -123,7 +125,7 @@ def reference(test, spot):
 
 
 def motor_list(test, spot):
-    """p, U, R_tt, K_t and J of each motor that has a file, by the file itself."""
+    """p, U, R_tt, K_t and J of each motor agree with the motor's file."""
     rows = [line for line in spot.text.splitlines() if re.match(r"^[a-z0-9-]+ +(\d+|-) ", line)]
     test.assertGreaterEqual(len(rows), len(list((REPOSITORY / "data/motors").glob("*.toml"))), "a row for each motor")
     for line in rows:
@@ -140,13 +142,14 @@ def motor_list(test, spot):
             if x != "-" and name != "example-linear":
                 test.assertTrue(least <= float(x) <= most, line)
         if constant not in ("-", "linear") and volts != "-" and name != "example-linear" and "no_load_speed_rpm" in sheet:
-            # An ideal motor turns at U/K_t; a printed no-load speed is within a fifth of that.
+            # An ideal motor turns at U/K_t. The printed no-load speed differs from this speed by at most a fifth.
             rpm = float(volts) / float(constant) * 1e3 * 9.5493
             test.assertTrue(0.8 < value(sheet["no_load_speed_rpm"]) / rpm < 1.2, line)
 
 
 def position(test, spot):
-    """An rms is no larger than its worst, and no error of a sensor in its place is larger than half a sector."""
+    """No rms value is larger than its worst value. No error of a sensor at its correct place is larger than half a
+    sector."""
     for cells in spot.rows():
         for cell in cells[1:8]:
             if cell != "-":
@@ -158,7 +161,8 @@ def position(test, spot):
 
 
 def trust(test, spot):
-    """Accepted and refused are all that were drawn; a law that was kept used at most all that it allows."""
+    """The accepted and the refused scenarios together are all drawn scenarios. The error of each law is at most the
+    allowed error."""
     page = (REPOSITORY / spot.page).read_text(encoding="utf-8")
     section = page[page.index(f"### {spot.heading}"):]
     drawn, accepted, refused = map(int, re.search(r"^(\d+) .*?: (\d+) accepted, (\d+) refused with words, 0 laws broken", section, re.M).groups())
@@ -206,7 +210,8 @@ def own_cost(test, spot):
 
 
 def wiring(test, spot):
-    """Torque per ampere by symmetry: what is mirrored has the other sign, 60 degrees beside leave half, and 3, 3, 12, 18 ways."""
+    """Torque per ampere by symmetry. A mirrored wiring has the opposite sign, and a shift of 60 degrees leaves half
+    of the torque. The groups have 3, 3, 12 and 18 wirings."""
     rows = {m[0]: m for m in re.findall(r"^  (FORWARD|BACKWARD|hums|(?:forward|backward), (?:early|late)) +(\d+) +(-?\d+) % +(-?\d+) % +(\S+)", spot.text, re.M)}
     test.assertEqual(36, sum(int(m[1]) for m in rows.values()), str(spot))
     for name, m in rows.items():

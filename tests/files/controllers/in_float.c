@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A controller compiled as for a chip. */
+/* A controller that is compiled in float, as for a chip. */
 #ifndef SIXSTEP_REAL
 #define SIXSTEP_REAL float
 #endif

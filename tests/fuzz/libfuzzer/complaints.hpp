@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of the results in the readers' fuzzers.
+// Checks that the fuzzers of the readers apply to each result.
 #pragma once
 #include <cstdlib>
 
@@ -8,14 +8,15 @@
 
 namespace fuzzing {
 
-/// A refusal has a place and a rule.
+/// Each problem of a refusal names a place and a rule.
 inline void must_say_something(const sixstep::base::Problems& problems) {
   if (problems.empty()) std::abort();
   for (const sixstep::base::Problem& problem : problems)
     if (problem.where.empty() || problem.limit.empty()) std::abort();
 }
 
-/// An accepted scenario compiles or is refused with a message; so do the drives of its series.
+/// An accepted scenario compiles, or it is refused with a message. The same law applies to the drives of its
+/// spread.
 inline void must_compile(const sixstep::study::Scenario& scenario) {
   const auto compiled = sixstep::study::compile(scenario);
   if (!compiled && compiled.problems().empty()) std::abort();

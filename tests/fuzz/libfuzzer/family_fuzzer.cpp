@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenario reader with a whole folder: x.toml and the files that it may name, base.toml, own.toml (a
-// motor) and rows.csv. One input contains all files, separated by lines "#### NAME"; x.toml is the text
-// before the first separator.
+// Fuzzes the scenario reader with a whole folder: x.toml and the files that it may name, which are base.toml,
+// own.toml (a motor) and rows.csv. One input contains all files, separated by lines "#### NAME". x.toml is
+// the text before the first separator.
 #include <stdlib.h>
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder is created once and never removed, because the fuzzer may end at any instant. It is in memory
-/// if the system has such a folder.
+/// The folder is created once and never removed, because the fuzzer may end at any instant. If the system has
+/// a folder in memory, it is created there.
 const fs::path& folder() {
   static const fs::path made = [] {
     std::error_code none;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The root finder with arbitrary coefficients. The returned root is a zero within the length, to rounding,
-// and the polynomial is not negative before it.
+// Fuzzes the root finder with arbitrary coefficients. The returned root is within the length and is a zero,
+// apart from rounding. The polynomial is not negative before it.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -33,8 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   constexpr double eps = 0x1p-52;
   const double noise = 64 * eps * sum;
-  // Noise may count as zero once per coefficient. The rounding of the Bernstein form and of an evaluation
-  // adds at most 4 (degree + 1) eps of the sum.
+  // Each coefficient may contribute the noise once to a value that counts as zero. The rounding of the
+  // Bernstein form and of an evaluation adds at most 4 (degree + 1) eps of the sum.
   const double error = (degree + 1) * (noise + 4 * eps * sum);
   const auto root = first_root(c, degree, length, noise);
   const bool found = root != sixstep::series::no_root<double>;

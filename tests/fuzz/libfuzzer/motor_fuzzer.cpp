@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motor file's reader with arbitrary bytes: the result is a sheet, or problems with messages. An accepted
-// sheet is checked for consistency and printed, and a model and, if possible, a first scenario are made from
-// it.
+// Fuzzes the motor file's reader with arbitrary bytes. The result is a sheet, or problems with messages. An
+// accepted sheet is checked for consistency and printed. It is converted to a motor model and, if possible,
+// to a first scenario.
 #include <unistd.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenario reader with arbitrary bytes: the result is a scenario, or problems with messages, never a
-// crash. An accepted scenario must compile or be refused with a message.
+// Fuzzes the scenario reader with arbitrary bytes. The result is a scenario, or problems with messages, never
+// a crash. An accepted scenario must compile or be refused with a message.
 #include <cstdint>
 
 #include "tests/fuzz/libfuzzer/complaints.hpp"

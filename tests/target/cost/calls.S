@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
-   Calls between two marks: an entry's first instruction, and the label that it returns to. */
+   Calls of the entries. The count begins at the first instruction of an entry, and ends at the label after the call. */
 #if defined __arm__
   .syntax unified
   .thumb

@@ -64,8 +64,8 @@ void tell_and_go_on(unsigned, void*) {
   std::fclose(file);
 }
 
-/// A callback precedes the counting of its instruction: the count includes the first instruction and excludes
-/// the instruction at UNTIL.
+/// The callback of an instruction precedes the counting of this instruction. The count therefore includes the
+/// first instruction and excludes the instruction at UNTIL.
 void translated(Id, qemu_plugin_tb* block) {
   for (std::size_t n = 0; n < qemu_plugin_tb_n_insns(block); ++n) {
     qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, n);

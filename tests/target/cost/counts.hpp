@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost of each call, and the statistics over all calls.
+// Records the cost of each call, and computes the statistics over all calls.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace target {
 class Counts {
  public:
   void add(std::uint64_t count) { all_.push_back(count); }
-  /// Prints the name, the number of calls, the rounded mean, the count that 99.9 % of the calls do not
-  /// exceed, and the largest count.
+  /// Prints five values: the name, the number of calls, the rounded mean, the count that 99.9 % of the calls
+  /// do not exceed, and the largest count.
   void tell(std::FILE* to, const char* name) {
     if (all_.empty()) return;
     std::sort(all_.begin(), all_.end());

@@ -66,7 +66,7 @@ __attribute__((noinline, used)) void entry_tick() { target::tick(); }
 __attribute__((noinline, used)) void entry_hall() { target::hall(); }
 
 #if defined __AVR__ && !defined TARGET_NO_INTERRUPTS
-// The same entries as interrupts, which save the registers that they use. On the ATmega2560, INT0 is vector 1
+// The same entries as interrupts, which save the registers that they use. INT0 is vector 1 of the ATmega2560,
 // and INT1 is vector 2.
 void __vector_1() __attribute__((signal, used));
 void __vector_2() __attribute__((signal, used));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two entries of a drive, as in firmware: the configuration is a compile-time constant; state and inputs
-// are in static memory. TARGET_DRIVE is the name of the exported header and of its namespace.
+// The two entries of a drive, as in firmware. The configuration is a compile-time constant, and state and
+// inputs are in static memory. TARGET_DRIVE is the name of the exported header and of its namespace.
 #pragma once
 #include "tests/target/cost/record.hpp"
 #include "tests/target/walk/names.hpp"

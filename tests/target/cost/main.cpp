@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls a drive's entries with the inputs of a recorded run, one call per record. It prints the number of
-// calls and a digest of all answers. The counters are other programs: avr_board.cpp, count_instructions.cpp.
+// Calls the entries of a drive with the inputs of a recorded run, one call per record. It prints the number
+// of calls and a digest of all answers. Other programs count: avr_board.cpp, count_instructions.cpp.
 #include "tests/target/cost/entries.hpp"
 #include "tests/target/platform/platform.hpp"
 #include "tests/target/platform/print.hpp"

@@ -3,8 +3,8 @@
 // Hall edge by Hall edge (record.hpp). It prints `run DIGEST` of the run and `answers CALLS DIGEST` of the
 // firmware's answers.
 //
-// The firmwares here have the parts of those in rig/firmware.hpp and record their inputs. The run's digest
-// must equal that of study::run: the recording then changes nothing.
+// The firmware classes of this file have the parts of the classes in rig/firmware.hpp and record their
+// inputs. The digest of the run must be equal to the digest of study::run(): recording changes nothing.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -23,8 +23,8 @@ namespace {
 
 using namespace sixstep;
 
-/// The results of one run. The rig constructs its firmware itself, so that a caller cannot pass this object
-/// in.
+/// The results of one run. The rig constructs its firmware itself, so a caller cannot pass this object to the
+/// firmware.
 struct Tape {
   std::vector<std::uint8_t> bytes;
   std::uint32_t calls = 0;

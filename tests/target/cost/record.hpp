@@ -40,8 +40,8 @@ struct Bits<Fixed<std::int32_t, FractionBits>> {
   static constexpr Scalar from(Unsigned bits) { return Scalar::from_raw(static_cast<std::int32_t>(bits)); }
 };
 
-/// Copies a field from bytes to a record (Writer: from the record to bytes). One list of fields serves both
-/// directions.
+/// Copies a field from bytes to a record. Writer copies it from the record to bytes. One list of fields
+/// serves both directions.
 struct Reader {
   const std::uint8_t* at;
   template <class Unsigned>
@@ -92,7 +92,7 @@ struct LeanRecord {
   }
 };
 
-/// The lean drive's inputs and an angle. No entry is called at a Hall edge.
+/// The inputs of the lean drive, and an angle. At a Hall edge, no entry is called.
 template <class Scalar>
 struct FieldRecord : LeanRecord<Scalar> {
   static constexpr std::uint8_t bytes = LeanRecord<Scalar>::bytes + 4;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes the inputs of the tape (tape.hpp) to a user's controller, and prints
+// Passes the inputs of the tape (tape.hpp) to a user's controller, and prints these lines:
 //
-//   own CONFIG STATE NAME both sizes on this processor in bytes, and the controller's name
-//   answers CALLS         number of calls, if all answers equal the host's
-//   differs CALL          otherwise the first call with another answer, counted from 1
-//   room BYTES            or the size of a configuration or state that is too large
-//   design WORDS          or the controller's refusal of the inputs, only on this processor
+//   own CONFIG STATE NAME both sizes on this processor in bytes, and the name of the controller
+//   answers CALLS         the number of calls, if all answers are equal to the host's answers
+//   differs CALL          if an answer differs: the number of the first such call, counted from 1
+//   room BYTES            if a configuration or a state is too large: its size
+//   design WORDS          if the controller refuses the inputs on this processor only: its message
 //
-// The counters are other programs: avr_board.cpp, count_instructions.cpp.
+// Other programs count the cycles: avr_board.cpp, count_instructions.cpp.
 #include "tests/target/own/entries.h"
 #include "tests/target/own/tape.hpp"
 #include "tests/target/platform/platform.hpp"
@@ -16,7 +16,7 @@
 extern "C" {
 void call_tick();  ///< in calls.S, or defined below
 void call_hall();
-// The sizes fit the smallest board.
+// The sizes are small enough for the smallest board.
 #ifdef __AVR__
 std::uint64_t own_config[128], own_state[256];
 #else

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's controller for the program in double. It calls the same controller compiled in float, so that the
-// loop runs in the chip's arithmetic. It writes the inputs and answers of the float controller (tape.hpp) to
-// the file that SIXSTEP_OWN_TAPE names. The tape is memory outside the controller's state: only one run at a
-// time can use it.
+// A user's controller for the program, in double. It calls the same controller compiled in float, so that the
+// loop runs in the arithmetic of the chip. The file that SIXSTEP_OWN_TAPE names receives the inputs and
+// answers of the float controller (tape.hpp). The tape is memory outside the controller's state, so only one
+// run at a time can use it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +13,7 @@
 #include "sixstep/control/own/own_controller.h"
 #include "tests/target/own/tape.hpp"
 
-// The same header a second time, with float as the number.
+// Includes the same header a second time, with float as the number type.
 #undef SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 #undef SIXSTEP_REAL
 #undef SIXSTEP_OWN_INTERFACE
@@ -29,8 +29,8 @@ namespace {
 using target::Call, target::Digest;
 constexpr std::uint32_t most_values = 64;
 
-/// This struct precedes the controller's configuration or state in memory; both keep the alignment that the
-/// program requires.
+/// In memory, this struct precedes the configuration or the state of the controller. Both have the alignment
+/// that the program requires.
 struct alignas(16) Designed {
   chip::sixstep_given given;
   std::uint32_t count;
@@ -52,7 +52,7 @@ void* behind(void* front) {
 
 class Tape {
  public:
-  /// Writes the configuration first if it has changed: a timeline may change it.
+  /// If the configuration has changed, this function writes it first. A timeline may change it.
   void begin(Call call, const void* config) {
     const auto& now = *static_cast<const Designed*>(config);
     if (std::memcmp(&now, &last_, sizeof now) != 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory of a user's controller with its exact sizes, to measure only its size. The configuration is in
-// flash, as a drive's constants are; entries.h declares it writable for the design.
+// A user's controller with memory of its exact sizes, to measure only its size. The configuration is in
+// flash, like the constants of a drive. entries.h declares it writable for the design.
 #include <cstdint>
 
 #include "sixstep/control/own/own_controller.h"

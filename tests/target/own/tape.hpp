@@ -20,7 +20,7 @@ namespace target {
 
 enum class Call : std::uint8_t { design, start, step, hall };
 
-// The structs of the C interface are in float or in double: Take is called with each number in order.
+// The structs of the C interface have float or double members. `take` is called with each number in order.
 template <class Given, class Take>
 void numbers_of_given(Given& g, Take take) {
   take(g.period_s), take(g.bus_V), take(g.pole_pairs), take(g.R_ohm), take(g.L_H), take(g.K_t_Nm_A);
@@ -38,7 +38,7 @@ void numbers_of_measured(Measured& m, Take take) {
   take(m.bus_V), take(m.magnet_cos), take(m.magnet_sin);
 }
 
-/// Every member is part of the digest: a member that the controller does not set keeps its value.
+/// Every member is part of the digest. If the controller does not set a member, the member keeps its value.
 template <class Answer>
 void mix_answer(Digest& mix, const Answer& a) {
   mix(a.enabled, a.fault, a.source, a.sink, a.chopping, a.chopped, a.duty, a.overlap);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ATmega2560 communicates by its three general-purpose registers, which the board's program monitors
-// (avr_board.cpp). avr-libc's start code initialises the memory. The registers' addresses are those of the
-// data sheet.
+// The program on the ATmega2560 communicates by its three general-purpose registers, which the board's
+// program monitors (avr_board.cpp). The start code of avr-libc initialises the memory. The addresses of the
+// registers are from the data sheet.
 #include "tests/target/platform/platform.hpp"
 
 namespace target {
@@ -15,8 +15,8 @@ constexpr std::uint16_t DDRD = 0x2A, PORTD = 0x2B, EIMSK = 0x3D, EICRA = 0x69;
 }  // namespace target
 
 extern "C" {
-/// Destination and number of the next bytes. The board replaces the number by the number of bytes that it
-/// delivered.
+/// The destination and the number of the next bytes. The board replaces the number by the number of bytes
+/// that it has delivered.
 struct {
   std::uint8_t* to;
   std::uint16_t bytes;
@@ -37,8 +37,8 @@ std::uint16_t refill(const char*, std::uint8_t* to, std::uint16_t bytes) {
   return refill_request.bytes;
 }
 
-/// If GPIOR1 is set, the entry is called as an interrupt: a change of an output pin requests it (ATmega2560
-/// data sheet, External Interrupts).
+/// If GPIOR1 is not zero, the entry is called as an interrupt, which a change of an output pin requests
+/// (ATmega2560 data sheet, External Interrupts).
 void call_entry(bool hall, void (*entry)()) {
   if (register_at(GPIOR1) == 0) return entry();
   const std::uint8_t pin = hall ? 2 : 1;
@@ -50,8 +50,8 @@ void call_entry(bool hall, void (*entry)()) {
 
 extern "C" int main() {
   using namespace target;
-  // Any change of a pin requests INT0 and INT1. Set before the pins, whose low level would otherwise request
-  // at once.
+  // Any change of a pin requests INT0 or INT1. This mode is set before the pins, because their low level
+  // would otherwise request an interrupt at once.
   register_at(EICRA) = 5;
   register_at(DDRD) = 3;
   register_at(EIMSK) = 3;

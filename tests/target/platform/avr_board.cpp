@@ -23,7 +23,7 @@ extern "C" {
 namespace {
 
 // From the request to the first instruction of the vector, the hardware needs five cycles (data sheet, Reset
-// and Interrupt Handling). simavr does not count them.
+// and Interrupt Handling). simavr does not count these cycles.
 constexpr std::uint64_t interrupt_response = 5;
 
 struct Board {
@@ -33,8 +33,8 @@ struct Board {
   std::uint16_t request = 0;  ///< address of the firmware's refill_request
 };
 
-/// A call, from its first instruction to its return, when the stack pointer is above the return address
-/// again.
+/// A call, from its first instruction to its return. At the return, the stack pointer is again above the
+/// return address.
 struct Watched {
   const char* name;
   std::uint32_t at = 0;
@@ -101,7 +101,8 @@ int go(Board& board, Watched (&watched)[2]) {
   return 0;
 }
 
-/// Counts the cycles of each block's calls, from the block's mark to the common end mark (walk/counted.hpp).
+/// Counts the cycles of the calls of each block, from the mark of the block to the common end mark
+/// (walk/counted.hpp).
 int go_by_blocks(Board& board, std::uint32_t next, std::uint32_t ends, std::vector<Watched>& blocks) {
   while (!board.done) {
     const int state = avr_run(board.avr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The common part of Cortex-M and RISC-V: output of characters and input of files by semihosting.
+// The common part of Cortex-M and RISC-V. Semihosting writes characters and reads files.
 #include "faces/firmware/bare/semihosting.hpp"
 #include "tests/target/platform/platform.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host, native or under an emulator of user programs: PROGRAM [STEPS].
+// The host, either native or under an emulator of user programs: PROGRAM [STEPS].
 #include <cstdio>
 #include <cstdlib>
 

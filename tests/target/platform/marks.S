@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
-   Where counting begins and ends (walk/counted.hpp): functions that only return, known by their addresses. */
+   Empty functions that mark the begin and the end of a count by their addresses (walk/counted.hpp). */
 #if defined __arm__
   .syntax unified
   .thumb

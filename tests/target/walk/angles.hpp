@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensing/ that return signals: angle and speed from Hall edges, pulses, a Gray code and a
-// resolver.
+// Walks of the blocks of sensing/ that return signals: angle and speed from Hall edges, pulses, a Gray code
+// and a resolver.
 #pragma once
 #include "sixstep/control/sensing/gray.hpp"
 #include "sixstep/control/sensing/hall_angle.hpp"
@@ -142,7 +142,8 @@ struct SineWalk {
   }
 };
 
-/// Readings of two windings in 12 bits around 2048. Successive peaks of the excitation have opposite signs.
+/// Readings of two windings, in 12 bits around 2048. At successive peaks of the excitation, they have
+/// opposite signs.
 template <class Scalar>
 struct ResolverWalk {
   ResolverConfig<Scalar> config{};
@@ -154,7 +155,7 @@ struct ResolverWalk {
   bool positive_peak = false;
 
   void draw(Random& r) {
-    // The amplitude of 1000 counts is about 1/2; two successive peaks differ by twice the amplitude.
+    // The amplitude of 1000 counts is about 1/2. Two successive peaks differ by twice the amplitude.
     config.cos_per_count = per_count<Scalar>(static_cast<std::int16_t>(16700 + r.below(128)));
     config.sin_per_count = per_count<Scalar>(static_cast<std::int16_t>(16700 + r.below(128)));
     config.cos_offset = Number<Scalar>::part(static_cast<std::int32_t>(r.bits()) * 512);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning of a motor in integers, from the offsets of its converters to its flux linkage, with possible
-// faults, and the results in SI units.
+// Commissioning of a motor in integers, from the offsets of its converters to its flux linkage. Faults are
+// possible. The results are converted to SI units.
 #pragma once
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "tests/target/walk/legs.hpp"
@@ -48,10 +48,10 @@ struct CommissioningResultWalk {
   }
 };
 
-/// The walk commissions one motor after another, each to its end; the faults follow in turn.
+/// The walk commissions one motor after another, each to its end. Each motor has the next fault of this list.
 enum class Amiss : std::uint8_t { nothing, amplifier, open_wire, no_voltage_between_levels, rotor_locked };
 
-/// In each tick the current moves by half of its distance to the steady value. The rotor turns with the
+/// In each tick, the current changes by half of its distance to the steady value. The rotor turns with the
 /// field.
 struct CommissionedMotor {
   Amiss amiss = Amiss::rotor_locked;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block's call in a walk. With TARGET_COUNTED nothing is inlined around the call, which is between two
-// marks of platform/marks.S. At its end the walk prints the names of the counted functions, at most three per
-// walk.
+// The call of a block in a walk. With TARGET_COUNTED, nothing is inlined around the call, which is between
+// two marks of platform/marks.S. At its end, the walk prints the names of the counted functions, at most
+// three per walk.
 #pragma once
 #include "tests/target/platform/print.hpp"
 

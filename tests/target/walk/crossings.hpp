@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensorless/ without a scalar: crossings, their clock, the lock, a rotor that spins freely.
+// Walks of the blocks of sensorless/ without a scalar: crossings, their clock, the lock, and a rotor that
+// spins freely.
 #pragma once
 #include "sixstep/control/sensorless/captured_crossing.hpp"
 #include "sixstep/control/sensorless/lock.hpp"
@@ -49,7 +50,7 @@ struct ZeroCrossingWalk {
   }
 };
 
-/// Comparators at the same terminals, whose lines change between two samples.
+/// Comparators at the same terminals. Their lines change between two samples.
 struct CapturedCrossingWalk {
   ZeroCrossingWalk by{};
   CapturedCrossingConfig config{};

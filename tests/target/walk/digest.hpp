@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest of a walk: 32 bits over every bit of every output. It is FNV-1a, byte by byte from the lowest
-// byte, so that the byte order in memory does not matter. All NaNs count as one value: IEEE 754 leaves their
-// sign and digits to the processor.
+// The digest of a walk: 32 bits that depend on every bit of every output. It is FNV-1a, byte by byte from the
+// lowest byte, so the byte order in memory has no effect. All NaNs count as one value, because IEEE 754 does
+// not define their sign and digits.
 #pragma once
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random inputs are drawn as integers, so that every processor uses the same bits. Signals cover their whole
-// range, often at an end of it or near 0; there are gains, sums and ratios too. In floating point the inputs
-// are the dyadic numbers of the fixed formats. No call draws two of its arguments, because the compiler
-// selects their order.
+// range, and are often at an end of the range or near 0. Gains, sums and ratios are also drawn. In floating
+// point, the inputs are the dyadic numbers of the fixed formats. No call draws two of its arguments, because
+// the compiler selects the order of arguments.
 #pragma once
 #include <cstdint>
 
@@ -13,8 +13,8 @@ namespace target {
 
 using namespace sixstep::control;
 
-/// A linear congruential generator (Knuth, Numerical Recipes). Only its upper half, which has the longer
-/// period, is used.
+/// A linear congruential generator (Knuth, Numerical Recipes). Only the upper half of its state is used,
+/// because it has the longer period.
 struct Random {
   std::uint32_t state = 12345;
 
@@ -26,7 +26,7 @@ struct Random {
     const std::uint32_t high = bits();
     return high << 16 | bits();
   }
-  /// 0..n-1
+  /// 0 to n-1
   constexpr std::uint8_t below(std::uint8_t n) { return static_cast<std::uint8_t>(bits() % n); }
   constexpr bool one_in(std::uint16_t n) { return bits() % n == 0; }
 };
@@ -41,14 +41,14 @@ struct Number<Fixed<Storage, FractionBits>> {
 
   static constexpr Scalar end(bool low) { return low ? Scalar::min() : Scalar::max(); }
   static constexpr Scalar digit(bool low) { return Scalar::from_raw(low ? Storage{-1} : Storage{1}); }
-  /// n/2^31 of the format's range
+  /// n/2^31 of the range of the format
   static constexpr Scalar part(std::int32_t n) {
     if constexpr (wide)
       return Scalar::from_raw(n);
     else
       return Scalar::from_raw(static_cast<Storage>(n / (std::int32_t{1} << 16)));
   }
-  /// m/2^right, with m of 16 bits
+  /// m/2^right; m has 16 bits
   static constexpr Gain<Scalar> gain(std::int16_t m, std::int8_t right) {
     if constexpr (wide)
       return Gain<Scalar>::from_raw(static_cast<std::int32_t>(m) * (std::int32_t{1} << 16),
@@ -59,7 +59,7 @@ struct Number<Fixed<Storage, FractionBits>> {
   static constexpr Divisor<Scalar> divisor(std::int16_t m, std::int8_t right) {
     return Divisor<Scalar>::from_reciprocal(gain(m, right));
   }
-  /// n/2^27 of the format's range
+  /// n/2^27 of the range of the format
   static constexpr Accumulator<Scalar> sum(std::int32_t n) {
     using Wide = typename Scalar::WideInt;
     return Accumulator<Scalar>::from_raw(
@@ -105,7 +105,8 @@ constexpr Scalar signal(Random& random) {
   return Number<Scalar>::part(any);
 }
 
-/// A part of the range as a quantity of an exported drive: in floating point it is in SI units.
+/// Converts a part of the range to a quantity of an exported drive. In floating point, the quantity is in SI
+/// units.
 template <class Scalar>
 constexpr Scalar in_si(Scalar part, [[maybe_unused]] std::uint16_t whole) {
   if constexpr (__is_same(Scalar, float))
@@ -121,7 +122,8 @@ constexpr Scalar positive(Random& random, std::uint16_t most = 32767) {
   return Number<Scalar>::part(static_cast<std::int32_t>(n << 16));
 }
 
-/// A gain of at most 2^-least, of either sign. A mantissa is never the most negative number (fixed.hpp).
+/// A gain of magnitude at most 2^-least, of either sign. Its mantissa is never the most negative number
+/// (fixed.hpp).
 template <class Scalar>
 constexpr Gain<Scalar> gain(Random& random, std::int8_t least, std::uint8_t spread = 8) {
   const auto m = static_cast<std::int16_t>(random.bits() & 0x7fff);
@@ -140,14 +142,14 @@ inline constexpr int fraction_digits = 0;
 template <class Storage, int FractionBits>
 inline constexpr int fraction_digits<Fixed<Storage, FractionBits>> = FractionBits;
 
-/// n/2^26 of the range per count. In fixed point the gain applies to the signal's raw digits.
+/// A gain of n/2^26 of the range per count. In fixed point, the gain is for the raw digits of the signal.
 template <class Scalar>
 constexpr Gain<Scalar> per_count(std::int16_t n) {
   return Number<Scalar>::gain(n, static_cast<std::int8_t>(26 - fraction_digits<Scalar>));
 }
 
-/// size times the sine of a binary angle, in counts, by Bhaskara's formula: 16 x (pi - x)/(5 pi^2 - 4 x (pi -
-/// x)).
+/// `size` times the sine of a binary angle, in counts, by Bhaskara's formula: 16 x (pi - x)/(5 pi^2 - 4 x (pi
+/// - x)).
 constexpr std::int32_t wave(std::uint32_t at, std::int32_t size) {
   const std::int32_t x = static_cast<std::int32_t>((at & 0x7fffffffu) >> 19);  // 4096 is half a turn
   const std::int32_t p = x * (4096 - x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lean drive with a random configuration that changes during the run: all combinations of its parts,
-// which no single exported drive has.
+// The lean drive with a random configuration that changes during the run. The walk covers all combinations of
+// the drive's parts, which no single exported drive contains.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -60,7 +60,7 @@ struct DrawnDriveWalk {
 
   void draw(Random& r) {
     DriveConfig<Scalar> next = drawn_drive<Scalar>(r);
-    // Only drives with Hall probes use the next parts.
+    // The following parts exist only in drives with Hall probes.
     next.extras.pwm = {static_cast<PwmPattern>(r.below(pwm_patterns)), positive_gain<Scalar>(r, 0)};
     next.extras.staying_phase = r.one_in(2);
     next.extras.steps_commutation = r.one_in(2);

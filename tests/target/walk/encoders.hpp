@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensing/ without a scalar: angles of the Hall edges, lines of an encoder, the tracking loop.
+// Walks of the blocks of sensing/ without a scalar: angles of the Hall edges, lines of an encoder, and the
+// tracking loop.
 #pragma once
 #include "sixstep/control/sensing/hall_calibration.hpp"
 #include "sixstep/control/sensing/quadrature.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the field-oriented drive that exist only in floating point: the magnet's angle without a
-// sensor, currents along a shape, and the selection among the legs' states. The position profile, also only
-// in floating point, is here too.
+// Walks of the parts that exist only in floating point. Most are parts of the field-oriented drive: the
+// magnet's angle without a sensor, currents along a shape, and the selection among the legs' states. The
+// position profile is also in this file.
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -139,7 +139,7 @@ EstimatorConfig<Scalar> drawn_estimator(Random& r) {
   return c;
 }
 
-/// The whole drive with its loops; each configuration restarts it.
+/// The whole drive with its loops. Each new configuration restarts it.
 template <class Scalar>
 struct SensorlessFieldWalk {
   SensorlessFieldConfig<Scalar> config{};

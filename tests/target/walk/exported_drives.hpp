@@ -17,7 +17,7 @@ struct LeanWalk {
   Rotor rotor{};
   bool back = false, wild = false;
 
-  /// The ranges in floating point: A and V, rad/s, degrees.
+  /// The ranges in floating point, in A, rad/s and degrees.
   static constexpr std::uint16_t amperes = 32, speeds = 512, angles = 4096;
   static constexpr std::uint16_t setpoints = config.mode == Mode::current    ? amperes
                                              : config.mode == Mode::position ? angles
@@ -65,7 +65,8 @@ struct LeanWalk {
   }
 };
 
-/// The product drive with counts, pins and a counter, and with requests, trips and clearing of trips.
+/// The product drive with counts, pins and a counter. The walk includes requests, trips and clearing of
+/// trips.
 template <class Scalar, const ProtectedConfig<Scalar>& config>
 struct ProductWalk {
   ProtectedState<Scalar> state{};
@@ -105,7 +106,7 @@ struct ProductWalk {
     in.bus_counts = wild ? r.bits() & 4095u : 1860 + (r.bits() & 63u);
     in.now += 2000 + (r.bits() & 255u);
   }
-  /// The code of the pins, sometimes with a glitch. Some glitches are as long as the filter's delay.
+  /// The code of the pins, sometimes with a glitch. Some glitches are as long as the delay of the filter.
   std::uint8_t pins(Random& r) {
     if (glitch == 0 && noisy && r.one_in(48)) glitch = static_cast<std::uint8_t>(1 + r.below(4));
     if (glitch == 0) return rotor.code();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive and its blocks: currents on the d and q axes.
+// Walks of the field-oriented drive and of its blocks: currents on the d and q axes.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 #include "tests/target/walk/drawn_drive.hpp"
@@ -28,7 +28,7 @@ FieldWeakeningConfig<Scalar> drawn_weakening(Random& r) {
   return c;
 }
 
-/// A random configuration; its value is at most 0.7 at full current.
+/// A random configuration. At full current, its value is at most 0.7.
 template <class Scalar>
 TorquePerAmpereConfig<Scalar> drawn_per_ampere(Random& r) {
   const auto m = static_cast<std::int16_t>(r.bits() % 22937);
@@ -138,7 +138,7 @@ struct TorquePerAmpereWalk {
   }
 };
 
-/// The whole drive with its loops; the configuration changes during the run.
+/// The whole drive with its loops. The configuration changes during the run.
 template <class Scalar>
 struct FieldDriveWalk {
   FieldDriveConfig<Scalar> config{};

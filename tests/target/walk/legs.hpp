@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of the controller's outputs: commutation, gates, three legs, voltage vectors.
+// Walks of the blocks of the controller's outputs: commutation, gates, three legs, voltage vectors.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/frames.hpp"

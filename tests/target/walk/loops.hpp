@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then executes
-// steps; the state continues from one configuration to the next.
+// Walks of the blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then
+// executes steps. The state continues from one configuration to the next.
 #pragma once
 #include "sixstep/control/commutation_step.hpp"
 #include "sixstep/control/deadbeat.hpp"
@@ -176,7 +176,7 @@ struct SmoothChoppingWalk {
   }
 };
 
-/// The rotor turns mostly in one direction, driven or braked.
+/// The rotor turns mostly in one direction. It is driven or braked.
 template <class Scalar>
 struct PwmPatternWalk {
   PwmPatternConfig<Scalar> config{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive's blocks without a scalar.
+// Walks of the field-oriented drive's blocks without a scalar.
 #pragma once
 #include "sixstep/control/field/field_direction.hpp"
 #include "tests/target/walk/counted.hpp"

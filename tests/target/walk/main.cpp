@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs every block of sixstep/control, and the exported drives of scenarios, with random inputs, and prints a
-// digest of all outputs. The source is the same for every processor. There is one program per scalar:
+// Runs every block of sixstep/control, and the exported drives of scenarios, with random inputs. Prints a
+// digest of all outputs. The source is the same for every processor. There is one program for each scalar:
 // TARGET_SCALAR is q15, q14, q31, q30, float, or whole for the blocks without a scalar. Other macros select
-// other blocks, in separate programs that do not change how the rest is compiled:
+// other blocks. These are separate programs, so that the compiled code of the first program does not change:
 //   TARGET_OF_ROTOR          sensing/ and sensorless/
 //   TARGET_OF_OBSERVERS      the back-EMF observers
 //   TARGET_OF_COMMISSIONING  commissioning/ without the pulses
@@ -63,7 +63,7 @@ void tell(const char* block, std::uint32_t steps, std::uint32_t digest) {
   print("\n");
 }
 
-/// Draws a new configuration every 64 steps. A long walk starts with the steps of the short walk.
+/// Draws a new configuration every 64 steps. A long walk begins with the steps of the short walk.
 template <class Block>
 __attribute__((noinline)) void walk(const char* name) {
   static Block block{};
@@ -79,7 +79,7 @@ __attribute__((noinline)) void walk(const char* name) {
   tell_counted(name);
 }
 
-/// The cost of the marks and of the call.
+/// Measures the cost of the marks and of the call itself.
 struct NothingWalk {
   void draw(Random&) {}
   void step(Random&, Digest&) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar of a walk, under the exporter's name for it (-DTARGET_SCALAR_q15 and others).
+// Selects the scalar of a walk under the exporter's name (-DTARGET_SCALAR_q15 and others).
 #pragma once
 #include "sixstep/control/fixed.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The back-EMF observers of sensorless/. Each is tested separately on a floating phase; all are tested
-// together with the selection between them, at the terminals of a turning rotor.
+// Walks of the back-EMF observers of sensorless/. Each observer is tested separately on a floating phase. All
+// observers are tested together with the selection between them, at the terminals of a turning rotor.
 #pragma once
 #include "sixstep/control/sensorless/observer.hpp"
 #include "tests/target/walk/counted.hpp"
@@ -11,14 +11,15 @@ namespace target {
 
 inline constexpr std::int32_t q15_one = 32768;
 
-/// The gain n/2^15 times 2^up; n is limited to 2^15 - 1.
+/// The gain n/2^15 times 2^up. n is limited to 2^15 - 1.
 template <class Scalar>
 constexpr Gain<Scalar> gain_15(std::int32_t n, std::int8_t up = 0) {
   const std::int32_t held = n > q15_one - 1 ? q15_one - 1 : n;
   return Number<Scalar>::gain(static_cast<std::int16_t>(held), static_cast<std::int8_t>(15 - up));
 }
 
-/// A random winding in units of 2^-15: a = exp(-R T/L), and b = (1 - a)/R in A per V.
+/// A random winding in units of 2^-15: a = exp(-R T/L), and b = (1 - a)/R in A/V (resistance R, inductance L,
+/// period T).
 struct DrawnWinding {
   std::int32_t a = 0, b = 1;
 
@@ -30,7 +31,7 @@ struct DrawnWinding {
   constexpr std::int32_t over_b(std::int32_t x) const { return x * 1024 / b; }
 };
 
-/// Gains l and h that place both poles at p, p^2 < a: (1 - l) a = p^2, h b = (1 - p)^2.
+/// Random gains l and h that place both poles at p with p^2 < a: (1 - l) a = p^2 and h b = (1 - p)^2.
 template <class Scalar>
 LuenbergerConfig<Scalar> drawn_luenberger(Random& r, const DrawnWinding& winding) {
   const std::int32_t p = r.bits() % 22000, square = p * p / q15_one;
@@ -40,7 +41,8 @@ LuenbergerConfig<Scalar> drawn_luenberger(Random& r, const DrawnWinding& winding
           gain_15<Scalar>(winding.over_b(apart * apart / q15_one * 4), 5)};
 }
 
-/// With the slope a/b, z is a e after one period.
+/// Random gains of the sliding-mode observer. With the slope a/b, the correction z is a e after one period
+/// (error e).
 template <class Scalar>
 SlidingModeConfig<Scalar> drawn_sliding_mode(Random& r, const DrawnWinding& winding) {
   SlidingModeConfig<Scalar> config{};
@@ -63,8 +65,8 @@ FluxLinkageConfig<Scalar> drawn_flux(Random& r, const DrawnWinding& winding) {
   return config;
 }
 
-/// The back-EMF of the floating phase falls; then the back-EMF of the next floating phase begins, after its
-/// old current has decayed.
+/// The back-EMF of the floating phase falls. After the old current of the next floating phase has decayed,
+/// the back-EMF of that phase begins.
 template <class Scalar>
 struct FloatingPhase {
   std::int32_t size = 0x10000000, fall = 0x01000000, e = 0;  ///< 2^-31 of the range
@@ -176,7 +178,7 @@ struct FluxLinkageWalk {
   }
 };
 
-/// The selection among crossings and the three observers, drawn anew every 64 steps.
+/// The selection among crossings and the three observers. It is drawn anew every 64 steps.
 template <class Scalar>
 struct ObserverWalk {
   ObserverConfig<Scalar> config{};
@@ -254,7 +256,7 @@ struct ObserverWalk {
   }
 };
 
-/// Crossings from an observer's estimate instead of the terminal's voltage, in integers.
+/// Crossings in integers. They are found from the estimate of an observer instead of the terminal's voltage.
 struct ObservedCrossingWalk {
   ZeroCrossingConfig config{};
   ZeroCrossingState state{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rotor at rest and three current converters, in integers, for voltage pulses: six currents that depend on
-// the magnet's angle. The drive whose start begins with such pulses is here too.
+// A rotor at rest and three current converters, in integers. Voltage pulses give six currents that depend on
+// the magnet's angle. This file also contains the drive whose start begins with such pulses.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "tests/target/walk/sensorless.hpp"
@@ -36,7 +36,7 @@ struct PulsedRotor {
     if (r.one_in(8)) offset[0] = 2300;  // a broken amplifier
     noise = static_cast<std::uint8_t>(1 + r.below(3));
   }
-  /// The current of a pulse with the pair of a sector; x is the angle from the magnet's north to the pair
+  /// The current of a pulse through the pair of a sector. x is the angle from the magnet's north to the pair
   /// (pulse_position.hpp).
   constexpr std::int32_t through(std::uint8_t sector) const {
     const BinaryAngle x = sector_angle(sector) + sector_angle(2) - electrical;  // 60 s - 30 - (theta_e - 150)
@@ -93,7 +93,7 @@ struct PulsePositionWalk {
   }
 };
 
-/// The drive without a rotor sensor, whose start begins with pulses.
+/// The drive without a rotor sensor. Its start begins with pulses.
 template <class Scalar>
 struct PulsedDriveWalk {
   PulsedDriveConfig<Scalar> config{};

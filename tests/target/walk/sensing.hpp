@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks around the loops: sensors, monitoring, limits.
+// Walks of the blocks around the loops: sensors, monitoring, limits.
 #pragma once
 #include "sixstep/control/adc.hpp"
 #include "sixstep/control/advance.hpp"
@@ -93,7 +93,7 @@ struct HallSpeedWalk {
   }
   void step(Random& r, Digest& mix) {
     now += (static_cast<std::uint32_t>(pace) + r.bits() % (pace / 16 + 1u)) / 4;
-    // An edge mostly occurs every four or five steps; sometimes it is missed or too early.
+    // Mostly, an edge occurs every four or five steps. Sometimes it is missed or too early.
     if (since >= 8 || (++since >= 4 && since < 6 && !r.one_in(6)) || r.one_in(96)) {
       since = 0;
       const SectorTime time = counted<1>("sector_time+hall_speed_edge+hall_position_edge", [&] {

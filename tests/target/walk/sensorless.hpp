@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start, position without a sensor, and the whole drive, with a rotor that is aligned, ramped, caught and
-// lost.
+// Walks of the start, of the position without a sensor, and of the whole drive. The rotor is aligned, ramped,
+// caught and lost.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 #include "tests/target/walk/drawn_drive.hpp"
@@ -83,7 +83,7 @@ struct StartUpWalk {
   }
 };
 
-/// The course of a run: the requested direction, the pull of a pair, and changes of the rotor's speed by an
+/// The course of a run: the requested direction, the torque of a pair, and changes of the rotor's speed by an
 /// external drive.
 struct Course {
   TerminalRotor rotor{};
@@ -177,7 +177,7 @@ SensorlessDriveConfig<Scalar> drawn_sensorless_drive(Random& r) {
   return next;
 }
 
-/// The whole drive: loops, start, and commutation in turn by Hall probes and by back-EMF.
+/// The whole drive: loops and start. The commutation is by Hall probes and by back-EMF in turn.
 template <class Scalar>
 struct SensorlessDriveWalk {
   SensorlessDriveConfig<Scalar> config{};

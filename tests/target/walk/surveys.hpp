@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements of commissioning without a scalar: steps between two levels, fast turns, Hall lines, and
-// their vectors. Each walk draws a motor, measures it to the end, and then draws the next motor.
+// Walks of the measurements of commissioning without a scalar: steps between two levels, fast turns, Hall
+// lines, and their vectors. Each walk draws a motor, measures it to the end, and then draws the next motor.
 #pragma once
 #include "sixstep/control/commissioning/flux_turn.hpp"
 #include "sixstep/control/commissioning/hall_survey.hpp"
@@ -56,7 +56,7 @@ struct SeenVectorWalk {
   }
 };
 
-/// A winding: in each tick the current moves by a part of its distance to the level's current.
+/// A winding. In each tick, its current changes by a part of its distance to the current of the level.
 struct LevelStepsWalk {
   LevelStepsConfig config{};
   LevelStepsState state{};
@@ -134,7 +134,7 @@ struct FluxTurnWalk {
   }
 };
 
-/// Three lines with any connection, and a field that turns forward and back past one edge in each step.
+/// Three Hall lines with any connection. The field turns forward and back, past one edge in each step.
 struct HallSurveyWalk {
   HallSurveyConfig config{};
   HallSurveyState state{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's terminals in integers, which are the same on every processor. The back-EMF is trapezoidal
-// (model.md 1 and 2); the driven pair pulls the rotor, and friction brakes it.
+// The terminals of a motor, computed in integers, which are the same on every processor. The back-EMF is
+// trapezoidal (model.md 1 and 2). The driven pair turns the rotor, and friction brakes it.
 #pragma once
 #include "sixstep/control/sensing/binary_angle.hpp"
 #include "sixstep/control/sensorless/zero_crossing.hpp"
@@ -30,11 +30,11 @@ struct TerminalRotor {
   std::uint8_t demagnetises = 0;
   std::uint8_t driven = no_sector;
 
-  /// Back-EMF on the flat top, in counts: a third of the bus at 30 ticks per turn.
+  /// Back-EMF on the flat top, in counts. At 30 ticks per turn, it is a third of the bus voltage.
   constexpr std::int32_t emf() const { return speed / 131072; }
 
-  /// The 120-degree trapezoid of a phase, with the height emf(). It is positive in the two sectors in which
-  /// the phase is the source.
+  /// The trapezoid of a phase with a flat top of 120 degrees and the height emf(). It is positive in the two
+  /// sectors in which the phase is the source.
   constexpr std::int32_t emf_of(std::uint8_t phase) const {
     const BinaryAngle behind = angle - sector_angle(static_cast<std::uint8_t>(2 * phase));
     const std::uint32_t sixths = (behind >> 16) * 6;
@@ -55,7 +55,8 @@ struct TerminalRotor {
   }
   constexpr std::uint8_t sector() const { return sector_of_angle(angle); }
 
-  /// Advances by a control tick. The torque of a pair is approximately the sine of its field's lead angle.
+  /// Advances by a control tick. The torque of a pair is approximately the sine of the angle by which its
+  /// field leads.
   constexpr void turn(const DrivenPair& pair, std::int32_t pull) {
     constexpr std::int8_t torque[6] = {2, 1, -1, -2, -1, 1};
     const std::uint8_t sector_driven = pair.on ? sector_of_pair(pair.pair) : no_sector;
@@ -70,8 +71,8 @@ struct TerminalRotor {
     return static_cast<std::uint16_t>(u < 0 ? 0 : u > bus_counts ? bus_counts : u);
   }
 
-  /// Samples the terminals. `on`: the switches of the pair are on; otherwise the current freewheels through
-  /// the two lower switches.
+  /// Samples the terminals. `on`: true if the switches of the pair are on; otherwise the current freewheels
+  /// through the two lower switches.
   constexpr TerminalSample sample(std::uint32_t at, bool on, std::int32_t noise) {
     TerminalSample s{};
     s.bus = bus_counts;
@@ -104,14 +105,14 @@ constexpr TerminalSample wild_sample(Random& r, std::uint32_t at) {
   return s;
 }
 
-/// The random speed of a rotor that an external drive turns, in either direction.
+/// A random speed for a rotor that an external drive turns, in either direction.
 constexpr std::int32_t drawn_pace(Random& r) {
   const std::int32_t pace =
       4000000 + static_cast<std::int32_t>(r.long_bits() >> 6);  // 60 to 1000 ticks per turn
   return r.one_in(2) ? -pace : pace;
 }
 
-/// Random noise of -n..n counts.
+/// Random noise of -n to n counts.
 constexpr std::int32_t drawn_noise(Random& r, std::int32_t n) {
   return static_cast<std::int32_t>(r.bits() % static_cast<std::uint16_t>(2 * n + 1)) - n;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks without a scalar that process pins and states.
+// Walks of the blocks without a scalar that process pins and states.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/hall.hpp"
@@ -10,7 +10,7 @@
 
 namespace target {
 
-/// A rotor's Hall sector, which moves by one, forward or back.
+/// The Hall sector of a rotor. It changes by one sector, forward or back.
 struct Rotor {
   std::uint8_t sector = 0;
 
@@ -30,7 +30,7 @@ struct HallWalk {
     state = {};
     back = r.one_in(2);
   }
-  /// The code of the pins. For probes 60 degrees apart, this is the inverse of as_120_degrees().
+  /// The code of the pins. For probes 60 degrees apart, it is computed by the inverse of as_120_degrees().
   std::uint8_t pins() const {
     const std::uint8_t code = rotor.code();
     if (config.arrangement == HallArrangement::degrees_120) return code;

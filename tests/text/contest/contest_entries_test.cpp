@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The comparison of controllers is fair: their scenarios differ only in the keys of their rows, and no row
-// has a hand-tuned value.
+// The comparison of controllers is fair. Their scenarios differ only in the keys of their rows, and no row
+// contains a value that was tuned by hand.
 #include "text/contest/contest_entries.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ ContestBench bench_of(const std::string& motor) {
   return *bench;
 }
 
-/// The keys whose values differ in two scenarios, without title, notes and spread.
+/// The keys whose values differ between two scenarios, except title, notes and spread.
 std::vector<std::string> differences(const study::Scenario& a, const study::Scenario& b) {
   std::map<std::string, std::string> of_a, of_b;
   for (const text::WrittenValue& v : text::scenario_values(a)) of_a[v.path] = v.text;
@@ -44,7 +44,7 @@ std::vector<std::string> differences(const study::Scenario& a, const study::Scen
   return out;
 }
 
-/// A path belongs to a row if it is a key of the row or is inside a table of the row.
+/// Returns whether a path belongs to a row: it is a key of the row, or it is inside a table of the row.
 bool is_of_row(const ContestEntry& entry, const std::string& path) {
   return std::any_of(entry.keys.begin(), entry.keys.end(), [&](const analysis::ContestKey& key) {
     return path == key.path || path.starts_with(key.path + ".");
@@ -68,8 +68,8 @@ TEST(Contest, ScenariosDifferInTheKeysOfTheirRowsAlone) {
   }
 }
 
-/// Sample, delay, limits, bus, bridge, sensors and course are the same for all controllers, except the keys
-/// in this list.
+/// Sample, delay, limits, bus, bridge, sensors and course are the same for all controllers. The keys in this
+/// list are the exceptions.
 TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
   const std::map<std::string_view, std::string> exceptions = {
       {"hysteresis, comparators", "pwm.delay_periods"},  // nothing is sampled
@@ -96,8 +96,8 @@ TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
   }
 }
 
-/// A number in a row would be a free choice; a value from a rule is written as <name>. The 0 delay periods of
-/// the comparators are an exception.
+/// A number in a row would be a free choice. If a rule gives the value, the row contains <name> instead. The
+/// 0 delay periods of the comparators are an exception.
 TEST(Contest, NoRowHasANumber) {
   const std::regex number("[=,{] *-?[0-9.]");
   for (const Contestant& who : analysis::contestants()) {
@@ -107,8 +107,8 @@ TEST(Contest, NoRowHasANumber) {
   }
 }
 
-/// The speed and current loops of the field-oriented drive have the same settling times and limits as the
-/// other drives.
+/// The speed loop and the current loop of the field-oriented drive have the same settling times and limits as
+/// the loops of the other drives.
 TEST(Contest, FieldOrientedHasTheSameLoopsAskedFor) {
   const ContestBench bench = bench_of("teknic-m2310p");
   for (const ContestEntry& entry : text::contest_entries(bench, {})) {
@@ -134,7 +134,7 @@ TEST(Contest, WhatAMotorDoesNotAllowIsToldAndTheOthersStay) {
   EXPECT_NE(to_string(entries[2].scenario.problems().front()).find("pwm.perod_s"), std::string::npos);
 }
 
-/// The comparison of the first test must find a difference that is put in on purpose.
+/// The scenarios differ on purpose. The comparison of the first test must find this difference.
 TEST(Contest, APlantedDifferenceIsFound) {
   const ContestBench bench = bench_of("maxon-251601");
   study::Scenario other = bench.scenario;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sentences below a comparison name their controllers, and state a factor only where it is meaningful.
+// Tests the sentences below a comparison. They name the controllers, and state a factor only if it has a
+// meaning.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ using ::testing::Not;
 
 constexpr std::size_t settle = 4, loss = analysis::loss_figure;
 
-/// A controller's index in the list of all controllers, its settling time and its loss.
+/// The index of a controller in the list of all controllers, its settling time and its loss.
 struct Of {
   std::size_t who;
   double settle_s, loss_W;
@@ -45,12 +46,13 @@ TEST(ContestWords, WhoSharesAFigureIsNamed) {
 }
 
 /// The sentence names every controller within 5 % of the smallest value, not only the best two. If more than
-/// four share it, the sentence names the other controllers, if these are fewer.
+/// four controllers are within 5 %, the sentence names the other controllers instead, provided that these are
+/// fewer.
 TEST(ContestWords, AllWhoShareAFigureAreNamed) {
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
       Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
-  // Percentages refer to the smallest value, as on the whole page: 3.155 is 5.2 % more than 3.
+  // Percentages refer to the smallest value, as on the whole page. A value of 3.155 is 5.2 % above 3.
   EXPECT_THAT(words({{0, 1.0, 3.155}, {1, 2.0, 3.0}, {2, 3.0, 3.01}}),
               Contains(name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
   EXPECT_THAT(
@@ -61,8 +63,8 @@ TEST(ContestWords, AllWhoShareAFigureAreNamed) {
               Contains("All controllers that hold the course share the least total loss, within 5 %."));
 }
 
-/// A controller that exceeds 1.5 times the limit's current at the start has an unfair advantage. It must have
-/// no star, no sentence, and a note with the reason.
+/// If a controller exceeds 1.5 times the limit's current at the start, it has an unfair advantage. It must
+/// have no star and no sentence, but a note with the reason.
 TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
   analysis::Contest c;
   c.bench.design.current_at_full_torque_A = 4.0;

@@ -93,7 +93,7 @@ static void step(const void* config, void* state, const sixstep_measured* measur
   const Config* const own = config;
   State* const mine = state;
   const double wanted = own->gain * (setpoint - measured->current_A[0]);
-  mine->x += 1e-3 * wanted; /* rounds at each step */
+  mine->x += 1e-3 * wanted; /* the sum is rounded at each step */
   answer->enabled = 1;
   answer->source = SIXSTEP_LEG_A;
   answer->sink = SIXSTEP_LEG_B;
