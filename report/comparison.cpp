@@ -245,7 +245,7 @@ std::string trace_comparison_table(const ComparisonInput& in) {
         escaped(computed(one.span, unit)));
   }
   return fmt::format(
-      "<h2>Log of the board, less the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
+      "<h2>Log of the board minus the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
       in.shift_s == 0.0 ? "" : ", moved by " + escaped(computed(in.shift_s, "s")), rows);
 }
 

@@ -108,7 +108,7 @@ class Entry:
         return "".join(f"{separator}`{word}` {meaning}" for word, meaning in self.words)
 
     def cells(self, prefix):
-        what, kind = self.meaning, self.type.replace("one word of those below", "").replace("|", " or ")
+        what, kind = self.meaning, self.type.replace("one of the words below", "").replace("|", " or ")
         if self.path.startswith("compare.") and self.words:
             what += ", as in [`[[require]]`](require.md)"
         elif len(self.words) > LONG:

@@ -51,7 +51,7 @@ class BoardLog(LogTest):
         self.write_log()
         self.run_program("run", SCENARIO, "--compare", "log.csv", "--html", "over.html", "--quiet", code=0)
         page = (self.path / "over.html").read_text(encoding="utf-8")
-        for word in ("A board's log over its simulation", "recorded on a board", "Log of the board, less the simulation", "log.csv"):
+        for word in ("A board's log over its simulation", "recorded on a board", "Log of the board minus the simulation", "log.csv"):
             self.assertIn(word, page)
 
     def test_refuses_with_a_way_out(self):

@@ -42,7 +42,7 @@ class Curve(ProgramTest):
 
     def test_speeds_that_the_sheet_does_not_allow_are_told(self):
         told = " ".join(self.run_program("curve", "maxon-251601", "--voltage", "48", "--points", "3").stdout.split())
-        allowed, no_load = map(float, re.search(r"The sheet allows (\d+) rpm, but the no-load speed is (\d+) rpm", told).groups())
+        allowed, no_load = map(float, re.search(r"The sheet's speed limit is (\d+) rpm, but the no-load speed is (\d+) rpm", told).groups())
         self.assertEqual(allowed, 10000)
         self.assertGreater(no_load, 1.8 * 6710)  # twice the voltage, about twice the speed
         self.assertNotIn("The sheet allows", self.run_program("curve", "maxon-251601", "--points", "3").stdout)

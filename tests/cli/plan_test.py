@@ -99,7 +99,7 @@ class Plan(ProgramTest):
                 self.assertEqual(sum(n in r["runs"] for r in told), len(alone[n]))
             for remark in told:
                 self.assertIn(remark["text"], alone[remark["runs"][0]])
-            self.assertIn(f"  remark, runs 1, 2 (its numbers are those of run 1): {short[1][0]}\n", table)
+            self.assertIn(f"  remark, runs 1, 2 (with the numbers of run 1): {short[1][0]}\n", table)
             self.assertIn("  remark, all runs: given without effect: ", table)
 
     def test_a_drive_of_ideal_sensors_is_given_no_seed(self):

@@ -70,9 +70,8 @@ struct Conversion {
   double back(double x) const;  ///< the inverse conversion
 };
 
-/// Converts from `unit` into the wanted unit. The Problem has limit and cure. This function also decides two
-/// cases that same_kind() does not: in oz-in and kg cm a weight stands for its force, and in V/Hz the hertz
-/// are electrical.
+/// Converts from `unit` into the wanted unit. The Problem has limit and cure. Unlike same_kind(), it accepts
+/// oz-in and kg cm as torques, in which a weight means its force. It treats the hertz of V/Hz as electrical.
 base::Result<Conversion> conversion(std::string_view unit, const Wanted& wanted);
 
 /// "rms" or "peak" if the unit says so; else empty.

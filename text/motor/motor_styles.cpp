@@ -25,9 +25,9 @@ const std::vector<MotorStyle>& motor_styles() {
        {"idle_current_A", "idle_voltage_V", "no_load_speed_rpm", "max_speed_rpm"},
        false,
        {{"inductance_uH",
-         "Such sheets lack the inductance. L/R is 0.15 to 0.7 ms for those of sixstep motor list. Measure it with an LCR meter at 1 kHz between two terminals, or by a drive's identification."},
+         "Such sheets lack the inductance. L/R is 0.15 to 0.7 ms for the drone motors of sixstep motor list. Measure it with an LCR meter at 1 kHz between two terminals, or by a drive's identification."},
         {"inertia_gcm2",
-         "Such sheets lack the inertia. Most of it is that of the bell: mass times the square of the mean radius, 0.03 kg at 13 mm make 51 g cm2; or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller belongs to the load."}}},
+         "Such sheets lack the inertia. Most of the inertia is in the bell: its mass times the square of its mean radius, 51 g cm2 for 0.03 kg at 13 mm. Or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller belongs to the load."}}},
       {"servo",
        "torque per ampere rms, back-EMF per 1000 rpm, inertia with and without brake",
        "sine",
@@ -111,14 +111,14 @@ const std::vector<MotorStyle>& motor_styles() {
        {{"poles",
          "twice the number of periods of a Hall line, or of the voltage between two terminals, per turn of the wheel: 20 to 60"},
         {"speed_constant_rpm_V",
-         "no-load speed over voltage is about the constant of frame = \"six-step\", some percent low; turned by hand with a "
-         "voltmeter for alternating voltage between two terminals, rpm over volts rms times 0.707 is that of \"line-peak\""},
+         "no-load speed divided by voltage is some percent below the constant of frame = \"six-step\"; if the wheel is turned by hand, "
+         "0.707 times rpm divided by V rms between two terminals is the constant of frame = \"line-peak\""},
         {"resistance_ohm",
-         "Sellers rarely state the resistance. 0.04 to 0.4 ohm between two terminals for 250 to 1500 W at 36 to 48 V: the copper then takes 1 to 10 % of the power. Measure it with four wires, 1 A and a voltmeter."},
+         "Sellers rarely state the resistance. 0.04 to 0.4 ohm between two terminals for 250 to 1500 W at 36 to 48 V: the copper loss is then 1 to 10 % of the power. Measure it with four wires, 1 A and a voltmeter."},
         {"inductance_mH",
-         "Sellers rarely state the inductance. L/R is 2 to 7 ms for those of sixstep motor list, which drives have identified: 0.2 to 1 mH between two terminals. Measure it with an LCR meter at 1 kHz, and take the mean over the rotor's angle."},
+         "Sellers rarely state the inductance. L/R is 2 to 7 ms for the hub motors of sixstep motor list, whose values drives have identified: 0.2 to 1 mH between two terminals. Measure it with an LCR meter at 1 kHz, and take the mean over the rotor's angle."},
         {"inertia_kgm2",
-         "Sellers rarely state the inertia. Mass of the turning parts times the square of their mean radius: 1.5 kg at 63 mm are 0.006 (a hoverboard's wheel), 2.5 kg at 110 mm 0.03; with the spoked wheel 0.05 to 0.2. A vehicle's mass belongs to the load: m r^2."},
+         "Sellers rarely state the inertia. It is the mass of the turning parts times the square of their mean radius: 0.006 for 1.5 kg at 63 mm (a hoverboard's wheel), 0.03 for 2.5 kg at 110 mm, 0.05 to 0.2 with a spoked wheel. A vehicle's mass belongs to the load: m r^2."},
         {"no_load_current_mA", "gives the friction; sellers rarely state it, a clamp meter measures it"}}},
       {"linear",
        "force per ampere, pole pitch, moving mass",
@@ -143,7 +143,7 @@ const std::vector<MotorStyle>& motor_styles() {
         {"flux_linkage_mWb",
          "foc_motor_flux_linkage; ODrive gives torque_constant_Nm_A instead, frame = \"peak\""},
         {"inertia_kgm2",
-         "Drives rarely identify the inertia. A ring's is its mass times the square of its mean radius, 0.3 kg at 25 mm make 1.9e-4; a solid cylinder's is half of that at its outer radius."}}},
+         "Drives rarely identify the inertia. A ring's inertia is its mass times the square of its mean radius: 1.9e-4 for 0.3 kg at 25 mm. A solid cylinder's inertia is half of its mass times the square of its outer radius."}}},
   };
   return all;
 }

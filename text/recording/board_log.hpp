@@ -21,8 +21,9 @@ struct LogColumns {
       formulas;  ///< see column_formula.hpp; if given, only their columns and the time are read
   std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
   std::optional<int> pole_pairs{};   ///< pole pairs of the motor, which convert electrical speeds
-  bool field_oriented = false;       ///< whether the simulated drive is: of known logs it takes other columns
-  std::optional<int> esc{};          ///< number of the drive whose rows or columns count, in a log of several
+  bool field_oriented =
+      false;  ///< true: the simulated drive is field-oriented, which selects other columns of known logs
+  std::optional<int> esc{};  ///< number of the drive to read in a log of several drives
 };
 
 struct BoardLog {

@@ -36,7 +36,7 @@ const char* setpoint_unit(const BodeStudy& s) {
                                                    : "deg";
 }
 
-/// The designed L at a point.
+/// The designed loop gain L at the frequency of a point.
 struct Designed {
   double gain_dB = 0.0, phase_deg = 0.0;
 };

@@ -35,7 +35,7 @@ std::string measured_source(const MeasuredEmf& m) {
 }
 
 /// The line with the constant. For a sine it is the voltage at a drill's speed. For any other shape it is the
-/// flux linkage: this belongs to the fundamental, and does not depend on harmonics that the lines above omit.
+/// flux linkage of the fundamental, because it does not depend on harmonics that the lines above omit.
 std::string constant_line(const MeasuredEmf& m) {
   const EmfResult& r = m.result;
   const std::string pairs = r.pole_pairs > 0 ? fmt::format("pole_pairs = {}\n", r.pole_pairs) : "";

@@ -8,7 +8,7 @@
 
 namespace text {
 
-/// The same JSON with each name in the words of that motion: "stall_force_N" for a linear motor. Numbers stay
+/// Returns the JSON with its names in the words of `motion`: "stall_force_N" for a linear motor. Numbers stay
 /// the same. Therefore the JSON must not have names in degrees or in thousandths, whose numbers would change.
 inline nlohmann::ordered_json under_names_of(const sixstep::base::Motion& motion,
                                              const nlohmann::ordered_json& json) {

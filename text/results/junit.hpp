@@ -15,7 +15,7 @@ namespace text {
 struct JunitCase {
   std::string name;
   std::string failure;  ///< why the case does not hold; empty: it holds
-  bool broken = false;  ///< the case could not be judged: a fault, or no run
+  bool broken = false;  ///< true: a fault, or a run that could not start, prevents a verdict
 };
 
 struct JunitSuite {

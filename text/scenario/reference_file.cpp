@@ -42,8 +42,8 @@ class RowsOf {
                                             y = converted(r_, *picked, unit_);
     if (!t) return t.problems();
     if (!y) return y.problems();
-    // Stops at the first cell that is not a number, because a time before this cell does not bound the times
-    // after it.
+    // Stops at the first cell that is not a number, because the order of the times cannot be checked across
+    // this cell.
     for (std::size_t row = 0; bad_ == 0 && row < t->size(); ++row) take(row, (*t)[row], (*y)[row]);
     if (told_.empty()) return std::move(rows_);
     std::stable_sort(told_.begin(), told_.end(),

@@ -25,7 +25,7 @@ using sixstep::control::Mode;
 
 struct Wanted {
   std::string path;
-  bool open = false;  ///< whether the line is active even if it only repeats the default
+  bool open = false;  ///< true: the line is active even if it only repeats the default
 };
 
 /// Keys that a first scenario shows in addition to the keys that it sets.

@@ -11,7 +11,7 @@ namespace text {
 
 struct StarterOptions {
   std::string file;   ///< the future file's name, for the commands in its head
-  bool full = false;  ///< all keys, not only the keys of a first scenario
+  bool full = false;  ///< true: all keys; false: only the keys of a first scenario
 };
 
 /// The scenario's file with explanations. Lines with the scenario's own values are active. Other keys useful

@@ -105,10 +105,10 @@ class TableReader final : public base::Visitor {
   std::string_view advice_;
   std::vector<std::string> known_;
   std::vector<std::string>
-      other_motion_;        ///< words of the other kind of motor among `known_`; they are never suggested
-  bool refused_ = false;    ///< whether a number was out of its range
-  bool lost_word_ = false;  ///< whether a choice could not be read, so that the unit that it determines is
-                            ///< unknown
+      other_motion_;      ///< words of the other kind of motor among `known_`; they are never suggested
+  bool refused_ = false;  ///< true: a number was out of its range
+  bool lost_word_ =
+      false;  ///< true: a choice could not be read, so that the unit that it determines is unknown
 };
 
 /// Fills the struct from the whole file.
