@@ -64,8 +64,8 @@ class Job {
   const loop::Core* core_ = nullptr;
   std::string where_;
   bool interrupted_ = false;
-  bool broken_ = false;       // whether writing an output failed
-  bool reader_gone_ = false;  // whether the reader of a pipe closed it
+  bool broken_ = false;       // true: writing an output failed
+  bool reader_gone_ = false;  // true: the reader of a pipe closed it
 };
 
 }  // namespace cli

@@ -15,7 +15,7 @@ namespace {
 
 struct StopSignal {
   int number;
-  /// Whether a second signal of this kind ends the program at once, because only the user can send it twice.
+  /// true: a second signal of this kind ends the program at once, because only the user can send it twice.
   /// SIGHUP arrives twice when a terminal closes, from the kernel and from the shell. SIGXCPU arrives once a
   /// second.
   bool again_ends_at_once;

@@ -23,7 +23,7 @@ void tell_stop(const std::string& line);
 void stop_is_told();
 /// Reports an interrupt of work without a result. `kept` names the files that remain.
 Exit told_interrupted(const std::string& what, const std::string& kept = "");
-/// The exit code of work that always runs until it is interrupted: returns `exit` unchanged.
+/// The exit code of work that only an interrupt can end (--watch): returns `exit` unchanged.
 Exit ended_as_asked(Exit exit);
 
 /// The exit code of a verb that has returned. After an interrupt it is never success, because the result may

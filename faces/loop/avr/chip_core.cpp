@@ -71,7 +71,7 @@ avr_int_vector_t* Chip::vector(unsigned number) const {
   return nullptr;
 }
 
-/// Replaces simavr's timer 1 and converter. Writes no longer reach them.
+/// Replaces simavr's timer 1 and converter. Writes no longer reach simavr's own models of them.
 void Chip::take_over() {
   const auto mine = [&](Address at, bool reads) {
     auto& io = avr_->io[AVR_DATA_TO_IO(at)];
