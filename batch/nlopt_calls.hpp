@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// NLopt's functions. The library is loaded when a search begins, because every other command would pay for loading
-// it.
+// NLopt's functions. The library is loaded when a search begins, because loading it would delay every other
+// command.
 #pragma once
 #include <nlopt.h>
 
@@ -15,7 +15,7 @@ namespace batch {
 // clang-format on
 
 struct NloptCalls {
-// A declaration cannot stand in parentheses.
+// A declaration cannot be in parentheses.
 // NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define SIXSTEP_NLOPT_MEMBER(name) decltype(&nlopt_##name) name = nullptr;
   SIXSTEP_NLOPT_CALLS(SIXSTEP_NLOPT_MEMBER)

@@ -20,9 +20,9 @@ struct Case {
   const char* scenario;
   const char* trajectory;  ///< file in tests/reference; empty: none
   YardstickMode mode;
-  double reference, reverse_s;  ///< of the yardsticks; the sign of the reference is reversed every reverse_s,
-                                ///< if above 0
-  double judged_s;              ///< the errors are computed up to this time
+  double reference,
+      reverse_s;  ///< reference of the yardsticks; its sign is reversed every reverse_s if reverse_s is above 0
+  double judged_s;  ///< the errors are computed up to this time
 };
 
 /// In R6, a Hall edge is 0.25 us after the tick at 13.26 ms. With a fixed step, the edge is before or after

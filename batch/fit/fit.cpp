@@ -37,9 +37,9 @@ class Fitting {
   }
 
  private:
-  /// Approaches the solution over longer and longer parts of the recordings. With constants that are wrong by a third a
-  /// simulated rotor loses step with the recorded one after some turns, and the sum of squares has a minimum at each of
-  /// them. Within a short part it has one minimum.
+  /// Approaches the solution over longer and longer first parts of the recordings. If a start value is wrong
+  /// by a third, the simulated rotor is a turn off after some turns, and the sum of squares has a local
+  /// minimum at each turn. Within a short part it has one minimum.
   base::Problems approach() {
     for (const double part : {0.03, 0.06, 0.12, 0.25, 0.5, 1.0}) {
       problem_.use(part);
@@ -50,7 +50,8 @@ class Fitting {
     return {};
   }
 
-  /// Searches until the noise of each column fits its residuals. Then takes the derivatives and the covariance there.
+  /// Repeats the search until each column's noise equals the rms of its residuals. Then computes derivatives
+  /// and covariance.
   base::Problems settle() {
     for (int round = 0; round < 4; ++round) {
       if (base::Problems problems = improve(most_trials); !problems.empty()) return problems;
@@ -70,7 +71,7 @@ class Fitting {
     base::Result<FitSolution> found = solve(problem_, solution_.u, free_, trials);
     if (!found) return found.problems();
     solution_ = std::move(*found);
-    for (std::size_t k = 0; k < free_.size(); ++k) {  // below 0 a friction has no effect, and no derivative
+    for (std::size_t k = 0; k < free_.size(); ++k) {  // a friction below 0 has no effect and no derivative
       const FitParameter& p = problem_.parameters()[k];
       double& u = solution_.u[static_cast<Index>(k)];
       if (p.positive) u = std::max(u, -p.start / p.scale);
@@ -79,7 +80,8 @@ class Fitting {
     return {};
   }
 
-  /// Holds at 0 the frictions whose best value is not above it. Their upper bounds follow from the linear problem.
+  /// Fixes each friction at 0 whose best value is not above 0. The upper bound then follows from the linear
+  /// problem.
   base::Problems hold_frictions() {
     bool held = false;
     for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -165,7 +167,7 @@ class Fitting {
   FitSolution solution_{};
   Eigen::MatrixXd derivatives_;
   FitCovariance covariance_;
-  double change_ = 0.0;  ///< of the columns' noise by the last search
+  double change_ = 0.0;  ///< change of the columns' noise in the last search
   Fit out_;
 };
 

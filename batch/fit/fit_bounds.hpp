@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of 95 % of a fit's unknowns.
+// Computes bounds of 95 % for a fit's unknowns.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace batch {
 
-/// Covariance of the free unknowns at a solution, in the order of the parameters; 0 for fixed ones.
+/// Covariance of the unknowns at a solution, in the order of the parameters; 0 for fixed unknowns.
 struct FitCovariance {
-  Eigen::MatrixXd of_white_noise;  ///< for residuals that are independent from row to row
-  Eigen::MatrixXd covariance;      ///< for the residuals as they are correlated
+  Eigen::MatrixXd of_white_noise;  ///< covariance for residuals that are independent from row to row
+  Eigen::MatrixXd covariance;      ///< covariance for the actual correlation of the residuals
   double degrees_of_freedom = 0.0;
 };
 
@@ -24,12 +24,13 @@ FitCovariance covariance_of(const FitProblem& problem, const Eigen::MatrixXd& de
 double lag_correlation(const FitProblem& problem, const Eigen::VectorXd& residuals, std::size_t group);
 
 struct UnknownBounds {
-  double low = 0.0, high = 0.0;  ///< of u
+  double low = 0.0, high = 0.0;  ///< bounds of u
   bool by_profile = false;
 };
 
-/// Bounds of the unknown k: its value -+ Student's width, if the sum of squares grows there as a parabola does; else
-/// the values at which the sum of squares, least over all other unknowns, has grown by the same amount.
+/// Bounds of the unknown k. If the sum of squares increases like a parabola there: the value -+ Student's
+/// width. Otherwise: the values of u at which the sum of squares, minimised over all other unknowns, has
+/// increased by the same amount.
 base::Result<UnknownBounds> bounds_of(FitProblem& problem, const FitSolution& solution,
                                       const FitCovariance& covariance, const std::vector<bool>& free,
                                       std::size_t k);

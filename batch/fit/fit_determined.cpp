@@ -11,13 +11,15 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Standard deviation of u from which on a value counts as undetermined. The start alone has 1.
+/// Standard deviation of u above which a value counts as undetermined. The start value alone has the
+/// deviation 1.
 constexpr double widest = 0.5;
 
-/// A derivative below this has no effect: it moves the model by less than a thousandth of the noise of all cells together.
+/// A derivative below this limit has no effect: it changes the model by less than a thousandth of the noise
+/// of all cells together.
 constexpr double no_effect = 1e-3;
 
-/// Correlation from which on two parameters count as having the same effect.
+/// Correlation above which two parameters count as having the same effect.
 constexpr double same_effect = 0.8;
 
 struct Hint {

@@ -14,11 +14,11 @@ std::span<const double> span_of(const Eigen::VectorXd& u) {
   return {u.data(), static_cast<std::size_t>(u.size())};
 }
 
-/// Least noise of a column, as a part of its span. A recording without noise is a simulation.
+/// Least noise of a column, as a fraction of its span. A recording without noise comes from a simulation.
 constexpr double least_noise = 1e-6;
 
-/// Width of a converter's steps: the least difference of two values, if all differences are multiples of it. 0 if there
-/// are more than 4096 steps, which no fit notices.
+/// Width of a converter's steps: the least difference of two values, if all differences are multiples of it.
+/// 0 if there are more than 4096 steps, because such small steps do not affect a fit.
 double step_of(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !(x - x == 0.0); }),
                values.end());
@@ -113,7 +113,7 @@ base::Result<Eigen::MatrixXd> FitProblem::derivatives(const Eigen::VectorXd& u,
   request_.for_each(count, [&](std::size_t k) {
     if (!free[k]) return;
     const auto column = static_cast<Eigen::Index>(k);
-    // A friction at 0 has one side only.
+    // A friction at 0 can only increase.
     const double step = parameters_[k].step();
     Eigen::VectorXd above = u, below = u;
     above[column] += step;
@@ -144,7 +144,7 @@ double FitProblem::take_noise(const Eigen::VectorXd& residuals, std::size_t free
     squares[group_[n]] += r * r;
     ++count[group_[n]];
   }
-  // The free parameters take one degree of freedom each, in proportion to a column's rows.
+  // The free parameters use one degree of freedom each, distributed in proportion to a column's rows.
   const double taken = std::min(0.5, static_cast<double>(free) / static_cast<double>(cells()));
   double change = 0.0;
   for (std::size_t g = 0; g < noise_.size(); ++g) {

@@ -106,7 +106,7 @@ struct PlanStore::Inside {
     const auto told = static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums));
     base::Result<analysis::RunRecord> record = record_of_cells(cells, plan.columns);
     if (record && select.cell(select.columns() - 1) == Cell(told)) return record;
-    return damaged(db.path(), fmt::format("run {} differs from the written one", select.whole(0)));
+    return damaged(db.path(), fmt::format("run {} differs from the written row", select.whole(0)));
   }
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit) {
     base::Result<Statement> select = db.prepare(select_sql(stored));
@@ -191,7 +191,7 @@ base::Result<PlanStore> PlanStore::create(const std::string& path, StoredPlan pl
   const Standing standing = standing_at(path);
   if (standing == Standing::other) return foreign(path);
   if (standing == Standing::store && !force)
-    return base::Problem{path + ":", "", "holds runs already",
+    return base::Problem{path + ":", "", "already contains runs",
                          "continue the runs (resume), name another file, or overwrite this file (force)"};
   if (standing == Standing::store)
     for (const char* part : {"", "-wal", "-shm"}) ::remove((path + part).c_str());
@@ -228,14 +228,14 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return base::Problem{path + ":", "", std::move(limit), std::move(cure)};
   };
   if (before.sixstep != now.sixstep)
-    return refuse("was begun by sixstep " + before.sixstep + ", and this is " + now.sixstep +
-                      ", whose rows would look alike",
+    return refuse("was begun by sixstep " + before.sixstep + ", but this is " + now.sixstep +
+                      "; rows of two versions cannot be distinguished",
                   "finish the runs with that version, or start again (force)");
   if (before.plan != now.plan)
-    return refuse("holds the runs of another plan: " + before.plan,
+    return refuse("contains the runs of another plan: " + before.plan,
                   "name another store for this plan: " + now.plan);
   if (before.inputs != now.inputs || *before.columns != *now.columns)
-    return refuse("holds runs of a scenario that has changed since then: " + before.scenario +
+    return refuse("contains runs of a scenario that has changed since then: " + before.scenario +
                       " or a file that it names",
                   "name another store, or overwrite this one (force)");
   // Messages name columns as the plan does, not as the file does.

@@ -15,7 +15,7 @@ namespace files {
 // clang-format on
 
 struct SqliteCalls {
-// A declaration cannot stand in parentheses.
+// A declaration cannot be in parentheses.
 // NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define SIXSTEP_SQLITE_MEMBER(name) decltype(&sqlite3_##name) name = nullptr;
   SIXSTEP_SQLITE_CALLS(SIXSTEP_SQLITE_MEMBER)

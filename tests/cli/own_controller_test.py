@@ -90,8 +90,8 @@ class OwnController(Started):
             self.is_named("behind-state", beside.format("state") + AT_20 + ENDS, by=by)
             self.is_named("behind-config", beside.format("config") + " in its design" + ENDS, by=by)
             self.is_named("behind-answer", beside.format("answer") + AT_20 + ENDS, by=by)
-        self.is_named("before-state", "wrote beside its state" + AT_20 + ENDS)
-        self.is_named("before-config", "wrote beside its config in its design" + ENDS)
+        self.is_named("before-state", "wrote outside its state" + AT_20 + ENDS)
+        self.is_named("before-config", "wrote outside its config in its design" + ENDS)
         for deed in ("far-before-state", "into-config", "stack"):
             self.is_named(deed, r"(crashed|gave up).*" + AT_20 + ENDS)
         self.is_named("bad-name", r"crashed \(SIGSEGV: .*\) while it was loaded" + ENDS)
