@@ -169,7 +169,7 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
         const auto current = of_step(run);
         return current ? std::optional(Measured{std::abs(current->peak_A), ""}) : std::nullopt;
       });
-  rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
+  rows += figure_row("time with the full bus voltage", "s", runs, [](const ComparedRun& run) {
     const auto held = held_back(run.events, run.scenario);
     return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
@@ -264,7 +264,7 @@ std::string render_comparison(const ComparisonInput& in) {
   const std::string body =
       filled(assets::comparison_html(),
              {{"title", title},
-              {"subtitle", escaped(names) + "; differences are relative to the first"},
+              {"subtitle", escaped(names) + "; differences are relative to the first run"},
               {"runs", run_rows(in.runs)},
               {"differences",
                with_log ? "<p class=\"quiet\">The log is assumed to be of this scenario's drive.</p>\n"

@@ -178,7 +178,7 @@ std::string curve_charts(const analysis::CurveRequest& request, const analysis::
   charts.torque();
   charts.currents();
   charts.add("efficiency", "Efficiency", "%", 180,
-             {{"efficiency", "main", "shaft over supply",
+             {{"efficiency", "main", "shaft power divided by supply power",
                [](const OnCurve& p) { return 100 * p.point->efficiency.value_or(0.0); }}});
   std::vector<CurveLine> power = {{"in", "main", "power from the supply", of<&P::supplied_W>(1)},
                                   {"out", "c", "power delivered by the shaft", of<&P::shaft_W>(1)},

@@ -73,7 +73,7 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
   for (const Entry& e : entries) html += row(e, "part");
   const double missing = residual * y.scale;  // equal to the difference in the energy book to the last bit
   html += fmt::format(
-      "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
+      "<tr class=\"residual\"><th scope=\"row\">Residual<small>difference of the two sides</small></th><td "
       "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",
       computed(unless_nothing(missing, largest), "J"));
   return html + closing(residual, y);
@@ -167,9 +167,9 @@ std::string event_section(const sixstep::study::Outcome& outcome) {
       sixstep::base::written_hex(outcome.digest));
   // Edge-aligned pulses begin at a tick, so half of their edges count as ticks; the note explains this.
   return html +
-         "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. An "
-         "edge switches two gates of a leg where chopping is complementary, so that turn-ons of all six switches "
-         "may be more.</p>\n";
+         "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. With "
+         "complementary chopping an edge switches two gates of a leg, so that all six switches together may have "
+         "more turn-ons.</p>\n";
 }
 
 }  // namespace report

@@ -56,7 +56,7 @@ Group currents(const Trace& trace, bool of_field) {
 /// third of the sum.
 Group loop_current(const Trace& trace) {
   Group g{.id = "loop-current",
-          .title = "Sum of the delta's branch currents: three times the circulating one",
+          .title = "Sum of the delta's branch currents: three times the circulating current",
           .unit = "A",
           .height_px = 150,
           .quantity = "current"};

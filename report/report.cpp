@@ -111,7 +111,7 @@ std::string render(const ReportInput& in) {
               {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
                                                             book_of(in.scenario)) +
                                                  device_section(in.outcome.devices)
-                                           : "<p class=\"quiet\">No books were kept.</p>\n"},
+                                           : "<p class=\"quiet\">No energy balance was computed.</p>\n"},
               {"events", event_section(in.outcome)},
               {"plots", assets::plots_html()},
               {"spectra", spectra_section(found)},

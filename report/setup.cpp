@@ -56,7 +56,7 @@ bool chooses_legs(const study::Control& c) {
   return c.drive == study::FirmwareKind::field && c.field.law == study::FieldLaw::finite_set;
 }
 
-/// What takes the place of a PWM; empty if the drive has one, at least in some mode of the run.
+/// The switching rule that replaces a PWM. Empty if the drive has a PWM in any mode of the run.
 std::string switching(const study::Scenario& s) {
   if (s.control.mode < control::Mode::current || study::comes_into(s, control::Mode::duty)) return "";
   const std::string tick = given(s.pwm.period_s, "s") + " (" + computed(1.0 / s.pwm.period_s, "Hz") + ")";
