@@ -25,7 +25,7 @@ from it; a test checks that they are up to date.
 - "also as" names the key for a linear motor, whose files must use that name.
 
 A number may have another unit, in quotes. The unit must fit the key
-([list of units](../../start/your-motor.md#what-does-a-number-mean)):
+([list of units](../../start/your-motor.md#which-unit-and-frame-does-each-number-have)):
 
 - key: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 = "135 gcm2"`, `damping = "90 %"`
 - reference, by its control mode: `value = "6710 rpm"`
@@ -52,12 +52,12 @@ number counts as 0. Some numbers are allowed alone but make no drive together. T
 - A value in brackets or braces replaces the other as a whole. Empty braces drop a table of a base: `load = {}`, or `speed = {}`
   under `[control]`.
 
-## Which table holds which keys
+## Which table contains which keys
 
 """
 NOTES = {
     "at": """`[[at]]` changes something at an instant of the run. The controller takes over gains, limits, mode and chopping with its next
-sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-does-the-chip-do-at-a-change)).
+sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-happens-in-the-chip-at-a-change)).
 """,
     "reference": """The controller reads a moving reference at each control tick and holds it until the next. Figures of the reference's
 steps need a reference that does not move in their window, or their own `level`.
