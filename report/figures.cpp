@@ -54,7 +54,7 @@ int decade(double value) {
 
 std::string with_unit(std::string number, const std::string& unit) {
   if (unit.empty()) return number;
-  // Degrees stand directly after the number; other units follow a non-breaking space.
+  // The degree sign directly follows the number; other units follow a non-breaking space.
   return number + (unit == "°" ? "" : "\u00a0") + unit;
 }
 

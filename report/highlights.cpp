@@ -76,8 +76,8 @@ double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
-/// The row of the first Hall edge after the current has come near its goal; without such an edge, the last
-/// row. After this edge, changes of the current are commutations, not the step.
+/// The row of the first Hall edge after the current is near its goal; without such an edge, the last row.
+/// After this edge, changes of the current are commutations, not the step.
 std::size_t end_of_current_step(const Values* hall, const Values& signal, const Change& step,
                                 std::size_t last) {
   if (!hall) return last;

@@ -28,7 +28,7 @@ struct Step {
   HeldCurrent held{};   ///< the current that is shown with the step
   Interval window;      ///< interval of the close-up. Its length is 1.5 times the time until the signal
                         ///< differs from its goal by at most 10 % of the step
-  bool done = false;    ///< true: before next_s the signal came as near as 10 % of the step to its goal
+  bool done = false;    ///< true: before next_s the signal was within 10 % of the step of its goal
 };
 std::optional<Step> largest_step(const sixstep::study::Trace& trace,
                                  const sixstep::study::Scenario& scenario);

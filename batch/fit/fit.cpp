@@ -38,8 +38,8 @@ class Fitting {
 
  private:
   /// Approaches the solution over longer and longer first parts of the recordings. If a start value is wrong
-  /// by a third, the simulated rotor is a turn off after some turns, and the sum of squares has a local
-  /// minimum at each turn. Within a short part it has one minimum.
+  /// by a third, the simulated rotor deviates by whole turns after some time, and the sum of squares has a
+  /// local minimum at each turn. Within a short part it has one minimum.
   base::Problems approach() {
     for (const double part : {0.03, 0.06, 0.12, 0.25, 0.5, 1.0}) {
       problem_.use(part);

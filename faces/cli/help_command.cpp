@@ -63,7 +63,7 @@ std::string of_key(const KeyEntry& entry) {
   return text;
 }
 
-/// The entry whose path ends with this word, if exactly one entry does; else null.
+/// The entry whose path ends with this word, if there is exactly one such entry; else null.
 const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
   for (const KeyEntry& entry : entries) {

@@ -209,7 +209,7 @@ class Product {
   static constexpr int deepest = 4;
   bool factors(int outer, int depth, Unit& product) {
     int sign = outer;
-    bool wants = true;  // whether a factor must follow
+    bool wants = true;  // true: a factor must follow
     while (!rest_.empty() && rest_.front() != ')') {
       const char c = rest_.front();
       if (c == ' ' || c == '*' || c == '/') {

@@ -32,7 +32,7 @@ struct Unit {
   Dimension dimension{};
   int ten = 0;
   double factor = 1.0;
-  bool by_the_clock = false;  ///< contains minutes or hours, apart from the minute of rpm
+  bool by_the_clock = false;  ///< true: contains minutes or hours, apart from the minute of rpm
 
   int power(Base base) const { return dimension[static_cast<std::size_t>(base)]; }
   int& power(Base base) { return dimension[static_cast<std::size_t>(base)]; }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a recording of a running drive as a trace: the log of a board, the log of another maker's drive, or
-// an oscilloscope's record. Headings are those of a trace's columns with units of the same kind ("t [us]",
-// "i_m [mA]", "speed [rad/s]"), or those of a known tool (known_logs.hpp); otherwise formulas name the columns.
+// an oscilloscope's record. Headings are the names of a trace's columns with units of the same kind ("t
+// [us]", "i_m [mA]", "speed [rad/s]"), or the headings of a known tool (known_logs.hpp). Otherwise formulas
+// name the columns.
 #pragma once
 #include <optional>
 #include <string>
@@ -29,7 +30,7 @@ struct LogColumns {
 struct BoardLog {
   study::Trace trace;
   std::string
-      recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: by its own headings or by formulas
+      recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: read by its headings or by formulas
   std::vector<NotUsed> not_used;
   Notes notes;
 };

@@ -22,7 +22,7 @@ constexpr std::size_t most_told = 5;
 /// The first column: its unit, and its names in messages.
 struct FirstColumn {
   const char *unit, *word, *row;
-  bool selects;  ///< a key selects one of several columns of values
+  bool selects;  ///< true: a key selects one of several columns of values
 };
 constexpr FirstColumn first_is_time{"s", "time", "a time in s and a value", true},
     angle_column{"deg", "angle", "an angle in degrees and a value", false};

@@ -80,7 +80,7 @@ class Timer1 {
  private:
   struct Channel {
     std::uint16_t buffer = 0, compare = 0;
-    bool latch = false;  ///< level of OC1x before inversion
+    bool latch = false;  ///< true: OC1x is high before inversion
     int com_shift = 0;
   };
   struct Count {
