@@ -7,7 +7,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tools/parts.sh
 rooms=(base series files fuzz)
-# Pages, tools and headers under other compilers use no memory of ours to check.
+# Pages, tools and headers under other compilers are not compiled with the sanitizers.
 elsewhere='^control\.(alone|inserted|int_of|single)'
 case "$*" in
   '') targets=(drawn_scenarios digest_table libm_planted "${rooms[@]/%/_tests}")

@@ -3,7 +3,7 @@
 # check_tidy.sh [BUILD]             clang-tidy over the whole product, in the batches and with the flags of a configured build: headers
 #                                   are read once for many sources, a fifth of the time
 # check_tidy.sh [BUILD] --analyzer  each source alone, with the path-sensitive analyzer, whose finds the sanitizers and the fuzzers meet
-#                                   first, and the checks that take longest for what they find (ctest --preset long)
+#                                   first, and the slow checks that rarely find something (ctest --preset long)
 set -eu
 cd "$(dirname "$0")/.."
 build=build/dev alone=
@@ -33,10 +33,10 @@ else
     grep -vE "^$PWD/data/|/(tests|benchmarks)/" | tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" bash -c 'tidy -p "$0" "$1" "$2" "$3"' "$build" "${in_batches[@]}"
 fi
-# MPI is in a build of its own, which need not be there.
+# MPI is in a separate build, which may be missing.
 [ ! -f build/mpi/compile_commands.json ] || tidy -p build/mpi "$checks" batch/ranks_with_mpi.cpp
-# Firmware is in no build for this machine: each example with the flags of its chip, and what a core in the loop runs, with the drive of
-# an example.
+# Firmware is in no build for this machine. Each example is checked with the flags of its chip, and the program of a core in the loop
+# with the drive of an example.
 firmware() {
   tidy "$checks" "$1" -- "${@:2}" -std=c++20 -ffreestanding -nostdinc++ -I. -Ifaces/firmware/bare
 }

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# configure.sh PRESET: configures build/PRESET if that is still to be done. In a copy of a checkout the copied folder
+# configure.sh PRESET: configures build/PRESET if it is not configured yet. In a copy of a checkout the copied folder
 # would still build the original's sources, so the script makes it anew and prints a message.
 # Programs and libraries that were missing at the last configuration are searched again.
 set -eu

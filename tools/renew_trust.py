@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""renew_trust.py [ARGUMENTS OF drawn_scenarios]: draws scenarios and writes what came of them into docs/explanation/drawn-scenarios.md.
+"""renew_trust.py [ARGUMENTS OF drawn_scenarios]: draws scenarios, runs them, and writes the results into docs/explanation/drawn-scenarios.md.
 
-Without arguments 100 000 valid and 1 000 000 hostile ones from a new seed, with the program of build/dev."""
+Without arguments it draws 100 000 valid and 1 000 000 hostile scenarios from a new seed, with the program of build/dev."""
 import datetime
 import pathlib
 import re

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """scenario_reference.py [--check] [PROGRAM]: writes docs/reference/keys/, the pages of all keys, from `sixstep help`.
 
-With --check nothing is written; it fails where a page is not what the program says.
+With --check it writes nothing, and fails if a page differs from the program's help.
 """
 import pathlib
 import subprocess
@@ -131,7 +131,7 @@ def table(entries, prefix):
 
 
 def repeats(entry, top):
-    """The table at the top of the file that has the same keys: they are told there."""
+    """The table at the top of the file that has the same keys and describes them."""
     inner = [path.removeprefix(entry.path) for path in entry.inner]
     return next((t for t in top if t.is_table and t.path != entry.path and inner == [path.removeprefix(t.path) for path in t.inner]), None)
 
@@ -180,7 +180,7 @@ def main(words):
     made = pages(pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve())
     there = {file.name: file.read_text(encoding="utf-8") for file in PAGES.glob("*.md")}
     if check and there != made:
-        raise SystemExit("docs/reference/keys is not what `sixstep help` says; tools/scenario_reference.py build/dev/sixstep renews it")
+        raise SystemExit("docs/reference/keys differs from `sixstep help`; renew it with tools/scenario_reference.py build/dev/sixstep")
     if check:
         return
     PAGES.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Charts over time for a printed page, one below the other on one time axis, as an SVG file that needs nothing.
 
-The same columns give the same bytes: a test holds the manual's pictures to what the program computes.
+The same columns give the same bytes, so that a test can compare the manual's pictures with the program's results.
 """
 import math
 from xml.sax.saxutils import escape
@@ -20,7 +20,7 @@ def ticks(low, high):
 
 
 def thinned(points):
-    """At most first, least, largest and last of each place on the time axis: no peak is lost."""
+    """At most the first, least, largest and last row of each pixel of the time axis, so that no peak is lost."""
     out, bundle = [], []
     for point in points + [None]:
         if bundle and (point is None or round(point[0]) != round(bundle[0][0])):
@@ -52,7 +52,7 @@ def heading(title, curves, top):
 
 
 def panel(spec, top, span, bottom_axis):
-    """One chart. spec: title, curves [(label, [(t, y)..], dashed)]; span: of the time axis."""
+    """One chart. spec: title, curves [(label, [(t, y)..], dashed)]; span: range of the time axis."""
     values = [y for _, curve, _ in spec["curves"] for _, y in curve]
     low, high = min(values), max(values)
     room = 0.06 * (high - low) or max(abs(high) * 0.05, 1e-9)

@@ -14,7 +14,7 @@ HEAD = f"""# Tests that take more than {SECONDS} s, and how many, two side by si
 
 
 def measured(build):
-    """Seconds by name, of the tests that ctest counts among those that end."""
+    """{name: seconds} of the tests that ctest has measured to their end."""
     text = (build / "Testing/Temporary/CTestCostData.txt").read_text().split("---")[0]
     costs = {name: float(seconds) for name, runs, seconds in (line.rsplit(" ", 2) for line in text.splitlines()) if int(runs)}
     return {name: seconds for name, seconds in costs.items() if not name.startswith("long.")}
