@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# How tools/site.sh makes one searchable site of README.md and docs/. Sphinx, because its search works from a file without a
-# server; MyST, because it reads the pages as they stand; Furo, because it is readable on a phone, in light and dark.
+# Settings with which tools/site.sh makes a searchable site of README.md and docs/. Sphinx: its search works without a server.
+# MyST: it reads the pages without changes. Furo: it is readable on a phone, in light and dark.
 project = "sixstep"
 html_title = "sixstep"
 extensions = ["myst_parser"]
