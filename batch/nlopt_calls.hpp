@@ -22,7 +22,8 @@ struct NloptCalls {
 #undef SIXSTEP_NLOPT_MEMBER
 };
 
-/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call it.
+/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call this
+/// function.
 const NloptCalls* nlopt_calls();
 
 }  // namespace batch

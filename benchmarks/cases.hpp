@@ -34,7 +34,7 @@ inline constexpr Case cases[] = {
     {"7.4 speed cascade", "thesis/7.4-speed-thesis-gains.toml", "", YardstickMode::speed, 100.0, 0.0, 0.0},
 };
 
-/// Cases that only the general kernel can run, and no yardstick.
+/// Cases that only the general kernel can run; no yardstick can run them.
 inline constexpr Case wider_cases[] = {
     {"G1 delta", "reference/G1.toml", "G1.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
     {"G6 salient rotor", "reference/G6.toml", "G6.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
@@ -65,7 +65,7 @@ class Prepared {
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
     return of(c, duration_s, false);
   }
-  /// The same for general_rig(), on the general kernel.
+  /// Like of(), for general_rig(): the case runs on the general kernel.
   static std::optional<Prepared> on_general(const Case& c) { return of(c, 0.0, true); }
   Rig rig() const {
     const auto& c = compiled_;

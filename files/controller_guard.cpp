@@ -60,7 +60,7 @@ void inside(const char* path, ControllerPlace place, const Work& work) {
   try {
     work(thread);
   } catch (const abi::__forced_unwind&) {
-    end_by_controller(thread, "ended its thread, as by pthread_exit()");
+    end_by_controller(thread, "ended its thread, for example by pthread_exit()");
   } catch (...) {
     end_by_controller(thread, "threw an exception");
   }

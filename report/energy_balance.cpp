@@ -42,7 +42,8 @@ struct Yardsticks {
   const char* parts;  ///< name of the energy `scale`
 };
 
-/// The value; zero if it is below 1e-20 of the largest entry, far less than any rounding error.
+/// The value; or zero if its magnitude is below 1e-20 of the largest entry, which is less than any rounding
+/// error.
 double unless_nothing(double joule, double largest) {
   return std::abs(joule) < 1e-20 * largest ? 0.0 : joule;
 }

@@ -43,8 +43,9 @@ std::string_view difference_unit(std::string_view unit);
 std::vector<std::string> computed_alike(const std::vector<std::optional<double>>& values,
                                         std::string_view unit);
 
-/// The deviation measured/reference - 1: "+1.3 %", from ten times on "x 14.6". If the reference is near zero
-/// or a temperature, the difference: "+0.02 A". Words if one of the numbers is not finite.
+/// The deviation measured/reference - 1 as text: "+1.3 %", or "x 14.6" if the ratio is ten or more. If the
+/// reference is near zero or is a temperature, the text is the difference: "+0.02 A". If one of the numbers
+/// is not finite, the text is in words.
 std::string deviation(double measured, double reference, std::string_view unit);
 
 /// A fraction in per cent with two digits: "97 %" for 0.97.

@@ -88,7 +88,7 @@ Group rotor_voltages(const Trace& trace) {
   return g;
 }
 
-/// The estimated angle of the magnet minus the true one.
+/// The estimated angle of the magnet minus the true angle.
 Group rotor_angle(const Trace& trace) {
   Group g{.id = "rotor-angle", .title = "Error of the magnet's angle", .unit = "deg", .height_px = 150};
   add(g, trace, "angle_error_deg", "error", "main");

@@ -95,7 +95,7 @@ double ahead_of_count(const Scenario& s, double shaft_deg, double asked_deg) {
   return from_index ? 360.0 * std::round((shaft_deg - asked_deg) / 360.0) : 0.0;
 }
 
-/// The whole run as a step, if there is no setpoint.
+/// The whole run as one step, for a run without a setpoint.
 Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
           .unit = "",

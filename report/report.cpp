@@ -49,7 +49,7 @@ std::string alerts(const ReportInput& in) {
         fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
                     escaped(given(in.outcome.simulated_s, "s")), escaped(given(in.scenario.duration_s, "s")));
   if (const std::string told = rows_told(in.trace); !told.empty())
-    html += fmt::format("<p class=\"quiet\">Of this run {}.</p>\n", escaped(told));
+    html += fmt::format("<p class=\"quiet\">For this run {}.</p>\n", escaped(told));
   return html;
 }
 

@@ -27,7 +27,7 @@ std::string cut_short(const Stretch& stretch) {
 std::string how(const Spectra& s) {
   const Lines& lines = s.all.front().lines;
   const std::string part = s.stretch.turns > 0 ? fmt::format("{} electrical turns", grouped(s.stretch.turns))
-                                               : std::string("stretch of one setpoint");
+                                               : std::string("part of the run with a constant setpoint");
   return fmt::format(
       "<p class=\"origin\">Amplitudes over the last {}, from {} to {}, with a Hann window and one line every {}. The frequency of a tone between two lines follows from both lines; a tone with a known cause has the frequency of this cause. The curve is first averaged over {}; its mean is not shown.</p>\n",
       part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),

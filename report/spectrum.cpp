@@ -175,7 +175,7 @@ Origin origin_of(double at, const Causes& causes) {
   constexpr long long highest_side = 12;
   const double electrical = static_cast<double>(causes.turns), periods = causes.periods;
   const bool turns = causes.turns > 0;
-  constexpr double near = 0.3;  // in lines: the frequency of a tone is more accurate than this, unless
+  constexpr double near = 0.3;  // in lines; the error of a tone's frequency is smaller, unless
                                 // another tone is close
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
@@ -199,7 +199,7 @@ Origin origin_of(double at, const Causes& causes) {
   const double switched = causes.switchings > 0.0 ? std::round(at / causes.switchings) : 0.0;
   const double off = std::abs(at - switched * causes.switchings);
   if (switched >= 1.0 && off <= near) return {times(switched, "switching"), switched * causes.switchings};
-  // At high orders every line is near some multiple.
+  // At high orders, every line is near a multiple by chance.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return {order == 1.0 ? "electrical, the fundamental" : times(order, "electrical"), order * electrical};
   if (switched >= 1.0 && off <= moves * causes.switchings)

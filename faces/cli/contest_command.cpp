@@ -259,7 +259,7 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--csv", a.csv, "write one line of CSV per controller; - writes to standard output");
   verb.add_option(
       "--html", a.html,
-      "write a page with pictures: the best controller by each figure, and each controller's response to the load");
+      "write a page with pictures: the best controller for each figure, and each controller's response to the load");
   verb.add_option("--write", a.write, "a folder for the scenario of each controller, for sixstep run");
   take_force(verb, a.force);
   take_data(verb, a.data_dir);
@@ -271,7 +271,7 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
 
 Verb declare_contest(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand(
-      "compare", "controllers of one motor, each designed by its rule, side by side on one course");
+      "compare", "compare controllers of one motor on one course; each is designed by its own rule");
   const auto a = std::make_shared<ContestArguments>();
   declare_options(verb, *a);
   return {&verb, calling(contest_command, a)};

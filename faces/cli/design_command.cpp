@@ -146,7 +146,8 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with")) w.cure += ", tried without the limits of the board's drive";
-  // A sensorless drive keeps its loops' verdict although the written file lacks the drive's commutation.
+  // This warning does not change the verdict of a sensorless drive: the verdict is about the loops, and only
+  // the drive's commutation is missing in the written file.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
     warn("the designed file keeps " + carried.kept + " of the board's scenario, so that its run shows " +
@@ -156,7 +157,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
     warn("the design does not use these keys of the board's scenario: " + keys, false);
   if (const std::string course = analysis::replaced(*board, carried.scenario);
       writes_scenario && !course.empty()) {
-    const std::string what = " the design's own test in place of the board's " + course;
+    const std::string what = " the design's test in place of the board's " + course;
     carried.scenario.notes = "Run with" + what;
     warn("the designed file has" + what +
              "; to export a header, write the gains into the board's scenario and export it",

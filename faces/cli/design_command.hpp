@@ -10,7 +10,8 @@ namespace cli {
 /// The words of --method.
 inline constexpr base::Choice<design::GainMethod> method_choices[] = {
     {"pole-placement", design::GainMethod::pole_placement, "a pair of poles from settling time and damping"},
-    {"cancellation", design::GainMethod::cancellation, "the PI's zero on the plant's pole, bandwidth free"},
+    {"cancellation", design::GainMethod::cancellation,
+     "the PI's zero cancels the plant's pole; the bandwidth is free"},
     {"symmetrical-optimum", design::GainMethod::symmetrical_optimum,
      "speed loop: the largest phase margin for the lag of the current loop"},
 };

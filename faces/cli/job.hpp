@@ -47,7 +47,8 @@ class Job {
   /// run, a message if an output does not contain it. Empty otherwise.
   std::string foretold() const;
   std::string left_out() const;
-  /// The message about an interrupted run: the time, and the files with its results. Empty otherwise.
+  /// The message about an interrupted run: it states the reached time and the files with the results. Empty
+  /// if the run was not interrupted.
   std::string cut_short() const;
 
  private:

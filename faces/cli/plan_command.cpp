@@ -112,7 +112,7 @@ class MadePlan {
     const analysis::Plan& p = plan_.scenarios->plan();
     beyond_ = 0;
     const base::Problems unread = store_.each([&](const analysis::RunRecord& record) {
-      // the row belongs to an earlier call with more runs
+      // The row belongs to an earlier call with more runs.
       if (record->number >= analysis::runs_of(p)) return void(++beyond_);
       analysis::RunValues values = *record;
       values.point = analysis::point_of_run(p, record->number);

@@ -9,8 +9,8 @@ namespace cli {
 
 /// Lets a termination signal remove temporary files and end the program at once.
 void take_stop_signals();
-/// Lets a termination signal stop the runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once.
-/// Every verb calls it that must remove more than temporary files.
+/// Lets a termination signal stop the runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once. A
+/// verb calls this function if it must remove more than temporary files.
 void catch_interrupts();
 
 bool interrupted();
@@ -27,7 +27,7 @@ Exit told_interrupted(const std::string& what, const std::string& kept = "");
 Exit ended_as_asked(Exit exit);
 
 /// The exit code of a verb that has returned. After an interrupt it is never success, because the result may
-/// be incomplete. Also reports the interrupt if the verb has not.
+/// be incomplete. Reports the interrupt if the verb has not reported it.
 Exit exit_after_stop(Exit exit);
 
 }  // namespace cli

@@ -96,8 +96,8 @@ struct UnitParts {
   std::optional<files::ZipEntry> controller;
 };
 
-/// modelDescription.xml is the first entry and uncompressed: the program recognises its units by the
-/// beginning of the file.
+/// modelDescription.xml is the first entry and uncompressed: by these first bytes, the program recognises a
+/// unit that it has written.
 std::string archive_of(const UnitParts& parts, int fmi) {
   const std::string folder = fmi == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
   std::vector<files::ZipEntry> entries = {

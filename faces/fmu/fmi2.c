@@ -283,13 +283,13 @@ static fmi2Status no_status(fmi2Component c, const char* message) {
 
 fmi2Status FMI2(GetStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Status* value) {
   if (!has_status(c, "fmi2GetStatus", value)) return fmi2Error;
-  if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus: has fmi2DoStepStatus only");
+  if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus: accepts only fmi2DoStepStatus");
   *value = ((instance*)c)->stepped;
   return fmi2OK;
 }
 fmi2Status FMI2(GetRealStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Real* value) {
   if (!has_status(c, "fmi2GetRealStatus", value)) return fmi2Error;
-  if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus: has fmi2LastSuccessfulTime only");
+  if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus: accepts only fmi2LastSuccessfulTime");
   *value = ((instance*)c)->unit.state.now_s;
   return fmi2OK;
 }
@@ -299,13 +299,13 @@ fmi2Status FMI2(GetIntegerStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Inte
 }
 fmi2Status FMI2(GetBooleanStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Boolean* value) {
   if (!has_status(c, "fmi2GetBooleanStatus", value)) return fmi2Error;
-  if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus: has fmi2Terminated only");
+  if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus: accepts only fmi2Terminated");
   *value = ((instance*)c)->unit.state.phase == DRIVE_STEP_FAILED;
   return fmi2OK;
 }
 fmi2Status FMI2(GetStringStatus)(fmi2Component c, fmi2StatusKind kind, fmi2String* value) {
   if (!has_status(c, "fmi2GetStringStatus", value)) return fmi2Error;
-  if (kind != fmi2PendingStatus) return no_status(c, "fmi2GetStringStatus: has fmi2PendingStatus only");
+  if (kind != fmi2PendingStatus) return no_status(c, "fmi2GetStringStatus: accepts only fmi2PendingStatus");
   *value = "";
   return fmi2OK;
 }

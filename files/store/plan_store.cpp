@@ -24,8 +24,8 @@ constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL
 }  // namespace
 
 /// Rows are queued for the writer thread, which writes all queued rows in one transaction. The queue contains
-/// few rows if runs are long, and many rows if runs are short. If the program is killed, only rows are lost
-/// that rows() does not count yet.
+/// few rows if runs are long, and many rows if runs are short. If the program is killed, it loses only the
+/// rows that rows() does not yet count.
 struct PlanStore::Inside {
   static constexpr std::size_t most_waiting = 4096;
 
@@ -155,8 +155,8 @@ Standing standing_at(const std::string& path) {
   return begin.starts_with("SQLite format 3") && id == store_mark ? Standing::store : Standing::other;
 }
 
-/// Whether the file remains of a program that was killed while it created a store. All tables are created in
-/// one transaction, so such a file is empty after SQLite's recovery. A damaged store still contains pages.
+/// Whether a program was killed while it created the store in this file. All tables are created in one
+/// transaction, so such a file is empty after SQLite's recovery. A damaged store still contains pages.
 bool was_killed_at_birth(const std::string& path) {
   base::Result<Database> db = Database::open(path);
   base::Result<Statement> pages =

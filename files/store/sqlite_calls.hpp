@@ -22,7 +22,8 @@ struct SqliteCalls {
 #undef SIXSTEP_SQLITE_MEMBER
 };
 
-/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call it.
+/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call this
+/// function.
 const SqliteCalls* sqlite_calls();
 
 /// Requires that sqlite_calls() was not null before: a handle of a database exists.

@@ -202,13 +202,15 @@ TEST(ForeignMotor, HostileFilesAreNoMotor) {
   EXPECT_THAT(told(with(odrive(), "2.02e-05", "20.2")),
               HasSubstr("a time constant L/R of 1.08e+03 s, and no motor has this time constant"));
   // Nothing of a motor, binary, another program's.
-  EXPECT_THAT(told("<MCConfiguration>\n<l_current_max>60</l_current_max>\n</MCConfiguration>"),
-              HasSubstr("has no value of a motor that is known: VESC Tool has si_motor_poles, foc_motor_r"));
+  EXPECT_THAT(
+      told("<MCConfiguration>\n<l_current_max>60</l_current_max>\n</MCConfiguration>"),
+      HasSubstr(
+          "contains no known value of a motor: the values of VESC Tool are si_motor_poles, foc_motor_r"));
   EXPECT_THAT(told(std::string("\x7f"
                                "ELF\0\1\2",
                                7)),
-              HasSubstr("is no parameter file that is known"));
-  EXPECT_THAT(told(""), HasSubstr("is no parameter file that is known"));
+              HasSubstr("is not a known parameter file"));
+  EXPECT_THAT(told(""), HasSubstr("is not a known parameter file"));
   EXPECT_THAT(told(std::string("<MCConfiguration>\0\xff\xfe", 20)), HasSubstr("ends before"));
 }
 

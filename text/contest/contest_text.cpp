@@ -41,8 +41,8 @@ std::string controller_name(const Contest& c, std::size_t row) {
   return std::string(c.entries[row].who->name);
 }
 
-/// Returns the figures of a row: of the nominal drive (nominal_of), or the worst of all drives (worst_of).
-/// Null if the row has no such figures.
+/// Returns the figures of a row: the figures of the nominal drive (nominal_of), or the worst figures of all
+/// drives (worst_of). Null if the row has no such figures.
 using FiguresOf = const ContestValues* (*)(const ContestRow& row);
 const ContestValues* nominal_of(const ContestRow& row) { return &row.values; }
 const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.worst : nullptr; }
@@ -248,8 +248,8 @@ std::string compared_controllers(const Contest& c) {
 }
 
 std::string contest_text(const Contest& c) {
-  std::string text =
-      fmt::format("{}: {}, designed by rule for\n", visible(c.bench.scenario.motor), compared_controllers(c));
+  std::string text = fmt::format("{}: {}, each designed by its rule for\n", visible(c.bench.scenario.motor),
+                                 compared_controllers(c));
   for (const std::string& rule : c.bench.rules) text += "  - " + rule + "\n";
   for (const ContestTable& one : contest_tables(c)) {
     text += one.title.empty() ? "\n" : "\n" + one.title + "\n\n";

@@ -35,8 +35,8 @@ struct ContestTable {
   std::string title;  ///< title above the first table of a pair; it names the drives of the pair
   std::vector<std::vector<std::string>> rows;
 };
-/// Tables of the nominal drive, and of the worst drives if a series was run. Each pair has one table for
-/// speed changes and one for steady state.
+/// The tables of the nominal drive. If a series was run, also the tables of the worst drives. Each of the two
+/// pairs has one table for speed changes and one for steady state.
 std::vector<ContestTable> contest_tables(const analysis::Contest& contest);
 
 /// Explains the marks and heads of the tables, one line each.

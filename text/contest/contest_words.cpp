@@ -73,8 +73,8 @@ std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   return fmt::format("{} and {}", fmt::join(names, "; "), last);
 }
 
-/// The rows that share a figure: "a; b and c share". If more than four rows share the figure and fewer rows
-/// do not, the other rows are named: "all but d and e share".
+/// The rows that share a figure, as text: "a; b and c share". If more than four rows share the figure, and
+/// fewer rows do not share it, the text names the rows that do not: "all but d and e share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
   std::vector<std::size_t> others;
@@ -98,11 +98,11 @@ bool is_alone(const Contest& c, std::size_t figure) {
 }
 
 /// Sentences about the figures in which one controller clearly leads, and about the figures that several
-/// share: "NAME has these least values: rms torque ripple (1.2 mN m, the next 2.3 times)."
+/// controllers share: "NAME has these least values: rms torque ripple (1.2 mN m, the next 2.3 times)."
 std::vector<std::string> winners(const Contest& c) {
   std::vector<std::vector<std::string>> wins(c.rows.size());
   std::map<std::vector<std::size_t>, std::vector<std::string>>
-      even;  // key: the controllers that share these figures
+      even;  // the figures that several controllers share; key: these controllers
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))

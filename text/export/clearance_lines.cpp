@@ -98,7 +98,7 @@ std::string rotor(const study::Sensors& s) {
   if (s.rotor != RotorSensing::hall) return shaft_sensor_words(s, SensorWordsOf::header, plain);
   const std::string over = s.speed_edges > 0
                                ? fmt::format("speed over {} edges", s.speed_edges)
-                               : "speed over six edges where the loop tolerates their delay, else one";
+                               : "speed over six edges if the loop tolerates their delay, else over one edge";
   const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
                         s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
   const bool runs_on = s.hall_angle != sixstep::rig::HallAngleFrom::sectors;

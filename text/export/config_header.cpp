@@ -20,7 +20,8 @@ namespace {
 namespace control = sixstep::control;
 
 std::string proof(const std::vector<design::Headroom>& rows) {
-  std::string text = "//\n// Fixed point: what each quantity may reach and where the format ends, in SI\n";
+  std::string text =
+      "//\n// Fixed point: largest value of each quantity, and largest value of the format, in SI\n";
   for (const design::Headroom& row : rows)
     if (row.largest != 0)
       text += fmt::format("//   {:<28}{:>12.6g} of {:.6g}\n", row.name, row.largest, row.full_scale);
@@ -54,17 +55,17 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
   if (clearance && clearance->needs_sink)
     bridge += std::string(c.product ? " whose" : ", and whose") + " supply takes current back";
   return constant("bool", "cleared", flag(cleared),
-                  cleared ? bridge + ", by its run" : "NOT for a bridge: static_assert on it") +
+                  cleared ? bridge + ", by its run" : "NOT for a bridge: refuse it by a static_assert") +
          constant("std::uint8_t", "pole_pairs",
                   std::to_string(static_cast<int>(c.believed.motor.machine.pole_pairs)),
-                  "electrical turns per mechanical one") +
+                  "electrical turns per mechanical turn") +
          sensor_offset(c) +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
                   us(static_cast<double>(m.period_ticks)) + ", and the period of the control tick") +
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
                   "true: centred pulse; false: pulse at the period's start") +
          constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead),
-                  dead > 0 ? us(dead) : "none: not for an image") +
+                  dead > 0 ? us(dead) : "none: an image needs a dead time") +
          (c.field ? ""
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
                              "true: at the sample; false: in the Hall interrupt")) +
@@ -185,8 +186,8 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
           stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
-/// Problems of a stated range that the scenario itself exceeds: the proof would then not apply to the drive
-/// of the run.
+/// Problems of a stated range that is smaller than the scenario's own range: the proof would then not apply
+/// to the drive of the run.
 base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange least = study::least_range(w.scenario, c);
   base::Problems problems;

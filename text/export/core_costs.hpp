@@ -36,8 +36,8 @@ inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s 
 /// stop; empty if there are none.
 std::string too_short_for_images(double period_s);
 
-/// The notes of too_short_for_images() and other_than_stm32_image(), for a header's comment and the terminal:
-/// a sentence each without its full stop.
+/// The notes of too_short_for_images() and other_than_stm32_image(), for a header's comment and the terminal.
+/// Each note is a sentence without its full stop.
 std::vector<std::string> notes_for_images(const study::Scenario& scenario);
 
 /// Lines of // comment.

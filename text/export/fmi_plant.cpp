@@ -108,10 +108,10 @@ void add_pair(PlantVariables& plant) {
   plant.input(integer, "sink", "", "leg whose lower switch carries the current back; another leg than source",
               1.0);
   plant.input(integer, "chopping", "", "off part of the period: 0 soft, 1 hard, 2 complementary");
-  plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper one, 1 the lower one");
+  plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper switch, 1 the lower switch");
   plant.input(real, "duty", "1", "duty, 0 to 1");
   plant.input(real, "overlap", "1",
-              "-1 to 1: duty of the third leg's upper switch; below 0: of its lower one");
+              "-1 to 1: duty of the third leg's upper switch; below 0: of its lower switch");
 }
 
 void add_legs(PlantVariables& plant) {

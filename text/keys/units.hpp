@@ -26,8 +26,8 @@ using Dimension = std::array<int, 11>;
 /// Standard gravity in m/s2, which defines the pound-force and the kilogram-force.
 inline constexpr double standard_gravity = 9.80665;
 
-/// A value x in this unit is x * `factor` * 10^ten in SI. The power of ten is separate, because it costs no
-/// rounding.
+/// A value x in this unit is x * `factor` * 10^ten in SI. The power of ten is a separate member, because
+/// conversion() applies it to the decimal text without a rounding error.
 struct Unit {
   Dimension dimension{};
   int ten = 0;

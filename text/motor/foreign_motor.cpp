@@ -61,7 +61,9 @@ class ForeignMotor {
                                      .limit = fmt::format("answers no question of {}", file_),
                                      .cure = "leave it out"}));
     if (problems_.empty() && taken_ == 0)
-      tell(0, fmt::format("has no value of a motor that is known: {} has {}", tool_.name, known_words()),
+      tell(0,
+           fmt::format("contains no known value of a motor: the values of {} are {}", tool_.name,
+                       known_words()),
            "name the file that the program saved");
     if (!problems_.empty()) return problems_;
     return head(name) + body_;
@@ -69,7 +71,7 @@ class ForeignMotor {
 
  private:
   const ForeignWord* find(std::string_view word) const {
-    // The last assignment counts, as in the other program.
+    // If a key is assigned several times, the last assignment counts, as in the other program.
     const ForeignWord* found = nullptr;
     for (const ForeignWord& w : words_)
       if (!word.empty() && w.name == word && (!part_ || w.part == *part_)) found = &w;
@@ -121,12 +123,12 @@ class ForeignMotor {
     const bool formula = !x && tool_.kind == ForeignKind::matlab;
     if (x && *x > 0.0) return x;
     if (formula && word->value.find_first_of("(*+") != std::string::npos) {
-      body_ += wrapped_comment(fmt::format("{}: {} is a formula, which is not taken over: {}", tool_.name,
+      body_ += wrapped_comment(fmt::format("{}: {} is a formula, which is not read: {}", tool_.name,
                                            word->name, bounded(visible(word->value), 100)));
       return {};
     }
     tell(word->line, fmt::format("{} = {} must be a number above 0", word->name, bounded(word->value, 100)),
-         "mend it in the file");
+         "correct it in the file");
     return {};
   }
 
@@ -162,7 +164,8 @@ class ForeignMotor {
       if (!x || !in_range(*word, row.key, *x)) continue;
       const double pairs = row.key == "poles" ? *x / 2 : *x;
       if (pairs != std::floor(pairs)) {
-        tell(word->line, fmt::format("{} = {} is odd", word->name, ten_digits(*x)), "poles come in pairs");
+        tell(word->line, fmt::format("{} = {} is odd", word->name, ten_digits(*x)),
+             "give the number of poles, which is even");
         continue;
       }
       pairs_ = checked_by_encoder(*word, pairs);
@@ -258,7 +261,7 @@ class ForeignMotor {
       return tell(difference->line,
                   fmt::format("{} = {} must be below twice {}", difference->name,
                               bounded(difference->value, 100), mean.name),
-                  "mend it in the file");
+                  "correct it in the file");
     if (half == 0.0) return add_inductance("inductance_uH", mean, L, mean.name);
     add_inductance("d_axis_inductance_uH", mean, L - half,
                    fmt::format("{} - {}/2", mean.name, difference->name));
@@ -329,7 +332,7 @@ base::Result<std::string> motor_of_foreign_file(const std::string& file, std::st
     return bounded(
         {.where = file,
          .value = {},
-         .limit = "is no parameter file that is known",
+         .limit = "is not a known parameter file",
          .cure = "give a VESC motor configuration (XML), an ODrive or moteus configuration, a SimpleFOC "
                  "sketch with its BLDCMotor, or MATLAB's struct of a motor"});
   base::Result<ForeignWords> words = foreign_words(kind, text);

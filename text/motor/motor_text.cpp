@@ -221,7 +221,7 @@ std::string verdict_line(const SheetCheck& check) {
                                  : doubted > 0     ? "not contradictory"
                                                    : "consistent",
                                  holds, check.relations.size());
-  if (known > 0) text += fmt::format(", {} broken as the file says", known);
+  if (known > 0) text += fmt::format(", {} broken, as the file states", known);
   if (doubted > 0) text += fmt::format(", {} in doubt", doubted);
   if (broken > 0) text += fmt::format(", {} broken", broken);
   return text;

@@ -64,7 +64,7 @@ std::string torque_text(double Nm, const Units& u, int digits = 4) {
   return fmt::format("{} {}", significant(Nm * u.torque.factor, digits), u.torque.name);
 }
 
-/// The winding's result if the motor stays at the point: a final temperature, or a permissible time.
+/// The thermal result of a point at which the motor stays: a final temperature, or a permissible time.
 std::string warming(const analysis::Warming& w) {
   if (!w.permissible_s) return fmt::format("{} degC", fixed(*w.winding_degC, 0));
   const double s = *w.permissible_s;

@@ -188,8 +188,8 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
       d.spec.chopping == sixstep::control::Chopping::complementary ? "the current reverses within each period"
                                                                    : "the current is discontinuous");
   const Motion motion = sixstep::design::motion_of(d.motor);
-  // Speeds of rotary motors are in the hundreds. Speeds of linear motors are around 1 and need digits after
-  // the point.
+  // The speeds of rotary motors are hundreds of rad/s. The speeds of linear motors are about 1 m/s and need
+  // digits after the point.
   const auto speed = [&](double w, int decimals) {
     return motion.linear ? fmt::format("{:.4g}", w) : fmt::format("{:.{}f}", w, decimals);
   };

@@ -63,7 +63,8 @@ std::string simulated_text(const analysis::DesignStudy& s) {
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& told : s.outcome.comparisons) {
     const study::ComparisonResult c = as_shown(told, s.scenario);
-    // A design value for a drive "without" limits or commutation is only a bound for this drive.
+    // If the source of a design value contains "without" (limits, commutation), the value is only a bound for
+    // this drive.
     const bool same = c.source.find("without") == std::string::npos;
     rows.add({c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit),
               same ? deviation_text(c) : "", c.source});

@@ -20,7 +20,7 @@ using analysis::EmfHarmonic;
 using analysis::EmfResult;
 using analysis::Interval;
 
-/// Harmonics below this limit do not matter: a drive with this shape behaves as with a sine.
+/// Relative size below which harmonics do not matter: a drive with this shape behaves as with a sine.
 constexpr double as_good_as_none = 0.01;
 constexpr std::size_t most_listed = 5;  // limit of the list harmonic_orders
 constexpr int highest_listed = 23;

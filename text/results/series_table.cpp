@@ -109,7 +109,7 @@ bool stopped(std::size_t number, const analysis::Series& series) {
                      [number](const analysis::Casualty& c) { return c.number == number; });
 }
 
-/// The requirement with the least margin if all hold. The margin counts as a fraction of the limit, or of
+/// The requirement with the least margin if all requirements hold. The margin is relative to the limit, or to
 /// half the distance between two limits. A temperature's limit counts from the ambient temperature on.
 const analysis::SpreadFigure* closest_of(const analysis::Series& series) {
   const analysis::SpreadFigure* closest = nullptr;

@@ -114,7 +114,7 @@ class RowsOf {
     return false;
   }
 
-  /// A recorded trace decays exponentially, without end: values near zero become 0.
+  /// A recorded trace decays exponentially and never reaches 0: values near zero become 0.
   static double not_nearly(double x) { return std::fabs(x) < base::nearly_nothing ? 0.0 : x; }
 
   base::Problem at_line(std::size_t line, std::string limit, std::string cure) const {

@@ -10,7 +10,7 @@
 namespace text {
 
 struct StarterOptions {
-  std::string file;   ///< the future file's name, for the commands in its head
+  std::string file;   ///< name of the file to be written, for the commands at its beginning
   bool full = false;  ///< true: all keys; false: only the keys of a first scenario
 };
 
@@ -19,7 +19,7 @@ struct StarterOptions {
 /// reads back as the same scenario, to the bit.
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options);
 
-/// A note on the source of the file's numbers; empty if no note is required.
+/// A note on the source of the file's numbers; empty if the numbers need no note.
 std::string starter_note(const study::Scenario& scenario);
 
 }  // namespace text

@@ -23,12 +23,12 @@
 //   timing    sampled in the middle of a period, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 1e+06 Hz, speed over six edges if the loop tolerates their delay, else over one edge
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets constant at 25 degC
 //
-// Fixed point: what each quantity may reach and where the format ends, in SI
+// Fixed point: largest value of each quantity, and largest value of the format, in SI
 //   current                               10 of 19.9994
 //   current reference with band            5 of 19.9994
 //   current error                         15 of 19.9994
@@ -75,7 +75,7 @@ inline constexpr sixstep::control::Units<Scalar> units{
 };
 
 inline constexpr bool cleared = true;                                     // for a bridge that your firmware protects, and whose supply takes current back, by its run
-inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
+inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical turn
 inline constexpr std::uint64_t pwm_period_ps = 100000000;                 // 100 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = true;                          // true: centred pulse; false: pulse at the period's start
 inline constexpr std::uint64_t dead_time_ps = 1000000;                    // 1 us

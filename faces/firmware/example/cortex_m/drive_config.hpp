@@ -29,7 +29,7 @@
 //   timing    sampled at a period's start, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 12 bits over +-33 A
 //   bus       12 bits over 52.8 V
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges if the loop tolerates their delay, else over one edge
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
 //   heat      winding and magnets constant at 25 degC
@@ -71,7 +71,7 @@ inline constexpr sixstep::control::Units<Scalar> units{
 };
 
 inline constexpr bool cleared = true;                                     // for a bridge, by its run
-inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
+inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical turn
 inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = false;                         // true: centred pulse; false: pulse at the period's start
 inline constexpr std::uint64_t dead_time_ps = 500000;                     // 0.5 us
