@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_bits.sh          builds tests/digest with every toolchain at hand, runs it, and compares with expected.txt
+# check_bits.sh          builds tests/digest with every installed toolchain, runs it, and compares with expected.txt
 # check_bits.sh --all    the same, and a missing toolchain is a failure (ctest --preset long)
-# check_bits.sh --gate   only WebAssembly, also at -O1: another compiler (clang) and another machine. The tests use g++ at -O3,
+# check_bits.sh --gate   only WebAssembly, also at -O1, as another compiler (clang) and another machine. The tests use g++ at -O3,
 #                        and under the sanitizers at -O1 and -O0; aarch64 is in the long run
 # check_bits.sh --renew  writes expected.txt anew from g++ -O3, after an intended change of bits
 #

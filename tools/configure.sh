@@ -12,7 +12,7 @@ if [ -n "$home" ] && ! [ "$home" -ef . ]; then
   echo "$build was made for $home, not for this copy of it: making it anew"
   rm -rf "$build"
 fi
-# A parts' list that has not changed since the last look brings nothing new.
+# If the list of installed parts has not changed since the last configuration, nothing is searched.
 parts=/var/lib/dpkg/status looked=$build/looked-for-parts
 newer() { [ ! -e "$parts" ] || [ ! -e "$looked" ] || [ "$parts" -nt "$looked" ]; }
 lacks() { grep -q -- '-NOTFOUND$' "$build/CMakeCache.txt" 2>/dev/null; }

@@ -15,7 +15,7 @@ USUAL = ["--valid", "100000", "--hostile", "1000000", "--seed", "new"]
 
 page = ROOT / "docs/explanation/drawn-scenarios.md"
 drawn = subprocess.run([PROGRAM, *(sys.argv[1:] or USUAL)], stdout=subprocess.PIPE, text=True)
-block = f"begin -->\n## As of {datetime.date.today()}\n\n{drawn.stdout.strip()}\n<!-- end -->"
+block = f"begin -->\n## Results of {datetime.date.today()}\n\n{drawn.stdout.strip()}\n<!-- end -->"
 text, found = re.subn(r"begin -->.*<!-- end -->", lambda _: block, page.read_text(), flags=re.S)
 assert found == 1, "the page has lost its markers"
 page.write_text(text)

@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGES = ROOT / "docs/reference/keys"
 OVERRIDE = "motor_override."
-LONG = 12  # more words than this do not go into a table's cell
+LONG = 12  # largest number of words in a table's cell
 HEAD = """# Scenario and motor files: all keys
 
 Which keys can a scenario or a motor file have, in which units and ranges? For everybody who writes such a file. In the terminal,

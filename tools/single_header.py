@@ -31,7 +31,7 @@ def ordered(root: pathlib.Path) -> list[str]:
         order.append(path)
 
     for part in sorted((root / FOLDER).rglob("*.hpp")):
-        if part.parent.name == "own":  # the door for who runs sixstep: no firmware passes it
+        if part.parent.name == "own":  # the interface of users' controllers, which firmware does not include
             continue
         visit(part.relative_to(root).as_posix())
     return order

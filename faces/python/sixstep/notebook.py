@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .result import Result
 
 WIDTH, HEIGHT, BINS = 720, 150, 300
-SHOWN_RUNS = 20  # of a sweep
+SHOWN_RUNS = 20  # largest number of a sweep's runs that are shown
 USUAL = ("speed_rad_s", "speed_m_s", "i_a_A", "torque_Nm", "force_N")
 
 
