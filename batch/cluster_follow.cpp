@@ -60,7 +60,8 @@ class Hand {
     return answers_.extract(number).mapped();
   }
 
-  /// The leader's exit code, if the dismissal arrived during the plan.
+  /// Executes the plan's runs and exchanges messages with the leader until the plan ends. Returns the
+  /// leader's exit code if the leader dismissed this process during the plan; else empty.
   std::optional<int> work(const Prepare& prepare, const std::function<bool()>& told_to_end) {
     PlanRuns runs{.plan = begin_.plan,
                   .columns = std::make_shared<const analysis::PlanColumns>(begin_.columns),

@@ -91,7 +91,7 @@ class Handout {
   bool over_ = false;
 };
 
-/// The leader's threads. They are ended and joined if another part of the leader's work fails.
+/// The leader's threads. The destructor ends and joins them, also if another part of the leader's work fails.
 class Crew {
  public:
   Crew(const PlanRuns& runs, Handout& handout) : handout_(handout), thread_([this, runs] { work(runs); }) {}

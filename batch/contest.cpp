@@ -36,7 +36,8 @@ base::Result<study::Outcome> traced(study::Scenario scenario, const std::stop_to
   return study::run(scenario, listeners);
 }
 
-/// Runs a drive through the low speeds, from the highest of them down.
+/// Runs a drive at the low speeds, from the highest low speed down. Returns the lowest speed that the drive
+/// holds.
 std::optional<double> lowest_of(const study::Scenario& scenario, const analysis::ContestBench& bench,
                                 const std::stop_token& stop) {
   const study::Listeners listeners{.keep_going = [&stop](double) { return !stop.stop_requested(); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// NLopt's functions. The library is loaded when a search begins, because every other command would pay for loading
-// it.
+// NLopt's functions. The library is loaded when a search begins, because loading it would delay every other
+// command.
 #pragma once
 #include <nlopt.h>
 
@@ -15,14 +15,15 @@ namespace batch {
 // clang-format on
 
 struct NloptCalls {
-// A declaration cannot stand in parentheses.
+// A declaration cannot be in parentheses.
 // NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define SIXSTEP_NLOPT_MEMBER(name) decltype(&nlopt_##name) name = nullptr;
   SIXSTEP_NLOPT_CALLS(SIXSTEP_NLOPT_MEMBER)
 #undef SIXSTEP_NLOPT_MEMBER
 };
 
-/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call it.
+/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call this
+/// function.
 const NloptCalls* nlopt_calls();
 
 }  // namespace batch

@@ -18,9 +18,9 @@ namespace batch {
 struct PlanRuns {
   const analysis::Plan& plan;
   analysis::TableColumns columns;
-  /// The scenario of run n; Problems become the run's row. Several threads call it at the same time.
+  /// Returns the scenario of run n; Problems become the run's row. Several threads call it at the same time.
   std::function<base::Result<analysis::PlannedRun>(std::size_t n)> scenario;
-  /// Whether run n is to be made; empty: all runs are. Several threads call it at the same time.
+  /// Returns true if run n is to be made; empty: all runs are made. Several threads call it at the same time.
   std::function<bool(std::size_t n)> wanted;
   /// Receives each row when its run ends, in any order; several threads call it at the same time.
   std::function<void(analysis::RunRecord&&)> take;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joins the cluster that mpirun or srun starts. Uses MPI if the build contains it (SIXSTEP_MPI). Without MPI,
-// a process of several reports a Problem. A process can initialise MPI only once, so each function is called
-// only once.
+// a process that was started together with other processes reports a Problem. A process can initialise MPI
+// only once, so each function is called only once.
 #pragma once
 #include <string>
 

@@ -20,9 +20,9 @@ struct Case {
   const char* scenario;
   const char* trajectory;  ///< file in tests/reference; empty: none
   YardstickMode mode;
-  double reference, reverse_s;  ///< of the yardsticks; the sign of the reference is reversed every reverse_s,
-                                ///< if above 0
-  double judged_s;              ///< the errors are computed up to this time
+  double reference,
+      reverse_s;  ///< reference of the yardsticks; its sign is reversed every reverse_s if reverse_s is above 0
+  double judged_s;  ///< the errors are computed up to this time
 };
 
 /// In R6, a Hall edge is 0.25 us after the tick at 13.26 ms. With a fixed step, the edge is before or after
@@ -34,7 +34,7 @@ inline constexpr Case cases[] = {
     {"7.4 speed cascade", "thesis/7.4-speed-thesis-gains.toml", "", YardstickMode::speed, 100.0, 0.0, 0.0},
 };
 
-/// Cases that only the general kernel can run, and no yardstick.
+/// Cases that only the general kernel can run; no yardstick can run them.
 inline constexpr Case wider_cases[] = {
     {"G1 delta", "reference/G1.toml", "G1.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
     {"G6 salient rotor", "reference/G6.toml", "G6.csv", YardstickMode::duty, 0.0, 0.0, 1.0},
@@ -65,7 +65,7 @@ class Prepared {
   static std::optional<Prepared> of(const Case& c, double duration_s = 0.0) {
     return of(c, duration_s, false);
   }
-  /// The same for general_rig(), on the general kernel.
+  /// Like of(), for general_rig(): the case runs on the general kernel.
   static std::optional<Prepared> on_general(const Case& c) { return of(c, 0.0, true); }
   Rig rig() const {
     const auto& c = compiled_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the leader's work for each row from another process of a cluster: it reads the row from a message
 // and writes it into the store. The inverse of the rate is the processor time per row, which limits the rate
-// of rows of all nodes together (docs/howto/use-a-cluster.md). The rows are those of
+// of rows of all nodes together (docs/howto/use-a-cluster.md). The rows have the columns of
 // data/scenarios/current-square-series.toml: four values of the spread, two figures.
 //
 //   build/dev/benchmarks/cluster_benchmark

@@ -15,7 +15,7 @@ namespace {
 using namespace sixstep;
 
 using Sensed = rig::SensedDrive<double>;
-/// A rig calls registers() if it exists. Deleted, the rig has no converters.
+/// A rig calls registers() if it exists. This class deletes registers(), so that the rig has no converters.
 struct WithoutConverters : Sensed {
   using Sensed::Sensed;
   void registers() = delete;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the possible gain of SIMD lanes for batches: the Taylor recurrence of one motor, and of 2, 4 and 8
-// independent motors in the lanes of a vector, segment after segment, each from the end of the previous
-// segment. All lanes have the same segments and the same degree, which real runs do not have: each run has
-// its own events, connected legs and degree. The result is therefore an upper bound, and only for the
-// recurrence.
+// Measures the possible gain of SIMD lanes for batches. It computes the Taylor recurrence of one motor, and
+// of 2, 4 and 8 independent motors in the lanes of a vector. Each segment begins at the end of the previous
+// segment. All lanes have the same segments and the same degree. In real runs, each run has its own events,
+// connected legs and degree. The result is therefore an upper bound, and only for the recurrence.
 //
 // It is built with the project's flags and, on x86-64, also for AVX2 and AVX-512:
 //   build/dev/benchmarks/lanes_benchmark{,_avx2,_avx512}

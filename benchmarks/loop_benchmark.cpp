@@ -17,8 +17,8 @@ namespace {
 
 using namespace sixstep;
 
-/// Runs the scenario on the core. The emulator is started before each run and is not timed, because the core
-/// is in the state of its start.
+/// Runs the scenario on the core. A new emulator is started before each run, because a core keeps its state.
+/// The start is not timed.
 void lock_step(benchmark::State& state, const loop::Core& core, const char* file) {
   const base::Result<study::Scenario> scenario =
       files::read_scenario(std::string(SIXSTEP_SOURCE_DIR "/tests/target/scenarios/") + file,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures a run without an observer, and a run with the observers of every run. They are in a separate file:
-// other code in the same file would change which functions of the engine the compiler inlines, and thereby
-// the figure with which all others are compared.
+// Measures a run without an observer, and a run with the observers of every run. They are in a separate file,
+// because other code in the file would change which functions the compiler inlines. The run without an
+// observer is the reference of all other figures.
 #include "benchmarks/observers.hpp"
 #include "sixstep/plant/audit.hpp"
 #include "sixstep/study/measure/digest.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain yardstick, as a competent user writes it: the equations in phase quantities, one function for the
-// derivatives with if statements for switches and diodes, the back-EMF from a table over the electrical turn,
-// and the classic fourth-order Runge-Kutta method with a fixed step. Currents of diodes that have stopped are
-// set to zero. It includes the free phase that starts to conduct. It is neither optimised nor slowed down.
-// Its possible cost: docs/explanation/performance.md.
+// The plain yardstick, as a competent user writes it. It has the equations in phase quantities, one function
+// for the derivatives with if statements for switches and diodes, and the back-EMF from a table over the
+// electrical turn. The method is the classic fourth-order Runge-Kutta with a fixed step. Currents of diodes
+// that have stopped are set to zero. A free phase can start to conduct. The program is neither optimised nor
+// slowed down; docs/explanation/performance.md states what it costs at best.
 #pragma once
 #include <array>
 #include <cmath>

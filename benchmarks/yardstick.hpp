@@ -19,8 +19,8 @@ struct YardstickParameters {
   double step_s = 1e-6;
   int steps_per_period = 30;
   YardstickMode mode = YardstickMode::duty;
-  bool floating_phase_conducts = true;              // false: the effect is left out, as in most textbook
-                                                    // programs
+  bool floating_phase_conducts =
+      true;  // true: a free phase can start to conduct; false: it cannot, as in most textbook programs
   double current_d1 = 4.5, current_d0 = -4.04;      // A -> V
   double speed_d1 = 0.017225, speed_d0 = -0.01707;  // rad/s -> fraction of full torque
   double current_at_full_torque = 0.78 / 0.0335;

@@ -76,7 +76,7 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   for (const std::string& path : {to.path, partial})
     if (!to.force && is_foreign(path))
       return {{.where = path + ":",
-               .limit = "was not written by sixstep, or was changed since",
+               .limit = "was not written by sixstep, or was changed after that",
                .cure = "name another file, or add --force to replace it"}};
   struct stat unused {};
   if (::lstat(partial.c_str(), &unused) != 0 && errno == ENAMETOOLONG)
@@ -95,7 +95,7 @@ void sync_folder(const fs::path& folder) {
 }  // namespace
 
 base::Problem unwritable(const std::string& path, int reason) {
-  const char* cure = "check that the folder exists and may be written, and that the disk has room";
+  const char* cure = "check that the folder exists and can be written, and that the disk has free space";
   if (reason == EISDIR) cure = "name a file in this folder";
   if (reason == ENAMETOOLONG) cure = "choose a shorter name: an interrupted run adds .partial to it";
   if (reason == ELOOP) cure = "name the file itself, not a link that points to itself";

@@ -32,8 +32,8 @@ struct Destination {
 ///   with is_foreign() are refused too.
 /// - A new file has the permissions of the file that it replaces.
 /// - A symbolic link is kept, and its target is created or replaced. Other names of the target (hard links)
-///   keep
-///   the old content.
+/// keep
+/// the old content.
 class AtomicFile {
  public:
   static base::Result<AtomicFile> create(const Destination& to);

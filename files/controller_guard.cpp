@@ -60,7 +60,7 @@ void inside(const char* path, ControllerPlace place, const Work& work) {
   try {
     work(thread);
   } catch (const abi::__forced_unwind&) {
-    end_by_controller(thread, "ended its thread, as by pthread_exit()");
+    end_by_controller(thread, "ended its thread, for example by pthread_exit()");
   } catch (...) {
     end_by_controller(thread, "threw an exception");
   }
@@ -71,8 +71,8 @@ void inside(const char* path, ControllerPlace place, const Work& work) {
 void must_be_whole(const ControllerThread& thread, const GuardedRoom& room, const char* what) {
   if (!room.is_whole()) end_by_controller(thread, what);
 }
-constexpr char beside_state[] = "wrote beside its state", beside_config[] = "wrote beside its config",
-               beside_answer[] = "wrote beside its answer";
+constexpr char beside_state[] = "wrote outside its state", beside_config[] = "wrote outside its config",
+               beside_answer[] = "wrote outside its answer";
 
 /// The interface has no argument that identifies the controller. Therefore each controller has its own
 /// functions, selected by its number N.

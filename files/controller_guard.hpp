@@ -13,7 +13,8 @@
 
 namespace files {
 
-/// Runs `work`, which loads the controller in `path`, as code of this controller.
+/// Runs `work`, which loads the controller of the file `path`. A crash in `work` counts as a crash of this
+/// controller.
 void in_controller(const std::string& path, const std::function<void()>& work);
 
 /// Returns the wrapped controller; the same `real` always has the same wrapper. Call this function within

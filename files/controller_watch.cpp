@@ -116,7 +116,7 @@ extern "C" void on_exit_of_the_program() {
   if (!ours_at_work) return;
   ControllerThread somewhere;
   somewhere.controller = last_loaded.load();
-  end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
+  end_by_controller(somewhere, "ended the program by exit() in a thread that it had started");
 }
 
 /// A thread's call as last seen by the watchdog, and the number of checks that found the same call.
@@ -185,7 +185,8 @@ struct HandlerStack {
 /// Called at the end of a thread, in whatever way the thread ends.
 extern "C" void on_end_of_thread(void* thread) {
   const auto* const at = static_cast<const ControllerThread*>(thread);
-  if (at->place != ControllerPlace::outside) end_by_controller(*at, "ended its thread, as by pthread_exit()");
+  if (at->place != ControllerPlace::outside)
+    end_by_controller(*at, "ended its thread, for example by pthread_exit()");
 }
 pthread_key_t end_of_thread() {
   static const pthread_key_t key = [] {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records for each thread which user's controller it executes, with step and run, so that the report of a
-// crash in foreign code can name the controller. The records are in plain memory, the only memory that a
-// signal handler may read.
+// Records for each thread which user's controller it executes, with step and run. With this record, the
+// report of a crash in foreign code can name the controller. The records are in plain memory, the only memory
+// that a signal handler may read.
 //
 // The controller's code runs in this program, not in a separate process. A controller makes some 30 000 steps
 // per simulated second, and a call to another process takes longer than all other work of a control period.
@@ -57,7 +57,7 @@ void controllers_are_done();
 
 // For the handler of termination signals: notes the present call of each thread.
 void mark_controller_calls();
-/// Reports the controllers whose call is still the one that mark_controller_calls() noted, and notes their
+/// Reports the controllers that are still in the call that mark_controller_calls() noted, and notes their
 /// runs.
 void tell_controllers_that_do_not_come_back();
 bool controllers_are_watched();

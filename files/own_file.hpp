@@ -15,9 +15,9 @@ std::string with_own_mark(std::string_view command, const std::string& text);
 /// The first lines of a CSV table: the program, and the command that wrote the table.
 std::string csv_head(std::string_view command);
 
-/// Whether the path is a regular, non-empty file that does not begin like sixstep's outputs: with "sixstep"
-/// and its version in a comment of the format. Also true for a text of with_own_mark() that was changed, and
-/// for a file that cannot be read.
+/// Whether the path is a regular, non-empty file that sixstep has not written. Every output of sixstep begins
+/// with a comment of its format that contains "sixstep" and the version. Also true for a text of
+/// with_own_mark() that was changed, and for a file that cannot be read.
 bool is_foreign(const std::string& path);
 
 }  // namespace files

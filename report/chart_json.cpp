@@ -80,7 +80,7 @@ std::string by_library(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// Whether a text, such as base64 or most names, needs no escapes in JSON.
+/// Whether a text needs no escapes in JSON. Base64 and most names need none.
 bool is_plain(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c >= ' ' && c < 0x7F && c != '"' && c != '\\'; });
 }

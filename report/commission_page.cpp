@@ -84,7 +84,7 @@ std::string currents(const CommissionStudy& s, const char* title, Phase first, P
 }
 
 std::string way(const CommissionStudy& s) {
-  SvgChart chart{.title = "The rotor's way", .x_label = "s", .y_label = "electrical turns", .levels = {0.0}};
+  SvgChart chart{.title = "The rotor's path", .x_label = "s", .y_label = "electrical turns", .levels = {0.0}};
   chart.curves.push_back(curve_of(s, span_of(s, Phase::zeroing, Phase::turning), "rotor", "main",
                                   [](const CommissionRow& row) { return row.turns; }));
   return svg_chart(chart);

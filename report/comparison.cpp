@@ -169,7 +169,7 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
         const auto current = of_step(run);
         return current ? std::optional(Measured{std::abs(current->peak_A), ""}) : std::nullopt;
       });
-  rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
+  rows += figure_row("time with the full bus voltage", "s", runs, [](const ComparedRun& run) {
     const auto held = held_back(run.events, run.scenario);
     return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;
   });
@@ -245,7 +245,7 @@ std::string trace_comparison_table(const ComparisonInput& in) {
         escaped(computed(one.span, unit)));
   }
   return fmt::format(
-      "<h2>Log of the board, less the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
+      "<h2>Log of the board minus the simulation</h2>\n<p class=\"quiet\">At the log's own instants{}.</p>\n<table><thead><tr><th scope=\"col\">Column</th><th scope=\"col\" class=\"num\">Rows</th><th scope=\"col\" class=\"num\">Rms</th><th scope=\"col\" class=\"num\">Greatest</th><th scope=\"col\" class=\"num\">At</th><th scope=\"col\" class=\"num\">Simulated, from lowest to highest</th></tr></thead><tbody>\n{}</tbody></table>\n",
       in.shift_s == 0.0 ? "" : ", moved by " + escaped(computed(in.shift_s, "s")), rows);
 }
 
@@ -264,7 +264,7 @@ std::string render_comparison(const ComparisonInput& in) {
   const std::string body =
       filled(assets::comparison_html(),
              {{"title", title},
-              {"subtitle", escaped(names) + "; differences are relative to the first"},
+              {"subtitle", escaped(names) + "; differences are relative to the first run"},
               {"runs", run_rows(in.runs)},
               {"differences",
                with_log ? "<p class=\"quiet\">The log is assumed to be of this scenario's drive.</p>\n"

@@ -115,7 +115,7 @@ json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes
     values.resize(time.size(), NAN);
     const Thinned rows = thinned(time, {values}, {}, 2 * difference_rows, 2 * difference_rows);
     const Curve curve{fmt::format("{} − 1", k + 1), run_style(k),
-                      fmt::format("{} less {}", runs[k].name, runs[0].name), &values};
+                      fmt::format("{} minus {}", runs[k].name, runs[0].name), &values};
     chart["curves"].push_back(curve_json(curve, axes.of(time, rows.rows), rows.rows));
   }
   return chart;

@@ -9,7 +9,7 @@
 
 namespace report {
 
-/// The legs' connections. code[n] holds from time_s[n] to time_s[n + 1], or to the end: code[n] = a + 5 b +
+/// The legs' connections. code[n] applies from time_s[n] to time_s[n + 1], or to the end: code[n] = a + 5 b +
 /// 25 c, where a, b, c are the plant::Connection of legs a, b, c. web/bridge.js depends on the order of
 /// plant::Connection.
 struct Conduction {

@@ -19,7 +19,7 @@ double switching_frequency_Hz(const sixstep::study::Outcome& outcome);
 /// counts as turned on in this row.
 std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
 
-/// The turn-ons as half a sentence; empty if the trace has no gates.
+/// The numbers of turn-ons as a clause for the card; empty if the trace has no gates.
 std::string switching_words(const sixstep::study::Outcome& outcome, const sixstep::study::Trace& trace);
 
 /// The content of the card; empty if no cost is known.

@@ -87,20 +87,20 @@ class Charts {
   void torque() {
     std::vector<CurveLine> lines = regions();
     const double per_Nm = units_.per_Nm;
-    lines.insert(lines.end(), {{"shaft", "main", "mean torque on the shaft",
-                                of<&analysis::OperatingPoint::shaft_torque_Nm>(per_Nm)},
-                               {"ideal", "reference", "straight line without commutation time and friction",
-                                [this, per_Nm](const OnCurve& p) {
-                                  return per_Nm *
-                                         analysis::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
-                                }}});
+    lines.insert(lines.end(),
+                 {{"shaft", "main", "mean torque on the shaft",
+                   of<&analysis::OperatingPoint::shaft_torque_Nm>(per_Nm)},
+                  {"ideal", "reference", "torque on the straight line without commutation time and friction",
+                   [this, per_Nm](const OnCurve& p) {
+                     return per_Nm * analysis::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
+                   }}});
     if (curve_.thermal) {
       const auto limit = limits();
       lines.push_back({"winding, continuous", "c", "torque that the winding withstands continuously",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).continuous_Nm; }});
-      lines.push_back({"60 s", "a", "torque that it withstands for 60 s from ambient temperature",
+      lines.push_back({"60 s", "a", "torque that the winding withstands for 60 s from ambient temperature",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[1]; }});
-      lines.push_back({"10 s", "b", "torque that it withstands for 10 s from ambient temperature",
+      lines.push_back({"10 s", "b", "torque that the winding withstands for 10 s from ambient temperature",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[0]; }});
     }
     if (curve_.nominal && curve_.nominal->torque_Nm)
@@ -178,7 +178,7 @@ std::string curve_charts(const analysis::CurveRequest& request, const analysis::
   charts.torque();
   charts.currents();
   charts.add("efficiency", "Efficiency", "%", 180,
-             {{"efficiency", "main", "shaft over supply",
+             {{"efficiency", "main", "shaft power divided by supply power",
                [](const OnCurve& p) { return 100 * p.point->efficiency.value_or(0.0); }}});
   std::vector<CurveLine> power = {{"in", "main", "power from the supply", of<&P::supplied_W>(1)},
                                   {"out", "c", "power delivered by the shaft", of<&P::shaft_W>(1)},

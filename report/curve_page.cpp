@@ -104,7 +104,7 @@ std::string thermal_facts(const analysis::CurveRequest& r, const analysis::Curve
   html += fact("The curve itself can be held continuously", lasting_fact(curve, u));
   if (!curve.by_values) return html;
   return html + fact("All limits are at the worse ends of the motor file's ranges", curve.worse_ends) +
-         fact("Current by the motor file's values themselves",
+         fact("Current with the motor file's values themselves",
               stands_fact(analysis::thermal_limits(*curve.by_values, r, 0.0)));
 }
 

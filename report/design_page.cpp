@@ -168,8 +168,8 @@ std::string sensing(const DesignStudy& s) {
     table +=
         text[0] == '#' ? "<th class=\"num\">" + escaped(text.substr(1)) + "</th>" : "<th>" + text + "</th>";
   return fmt::format(
-      "<h3>Fastest settling time of the speed loop</h3><p class=\"origin\">that leaves 45 degrees of phase, by "
-      "the lowest speed to be held; at this design's lowest speed the measured speed is {} old</p>\n{}</tr></thead><tbody>\n{}</tbody></table>\n",
+      "<h3>Fastest settling time of the speed loop</h3><p class=\"origin\">with 45 degrees of phase margin, for "
+      "each lowest speed; at this design's lowest speed the measured speed is {} old</p>\n{}</tr></thead><tbody>\n{}</tbody></table>\n",
       escaped(computed(d.lag.delay_s(), "s")), table, rows);
 }
 
@@ -199,7 +199,7 @@ std::string tolerances(const DesignStudy& s) {
       "<h2>Tolerances</h2><p class=\"origin\">{} motors, the controller as designed; phase margins {}</p>\n"
       "<table>{}<tbody>\n",
       s.robustness->runs, sixstep::design::late_words(s.design.spec.later_periods()),
-      table_head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
+      table_head({"Figure", "#Nominal", "#Worst", "Where", "Largest effect of one deviation"}));
   for (const RobustFigure& f : s.robustness->figures) out += robust_row(f);
   for (const RobustFigure& f : s.robustness->phases) out += robust_row(f);
   return out + "</tbody></table>\n";

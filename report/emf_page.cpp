@@ -94,7 +94,7 @@ SvgChart harmonics(const EmfResult& r) {
 SvgChart shape(const EmfResult& r) {
   SvgChart chart{.title = "Shape of phase a",
                  .x_label = "electrical degrees",
-                 .y_label = "of its peak",
+                 .y_label = "relative to the peak",
                  .levels = {0.0}};
   SvgCurve measured{"measured", "a", r.angle_deg, r.shape}, sine{"sine", "reference", {}, {}};
   for (const double deg : r.angle_deg) {

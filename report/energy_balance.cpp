@@ -42,7 +42,8 @@ struct Yardsticks {
   const char* parts;  ///< name of the energy `scale`
 };
 
-/// The value; zero if it is below 1e-20 of the largest entry, far less than any rounding error.
+/// The value; or zero if its magnitude is below 1e-20 of the largest entry, which is less than any rounding
+/// error.
 double unless_nothing(double joule, double largest) {
   return std::abs(joule) < 1e-20 * largest ? 0.0 : joule;
 }
@@ -73,7 +74,7 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
   for (const Entry& e : entries) html += row(e, "part");
   const double missing = residual * y.scale;  // equal to the difference in the energy book to the last bit
   html += fmt::format(
-      "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
+      "<tr class=\"residual\"><th scope=\"row\">Residual<small>difference of the two sides</small></th><td "
       "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",
       computed(unless_nothing(missing, largest), "J"));
   return html + closing(residual, y);
@@ -167,9 +168,9 @@ std::string event_section(const sixstep::study::Outcome& outcome) {
       sixstep::base::written_hex(outcome.digest));
   // Edge-aligned pulses begin at a tick, so half of their edges count as ticks; the note explains this.
   return html +
-         "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. An "
-         "edge switches two gates of a leg where chopping is complementary, so that turn-ons of all six switches "
-         "may be more.</p>\n";
+         "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. With "
+         "complementary chopping an edge switches two gates of a leg, so that all six switches together may have "
+         "more turn-ons.</p>\n";
 }
 
 }  // namespace report

@@ -9,7 +9,7 @@
 namespace report {
 
 /// Properties of the drive that change the terms of the book. The energies of an elastic shaft's twist and of
-/// cogging count as kinetic. For a delta, losses and field energy are those of the branches, whose currents
+/// cogging count as kinetic. For a delta, losses and field energy are computed for the branches, whose currents
 /// may flow while all terminal currents are zero.
 struct BookOf {
   bool twist = false, cogging = false, delta = false;

@@ -17,7 +17,8 @@ struct Prefix {
 constexpr std::array<Prefix, 8> prefixes{
     {{1e12, "p"}, {1e9, "n"}, {1e6, "µ"}, {1e3, "m"}, {1, ""}, {1e-3, "k"}, {1e-6, "M"}, {1e-9, "G"}}};
 
-/// A unit as written in column names, the same unit as printed, and whether it usually has a prefix.
+/// The text of a unit in column names, the printed text of the same unit, and whether it usually has a
+/// prefix.
 struct UnitForm {
   std::string_view written, printed;
   bool prefixed;
@@ -54,7 +55,7 @@ int decade(double value) {
 
 std::string with_unit(std::string number, const std::string& unit) {
   if (unit.empty()) return number;
-  // Degrees stand directly after the number; other units follow a non-breaking space.
+  // The degree sign directly follows the number; other units follow a non-breaking space.
   return number + (unit == "°" ? "" : "\u00a0") + unit;
 }
 
@@ -140,7 +141,7 @@ std::string_view difference_unit(std::string_view unit) { return unit == "degC" 
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
   if (!std::isfinite(difference)) return "not comparable";
-  // A ratio of opposite signs has no meaning, so that the difference itself is printed.
+  // A ratio of numbers with opposite signs has no meaning, so the difference itself is printed.
   constexpr double most_times = 1000.0, most_percent = 1000.0;
   if (reference == 0.0 || (measured < 0.0) != (reference < 0.0) || unit == "degC" ||
       std::abs(measured) > most_times * std::abs(reference))

@@ -36,14 +36,16 @@ std::string computed(double value, std::string_view unit);
 /// Unit of a difference: kelvin for temperatures on the Celsius scale.
 std::string_view difference_unit(std::string_view unit);
 
-/// Computed values that stand beside each other, all with the prefix of the largest, or of the smallest but 0 where this one
-/// would be below 0.1 and the largest stays below 10000. Sizes that differ by more than a factor of 10000 keep their own
-/// prefixes. Empty for a value that is not there.
+/// Computed values that are printed beside each other. All have the prefix of the largest value. They have
+/// the prefix of the smallest nonzero value if this value would otherwise be below 0.1 and the largest stays
+/// below 10000. If sizes differ by more than a factor of 10000, each value has its own prefix. Empty for a
+/// missing value.
 std::vector<std::string> computed_alike(const std::vector<std::optional<double>>& values,
                                         std::string_view unit);
 
-/// The deviation measured/reference - 1 as "+1.3 %", from ten times on as "x 14.6", and as "+0.02 A" if the
-/// reference is zero or next to nothing, or a temperature; words if one of the numbers is not finite.
+/// The deviation measured/reference - 1 as text: "+1.3 %", or "x 14.6" if the ratio is ten or more. If the
+/// reference is near zero or is a temperature, the text is the difference: "+0.02 A". If one of the numbers
+/// is not finite, the text is in words.
 std::string deviation(double measured, double reference, std::string_view unit);
 
 /// A fraction in per cent with two digits: "97 %" for 0.97.

@@ -56,7 +56,7 @@ Group currents(const Trace& trace, bool of_field) {
 /// third of the sum.
 Group loop_current(const Trace& trace) {
   Group g{.id = "loop-current",
-          .title = "Sum of the delta's branch currents: three times the circulating one",
+          .title = "Sum of the delta's branch currents: three times the circulating current",
           .unit = "A",
           .height_px = 150,
           .quantity = "current"};
@@ -88,7 +88,7 @@ Group rotor_voltages(const Trace& trace) {
   return g;
 }
 
-/// The estimated angle of the magnet minus the true one.
+/// The estimated angle of the magnet minus the true angle.
 Group rotor_angle(const Trace& trace) {
   Group g{.id = "rotor-angle", .title = "Error of the magnet's angle", .unit = "deg", .height_px = 150};
   add(g, trace, "angle_error_deg", "error", "main");

@@ -20,9 +20,9 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;      ///< each signal is a strip of zeros and ones, one below the other
-  bool lanes = false;      ///< the curves are drawn one above the other, each with its own zero line, because
-                           ///< they would hide each other
+  bool logic = false;  ///< true: each signal is a strip of zeros and ones, one below the other
+  bool lanes =
+      false;  ///< true: the curves are drawn one above the other with their own zero lines, because they would hide each other
   std::string quantity{};  ///< "speed", "angle", "torque" or "current" if the reader may choose the unit;
                            ///< else empty
   std::vector<Curve> curves{};

@@ -76,8 +76,8 @@ double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
-/// The row of the first Hall edge after the current has come near its goal; without such an edge, the last
-/// row. After this edge, changes of the current are commutations, not the step.
+/// The row of the first Hall edge after the current is near its goal; without such an edge, the last row.
+/// After this edge, changes of the current are commutations, not the step.
 std::size_t end_of_current_step(const Values* hall, const Values& signal, const Change& step,
                                 std::size_t last) {
   if (!hall) return last;
@@ -95,7 +95,7 @@ double ahead_of_count(const Scenario& s, double shaft_deg, double asked_deg) {
   return from_index ? 360.0 * std::round((shaft_deg - asked_deg) / 360.0) : 0.0;
 }
 
-/// The whole run as a step, if there is no setpoint.
+/// The whole run as one step, for a run without a setpoint.
 Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
           .unit = "",

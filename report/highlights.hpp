@@ -28,7 +28,7 @@ struct Step {
   HeldCurrent held{};   ///< the current that is shown with the step
   Interval window;      ///< interval of the close-up. Its length is 1.5 times the time until the signal
                         ///< differs from its goal by at most 10 % of the step
-  bool done = false;    ///< whether the signal reached 10 % of the step from its goal before next_s
+  bool done = false;    ///< true: before next_s the signal was within 10 % of the step of its goal
 };
 std::optional<Step> largest_step(const sixstep::study::Trace& trace,
                                  const sixstep::study::Scenario& scenario);
@@ -43,8 +43,8 @@ struct StepCurrent {
          peak_after_s = 0.0;            ///< peak: for a step of the current, the farthest value in the step's
                                         ///< direction
   std::optional<double> asked_A{};      ///< the reference at the peak, if there is a current loop
-  double rms_A = 0.0;                   ///< over the window
-  std::optional<double> then_mean_A{};  ///< from the window's end to the next change
+  double rms_A = 0.0;                   ///< rms over the window
+  std::optional<double> then_mean_A{};  ///< mean from the window's end to the next change
   double then_low_A = 0.0, then_high_A = 0.0;  ///< extremes from the window's end to the next change
 };
 std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);

@@ -58,7 +58,7 @@ std::string facts(const HallIdentity& f) {
 SvgChart passages(const HallIdentity& f, bool rising) {
   SvgChart chart{.title = rising ? "Rising edges in the order of time" : "Falling edges in the order of time",
                  .x_label = "s",
-                 .y_label = "deviation from the nominal place, electrical degrees",
+                 .y_label = "deviation from the nominal angle, electrical degrees",
                  .levels = {0.0}};
   // Without voltages the absolute angle is unknown; the mean of all edges is then drawn as zero.
   double level = 0.0, count = 0.0;
@@ -97,8 +97,8 @@ SvgChart speed(const HallIdentity& f) {
 
 SvgChart own_places(const HallIdentity& f) {
   SvgChart chart{
-      .title = "Own place of each edge, 95 %",
-      .x_label = f.place ? "electrical degrees at which it belongs" : "electrical degrees, from any edge on",
+      .title = "Angle of each edge, 95 %",
+      .x_label = f.place ? "nominal angle, electrical degrees" : "electrical degrees, from any edge on",
       .y_label = "degrees",
       .levels = {0.0}};
   const double step = 360.0 / 6.0, half = 0.15 * step;

@@ -133,7 +133,8 @@ std::string model_section(const sixstep::design::MotorModel& m) {
                 "iron_coulomb_mNm, part of T_c0");
   if (m.shaft.static_Nm != 0.0)
     html += row("T<sub>static</sub>", given(m.shaft.static_Nm, dry), "mechanical", "");
-  if (!m.left_to_a_run.empty()) html += row("Beside it", m.left_to_a_run, "", "motor file; used in the run");
+  if (!m.left_to_a_run.empty())
+    html += row("Additional effects", m.left_to_a_run, "", "motor file; used in the run");
   return html + "</tbody></table>\n";
 }
 

@@ -15,10 +15,11 @@ std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
 /// Unit of d1 and d0: output per error. The output of an outer loop is a fraction of its largest output.
 std::string_view gain_unit(const sixstep::study::LoopGains& gains, bool linear);
-/// A controller without gains in words: "none: the duty is given"; empty for a PI and its kin.
+/// Describes a controller without gains in words: "none: the duty is given". Empty for a controller with
+/// gains, such as a PI controller.
 std::string without_gains(const sixstep::study::Scenario& scenario);
 std::string gains_section(const sixstep::study::Scenario& scenario, const sixstep::study::Outcome& outcome);
-/// The numbers of a user's controller. Those that are the controller's presets are marked.
+/// The numbers of a user's controller. Preset numbers are marked.
 std::string own_section(const sixstep::study::Own& own);
 /// The derivation of a design as a table: symbol, formula, value.
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);

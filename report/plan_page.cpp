@@ -60,10 +60,10 @@ std::string verdict(const PlanPageInput& in, std::size_t p) {
   const std::string line = (judges ? fmt::format("of {} runs hold every requirement", count(s.runs))
                                    : std::string("runs, nothing required")) +
                            casualties(s);
-  const std::string alert = s.runs == wanted
-                                ? ""
-                                : fmt::format("<p class=\"alert\">Interrupted: {} of {} runs are here.</p>\n",
-                                              count(s.runs), count(wanted));
+  const std::string alert =
+      s.runs == wanted ? ""
+                       : fmt::format("<p class=\"alert\">Interrupted: this page has {} of {} runs.</p>\n",
+                                     count(s.runs), count(wanted));
   return fmt::format(
       "<section class=\"verdict {}\" aria-label=\"Verdict\">{}<p class=\"word\">{}</p><p class=\"line\">{}</p></section>\n{}",
       css, tag(in, p), count(judges ? s.passed : s.runs), line, alert);

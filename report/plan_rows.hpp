@@ -22,7 +22,7 @@ struct PlanColumn {
   enum class Kind : std::uint8_t { key, strayed, figure } kind = Kind::key;
   std::string name, unit;
   bool logarithmic = false;
-  bool required = false;  ///< the figure has a requirement, with these limits
+  bool required = false;  ///< true: the figure has a requirement with these limits
   std::optional<double> min{}, max{};
   std::vector<std::string> words{};  ///< words of a key without numbers; `values` are then indices into
                                      ///< `words`

@@ -11,7 +11,7 @@
 namespace report {
 namespace {
 
-/// Whether an event changes the phases' legs. One drawing then cannot show all connections.
+/// Whether an event connects phases to other legs. One drawing then cannot show all connections.
 bool rewires(const sixstep::study::Scenario& s) {
   return std::any_of(s.at.begin(), s.at.end(), [&](const sixstep::study::At& at) {
     return at.bridge.phases != sixstep::study::AtOrder::same;

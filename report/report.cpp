@@ -49,7 +49,7 @@ std::string alerts(const ReportInput& in) {
         fmt::format("<p class=\"alert\" role=\"alert\"><b>Interrupted</b> at {} of {}.</p>\n",
                     escaped(given(in.outcome.simulated_s, "s")), escaped(given(in.scenario.duration_s, "s")));
   if (const std::string told = rows_told(in.trace); !told.empty())
-    html += fmt::format("<p class=\"quiet\">Of this run {}.</p>\n", escaped(told));
+    html += fmt::format("<p class=\"quiet\">For this run {}.</p>\n", escaped(told));
   return html;
 }
 
@@ -111,7 +111,7 @@ std::string render(const ReportInput& in) {
               {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
                                                             book_of(in.scenario)) +
                                                  device_section(in.outcome.devices)
-                                           : "<p class=\"quiet\">No books were kept.</p>\n"},
+                                           : "<p class=\"quiet\">No energy balance was computed.</p>\n"},
               {"events", event_section(in.outcome)},
               {"plots", assets::plots_html()},
               {"spectra", spectra_section(found)},

@@ -56,7 +56,7 @@ bool chooses_legs(const study::Control& c) {
   return c.drive == study::FirmwareKind::field && c.field.law == study::FieldLaw::finite_set;
 }
 
-/// What takes the place of a PWM; empty if the drive has one, at least in some mode of the run.
+/// The switching rule that replaces a PWM. Empty if the drive has a PWM in any mode of the run.
 std::string switching(const study::Scenario& s) {
   if (s.control.mode < control::Mode::current || study::comes_into(s, control::Mode::duty)) return "";
   const std::string tick = given(s.pwm.period_s, "s") + " (" + computed(1.0 / s.pwm.period_s, "Hz") + ")";
@@ -169,7 +169,8 @@ std::string sensorless(const study::Sensorless& x) {
 std::string finite_set(const study::Field& x) {
   std::string text =
       "currents along the magnet and across it controlled by the leg state whose predicted current is nearest";
-  if (x.switching_weight_A > 0) text += "; a leg that switches weighs " + given(x.switching_weight_A, "A");
+  if (x.switching_weight_A > 0)
+    text += "; each switching leg counts as a current error of " + given(x.switching_weight_A, "A");
   if (x.peak_A) text += "; at most " + given(*x.peak_A, "A");
   if (!x.delay_compensation) text += "; the delay is not compensated";
   if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
@@ -178,7 +179,7 @@ std::string finite_set(const study::Field& x) {
 
 std::string field(const study::Field& x) {
   if (x.law == study::FieldLaw::finite_set) return finite_set(x);
-  std::string text = "currents held along the magnet and across it";
+  std::string text = "currents controlled along the magnet and across it";
   if (x.bandwidth_Hz) text += " to " + given(*x.bandwidth_Hz, "Hz");
   text += x.decoupling ? ", decoupled" : ", not decoupled";
   text += x.voltage_limit == control::VoltageLimit::circle ? "; voltages within the circle"

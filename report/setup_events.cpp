@@ -46,7 +46,7 @@ void add_wires(const study::At& at, const Add& add) {
     add(fmt::format("divider of terminal {} breaks", base::word(study::divider_choices, s.broken_divider)));
 }
 
-/// "line H1 reads high", or the text that it follows its probe again.
+/// The text "line H1 reads high", or a text that the line follows its probe again.
 std::string hall_line(const study::AtHallBreak& at) {
   if (at.level == study::PinLevel::probe) return fmt::format("line H{} follows its probe again", at.line);
   return fmt::format("line H{} reads {}", at.line, base::word(study::pin_level_choices, at.level));

@@ -27,7 +27,7 @@ std::string cut_short(const Stretch& stretch) {
 std::string how(const Spectra& s) {
   const Lines& lines = s.all.front().lines;
   const std::string part = s.stretch.turns > 0 ? fmt::format("{} electrical turns", grouped(s.stretch.turns))
-                                               : std::string("stretch of one setpoint");
+                                               : std::string("part of the run with a constant setpoint");
   return fmt::format(
       "<p class=\"origin\">Amplitudes over the last {}, from {} to {}, with a Hann window and one line every {}. The frequency of a tone between two lines follows from both lines; a tone with a known cause has the frequency of this cause. The curve is first averaged over {}; its mean is not shown.</p>\n",
       part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),
@@ -55,12 +55,12 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
   return fmt::format(
       "<div><h3>{}, strongest lines</h3><table><thead><tr><th class=\"num\">Frequency</th><th "
       "class=\"num\">Amplitude</th>"
-      "<th>What it is</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      "<th>Cause</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
       d.title, rows);
 }
 
-/// The frequency of turn-ons from the first one in the stretch to the last: the duty in effect is the state of the
-/// switch that comparators chop. 0 if there are fewer than two.
+/// Mean frequency of the turn-ons in the stretch. The column duty is then the state of the switch that the
+/// comparators chop. 0 if there are fewer than two turn-ons.
 double comparators_Hz(const sixstep::study::Trace& trace, const Interval& stretch) {
   const auto *time = find_column(trace, "t_s"), *duty = find_column(trace, "duty");
   if (!time || !duty) return 0.0;

@@ -80,7 +80,7 @@ double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * l
 std::vector<Tone> tones_of(const Values& a) {
   const double floor = a.empty() ? 0.0 : std::max(1e-3 * std::ranges::max(a), least_tone);
   std::vector<Tone> peaks, tones;
-  // The search excludes the first line, because a drift over the stretch appears there too.
+  // The search excludes the first line, because a drift over the stretch also causes a peak in this line.
   for (std::size_t k = 2; k + 1 < a.size(); ++k)
     if (a[k] > floor && a[k] > a[k - 1] && a[k] >= a[k + 1]) peaks.push_back(tone_at(a, k));
   std::ranges::stable_sort(peaks, [](const Tone& p, const Tone& q) { return p.amplitude > q.amplitude; });
@@ -175,7 +175,7 @@ Origin origin_of(double at, const Causes& causes) {
   constexpr long long highest_side = 12;
   const double electrical = static_cast<double>(causes.turns), periods = causes.periods;
   const bool turns = causes.turns > 0;
-  constexpr double near = 0.3;  // in lines: the frequency of a tone is more accurate than this, unless
+  constexpr double near = 0.3;  // in lines; the error of a tone's frequency is smaller, unless
                                 // another tone is close
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
@@ -193,12 +193,13 @@ Origin origin_of(double at, const Causes& causes) {
   }
   if (beat >= 1.0 && turns && std::abs(at - beat * periods) < electrical / 2)
     return {"beside " + times(beat, "PWM"), at};
-  // Comparators keep their frequency where speed and reference stay. Otherwise it moves by some per cent.
+  // The frequency of comparators is constant at constant speed and reference. Otherwise it changes by some
+  // per cent.
   constexpr double moves = 0.05;
   const double switched = causes.switchings > 0.0 ? std::round(at / causes.switchings) : 0.0;
   const double off = std::abs(at - switched * causes.switchings);
   if (switched >= 1.0 && off <= near) return {times(switched, "switching"), switched * causes.switchings};
-  // At high orders every line is near some multiple.
+  // At high orders, every line is near a multiple by chance.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return {order == 1.0 ? "electrical, the fundamental" : times(order, "electrical"), order * electrical};
   if (switched >= 1.0 && off <= moves * causes.switchings)

@@ -56,14 +56,15 @@ Lines lines_of(const std::vector<double>& time, const std::vector<double>& value
 
 /// The periodic causes of tones. Each number is the cause's number of periods in the stretch; 0: absent.
 struct Causes {
-  long long turns = 0;      ///< electrical
-  double periods = 0.0;     ///< of the PWM
-  double heat_steps = 0.0;  ///< of the thermal model
-  double mains = 0.0;       ///< of the mains behind a rectifier
-  double switchings = 0.0;  ///< turn-ons by comparators, whose frequency the motor decides
+  long long turns = 0;      ///< number of electrical turns
+  double periods = 0.0;     ///< number of PWM periods
+  double heat_steps = 0.0;  ///< number of steps of the thermal model
+  double mains = 0.0;       ///< number of periods of the mains behind a rectifier
+  double switchings = 0.0;  ///< number of turn-ons by comparators, whose frequency depends on the motor
 };
-/// "6 × electrical", "PWM", "PWM − 2 × electrical", "2 × switching", "beside switching", "2 × step of the thermal model", "beside 3 × PWM"; empty for
-/// any other line. The line of a named cause is exact; that of any other tone is where it was found.
+/// "6 × electrical", "PWM", "PWM − 2 × electrical", "2 × switching", "beside switching", "2 × step of the
+/// thermal model", "beside 3 × PWM"; empty for any other line. The line number of a named cause is exact; the
+/// line number of any other tone is measured.
 struct Origin {
   std::string name;
   double line = 0.0;

@@ -51,9 +51,9 @@ std::string closest(const Outcome& outcome) {
 /// The used part of the bus voltage, if no two consecutive samples used all of it.
 std::string least_of_bus(double largest_duty, bool legs) {
   constexpr double whole = 1.0 - 1e-6;
-  if (largest_duty >= whole) return "all of it used at single samples only";
+  if (largest_duty >= whole) return "full voltage at single samples only";
   return fmt::format("full voltage never needed; {} {}",
-                     legs ? "largest voltage vector, over its circle:" : "largest duty",
+                     legs ? "largest voltage vector, relative to its circle:" : "largest duty",
                      plain(largest_duty, 3));
 }
 
@@ -67,7 +67,7 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
                          seen);
     };
     const bool legs = scenario.control.drive == sixstep::study::FirmwareKind::field;
-    text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
+    text += answer("Bus voltage", held->bus_s > 0.0 ? "full voltage for " + lasted(held->bus_s)
                                                     : least_of_bus(held->largest_duty, legs));
     if (held->limit_A)
       text += answer(
@@ -206,7 +206,7 @@ std::string step(const Scenario& scenario, const Trace& trace) {
 
 std::string cost(const Outcome& outcome, const Trace& trace) {
   const std::string content = cost_content(outcome, trace);
-  return content.empty() ? "" : card("cost", "What it cost", content);
+  return content.empty() ? "" : card("cost", "Costs", content);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ std::string path(const SvgCurve& c, const Axis& x, const Axis& y) {
   return fmt::format("<path class=\"{0}\" style=\"stroke:var(--{0})\" d=\"{1}\"/>\n", c.style, d);
 }
 
-/// Places each label behind its point, or behind another label that is already there.
+/// Places each label to the right of its point, or to the right of a label that is already drawn there.
 std::string marks(const SvgChart& chart, const Axis& x, const Axis& y) {
   constexpr double line = 12, letter = 7.5;
   struct Name {

@@ -27,7 +27,7 @@ struct SvgChart {
   std::string title, x_label, y_label{};
   bool log_x = false, log_y = false;
   double y_tick = 0.0;   ///< distance of the grid lines; 0: round numbers
-  bool compact = false;  ///< half the usual size, for charts side by side
+  bool compact = false;  ///< true: half the usual size, for charts side by side
   std::vector<SvgCurve> curves{};
   std::vector<double> levels{};  ///< values at which horizontal lines are drawn
   std::vector<SvgMark> marks{};

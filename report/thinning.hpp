@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reduces rows without changing the picture: no peak is lost.
+// Reduces the number of rows without a visible change of the picture: no peak is lost.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -19,7 +19,7 @@ struct Thinned {
   bool complete = true;           ///< false: an envelope replaces the rows outside the kept intervals
 };
 
-/// The rows that draw these curves over one time axis. Rows that change nothing are dropped without loss. If
+/// The rows that draw these curves over one time axis. Rows without effect on the drawing are left out. If
 /// more than `full` rows remain, time is divided into equal buckets. Each bucket keeps the first, lowest,
 /// highest and last row of each curve, at most `cap` rows in total. Within the intervals `keep`, every row is
 /// kept.

@@ -140,8 +140,9 @@ Panel wiring_grid(const WiringStudy& s) {
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   const std::string key[] = {
       "Upper: torque over one electrical turn at the same current; filled: theory, line: simulation; up is forward.",
-      fmt::format("Lower: motion from six starts in {}, up to ±{} electrical turns; if it hums, ±{}.",
-                  computed(s.bench.free_s, "s"), plain(std::ceil(most), 2, true), plain(humming_turns, 1)),
+      fmt::format(
+          "Lower: motion after six starts, during {}. Full scale: ±{} electrical turns, or ±{} for a humming motor.",
+          computed(s.bench.free_s, "s"), plain(std::ceil(most), 2, true), plain(humming_turns, 1)),
       "×: phase current without load, relative to straight wires."};
   for (std::size_t n = 0; n < 3; ++n)
     svg += fmt::format("<text class=\"q s\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", grid_left,

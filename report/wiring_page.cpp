@@ -80,9 +80,9 @@ std::string symptoms(const WiringStudy& s) {
   }
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   return "<table>" +
-         motion.words(
-             table_head({"", "#Ways", "#Least torque,<br>theory", "#Idle current of stalled,<br>theory",
-                         "#Speed", "#Phase rms", "#Peak", "#Supply", "Symptom"})) +
+         motion.words(table_head({"", "#Ways", "#Least torque,<br>theory",
+                                  "#No-load current, part of<br>stalled current, theory", "#Speed",
+                                  "#Phase rms", "#Peak", "#Supply", "Symptom"})) +
          "<tbody>\n" + rows + "</tbody></table>\n";
 }
 

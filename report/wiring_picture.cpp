@@ -30,7 +30,7 @@ std::string placed(const Panel& panel, double x, double y) {
 
 Panel steps(double width) {
   constexpr std::size_t characters = 58;
-  std::string svg = "<text class=\"b\" x=\"0\" y=\"14\">Without knowing which wire is which</text>\n";
+  std::string svg = "<text class=\"b\" x=\"0\" y=\"14\">If the wires are not labelled</text>\n";
   double y = 36;
   for (const auto& [seen, step] : text::recipe_steps()) {
     svg += fmt::format("<text class=\"b s\" x=\"0\" y=\"{:.0f}\">{}</text>\n", y, escaped(seen));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Unpacks texts that tools/embed.py has compressed. Without compression, pages, motors and tables would make
-// the program a thirtieth larger.
+// Unpacks texts that tools/embed.py has compressed. Uncompressed pages, motors and tables would enlarge the
+// program by 3 %.
 #pragma once
 #include <cstddef>
 #include <string>

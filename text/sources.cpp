@@ -11,7 +11,7 @@ base::Result<NamedText> find_text(const Resolve& resolve, const Naming& naming) 
   if (resolve) found = resolve(naming);
   if (found) return found;
   base::Problem problem = found.problems().front();
-  if (problem.limit.empty()) problem.limit = "is not at hand";
+  if (problem.limit.empty()) problem.limit = "does not exist";
   return base::Problem{.limit = "names " + problem.where + ", which " + problem.limit, .cure = problem.cure};
 }
 

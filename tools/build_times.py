@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""build_times.py [--target T] [--top N] [--jobs J] [--write] [BUILD]: what each object of a configured build costs to compile, the dearest first.
+"""build_times.py [--target T] [--top N] [--jobs J] [--write] [BUILD]: the compile time of each object of a configured build, longest first.
 
-Each is compiled to nowhere, and once more with -fsyntax-only: reading headers and instantiating templates is the front end, the rest
-the back end (optimising, assembling). CPU seconds, so that what else the machine does only adds a little. Without --target of all
-objects, which takes half an hour of one core; --target sixstep is what ./run builds. --write also writes the tables into
-docs/contributing.md.
+Each object is compiled without output, and once more with -fsyntax-only. The second time is the front end (reading headers and
+instantiating templates), the rest is the back end (optimising, assembling). Times are CPU seconds, because other programs hardly
+change these. Without --target, all objects are compiled, which takes half an hour of one core; ./run builds the target sixstep.
+--write also writes the tables into docs/contributing.md.
 """
 import argparse
 import collections
@@ -33,7 +33,7 @@ def arguments():
 
 
 def entries(build, target):
-    """All of the build, or those that ninja would compile for a target."""
+    """All objects of the build, or the objects that ninja would compile for a target."""
     commands = json.loads((build / "compile_commands.json").read_text())
     if not target:
         return commands
@@ -67,7 +67,7 @@ def cost(entry):
 
 
 def unit_of(entry):
-    """A batch by its first and last source."""
+    """Name of a batch: its first and last source."""
     file = pathlib.Path(entry["file"])
     if file.parent.name != "Unity":
         return str(file.relative_to(ROOT)) if file.is_relative_to(ROOT) else file.name

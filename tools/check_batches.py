@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_batches.py [ROOT]: no source keeps a name in its unnamed namespace that a header of its room or below declares too.
+"""check_batches.py [ROOT]: checks unnamed namespaces. No source may have a name in its unnamed namespace that a
+header of its room, or of a room below, also declares.
 
-Sources of a room are compiled together (cmake/rooms.cmake), where the unnamed namespaces are one. A name that two of them keep stops the
-compiler; one that hides what a header declares does not: the other sources of the batch would call it in the header's place.
+Sources of a room are compiled together (cmake/rooms.cmake), where the unnamed namespaces are one. A name in two of them is a
+compiler error. A name that hides a header's name is no error: the other sources of the batch would call the wrong function.
 """
 import pathlib
 import re
@@ -39,7 +40,7 @@ def main():
             for part in KEPT.findall(text):
                 for function in sorted(functions(part)):
                     if header := declared.get((namespace, function)):
-                        print(f"{name}: {function}() in its unnamed namespace hides that of {header} in a batch; give it a name of its own")
+                        print(f"{name}: {function}() in its unnamed namespace hides the function of {header} in a batch; give it a different name")
                         found += 1
     return 1 if found else 0
 

@@ -1,13 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_bits.sh          builds tests/digest with every toolchain at hand, runs it, and compares with expected.txt
+# check_bits.sh          builds tests/digest with every installed toolchain, runs it, and compares with expected.txt
 # check_bits.sh --all    the same, and a missing toolchain is a failure (ctest --preset long)
-# check_bits.sh --gate   WebAssembly alone, also at -O1: another compiler (clang) and another machine at once. The tests
-#                        ask g++ at -O3, and under the sanitizers at -O1 and -O0; aarch64 has its place in the long run
-# check_bits.sh --renew  writes expected.txt anew from g++ -O3: after a change that is meant to change bits
+# check_bits.sh --gate   only WebAssembly, also at -O1, as another compiler (clang) and another machine. The tests use g++ at -O3,
+#                        and under the sanitizers at -O1 and -O0; aarch64 is in the long run
+# check_bits.sh --renew  writes expected.txt anew from g++ -O3, after an intended change of bits
 #
-# In WebAssembly text/ is compiled too, and the scenarios of tests/digest/scenarios.txt are read from their texts there:
-# the digests are those of the command line (tests/digest/cli_digests.py renews that table).
+# In WebAssembly text/ is compiled too, and the program reads the scenarios of tests/digest/scenarios.txt. The digests must be
+# equal to those of the command line (tests/digest/cli_digests.py renews this table).
 #
 # tools/install.sh faces installs all toolchains.
 set -eu
@@ -23,7 +23,7 @@ mkdir -p "$out"
 # Sources that a run needs. analysis/ is above them, and compiling it takes a fifth of the time.
 mapfile -t library < <(find sixstep -name '*.cpp' -not -path 'sixstep/analysis/*' -not -path 'sixstep/study/*' -not -path 'sixstep/design/*'
   find sixstep/study/{live,session} -name '*.cpp'; find sixstep/design -name '*_scaling.cpp')
-# The other small sources together, as cmake/rooms.cmake has them.
+# The other small sources are compiled together, as in cmake/rooms.cmake.
 mapfile -t small < <(find sixstep/{design,study} -name '*.cpp' -not -path '*/live/*' -not -path '*/session/*' -not -name '*_scaling.cpp' |
   LC_ALL=C sort)
 rm -f "$out"/batch_*.cpp
@@ -34,12 +34,12 @@ done
 mapfile -t above < <(find sixstep/analysis -name '*.cpp' | LC_ALL=C sort)
 table=(tests/digest/main.cpp tests/digest/cases.cpp tests/digest/sessions.cpp)
 sources=("${library[@]}" "${table[@]}")
-# Sources that read a scenario, and the rest of text/, which only has to compile.
+# Sources that read a scenario, and the rest of text/, which is only compiled.
 mapfile -t reader < <(find text/sources.cpp text/keys text/toml text/motor/motor_library.cpp \
   text/recording/{bench_columns,cells,column_formula,columns,decimal_marks,encoding,heading,known_names,preamble,recording,row_reader,table_head,times}.cpp \
   text/scenario/{scenario_file,scenario_family,sheet_source,reference_file,motion_words}.cpp -name '*.cpp' | LC_ALL=C sort)
 mapfile -t rest < <(find text -name '*.cpp' | LC_ALL=C sort | grep -vxF "$(printf '%s\n' "${reader[@]}")")
-# The flags that decide about bits are those of the product in CMakeLists.txt. The others show that no exception is needed.
+# The flags that influence bits are the product's flags in CMakeLists.txt. The other flags show that no exception is needed.
 flags=(-DSIXSTEP_POSITION_PROFILE -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti -I.)
 
 if [ "$task" = --renew ]; then
@@ -56,11 +56,11 @@ if [ "$task" = --renew ]; then
   exit 0
 fi
 
-# How far the other two optimise: compiling takes nearly all of the time, and no bit has yet hung on it.
+# Optimisation of the other two compilers. Compiling takes nearly all of the time, and the level has never changed a bit.
 level=-O2
 [ "$task" != --gate ] || level=-O1
 
-# ask NAME COMPILE.. -- RUN..: builds, runs, compares; its answer's first word: same, differs, failed
+# ask NAME COMPILE.. -- RUN..: builds, runs and compares. The first word of its answer is same, differs or failed.
 ask() {
   local file=$out/$1 compile=()
   shift
@@ -88,7 +88,7 @@ answer() {
   fi
 }
 
-# The third-party headers of text/ are no part of a target: only these may be seen of the host's.
+# The third-party headers of text/ belong to no target. Of the host's headers, only these are visible.
 text_headers() {
   local name
   mkdir -p "$out/include" "$out/text"
@@ -106,15 +106,15 @@ side_by_side() {
   printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -I{} sh -c 'name=$1; shift; "$@" -c "$name" -o "$0/$(echo "$name" | tr / -).o"' "$folder" {} "$@"
 }
 
-# ask_wasm TABLE READER: the library once, then the table's program and the one that reads texts
+# ask_wasm TABLE READER: builds the library once, then the table's program and the program that reads texts
 ask_wasm() {
   local log=$out/$1.log
-  # node 18 needs the switch, later versions accept it. A run keeps its plant and series on the stack, of which wasm-ld
-  # gives 64 KiB: too little. The stack comes first, so that an overflow leaves the memory and traps: behind the data
-  # it would write over them.
+  # node 18 needs the switch, later versions accept it. A run has its plant and series on the stack, and wasm-ld's default of
+  # 64 KiB is too small. The stack is placed first, so that an overflow leaves the memory and traps. After the data, an overflow
+  # would overwrite the data.
   local node=(node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs)
   local cxx=(clang++-14 --target=wasm32-wasi "${flags[@]}") link=(-Wl,--stack-first -Wl,-z,stack-size=1048576)
-  # Reading takes no time: compiled as fast as may be, without integers of 128 bits, which the runtime's parts at -O0 lack.
+  # Reading is fast enough without optimisation. Integers of 128 bits are avoided, because the runtime lacks them at -O0.
   local text=(-O0 -I"$out" -isystem "$out/include" -DFMT_HEADER_ONLY -DFMT_USE_INT128=0 -DJSON_HAS_FILESYSTEM=0
     -DJSON_HAS_EXPERIMENTAL_FILESYSTEM=0 -DSIXSTEP_VERSION='"0"')
   local scenarios
@@ -138,7 +138,7 @@ ask_wasm() {
   fi
 }
 
-# platform "WORDS" "NEEDED PROGRAMS AND FILES" COMPILE.. -- RUN..: checks it, at most two platforms at a time
+# platform "WORDS" "NEEDED PROGRAMS AND FILES" COMPILE.. -- RUN..: checks a platform; at most two run at the same time
 platforms=()
 platform() {
   local words=$1 needed program
@@ -184,7 +184,7 @@ for words in "${platforms[@]}"; do
   [ ${#lines[@]} -lt 2 ] || printf '%s\n' "${lines[@]:1}"
   case $answer in same) same=$((same + 1)) ;; left-out) left_out=$((left_out + 1)) ;; *) other=$((other + 1)) ;; esac
 done
-# Drawn scenarios through every interface. The C library and the units are those of build/dev.
+# Drawn scenarios run through every interface. The C library and the units come from build/dev.
 reader_program=$out/${wasm_text//[^A-Za-z0-9+]/-}
 if [ -e "$reader_program" ] && [ -e build/dev/lib/libsixstep.so ]; then
   python3 tests/digest/drawn_faces.py build/dev/sixstep . build/dev/lib/libsixstep.so "$out/drawn" \

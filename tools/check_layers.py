@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the code to the layer picture of docs/architecture.md.
+"""Checks that the code obeys the layers in docs/architecture.md.
 
 Reads the ```layers block there and checks every #include under the rooms:
-  - a layer includes only itself and what stands behind its arrow; where the block names corners of a room
-    (study/run), so does each corner within its room;
+  - a layer includes only itself and the layers after its arrow; if the block names corners of a room
+    (study/run), the same holds for each corner within its room;
   - third-party headers appear only outside the library, and nothing includes tests/ or benchmarks/;
-  - control/ includes nothing that a bare chip lacks, the library nothing that knows files, clocks or threads;
+  - control/ includes nothing that a bare chip lacks, the library includes no files, clocks or threads;
   - rooms that can influence a trajectory call no elementary function of the C library;
-  - no text of the library names a command or an option: it has more faces than one.
-Prints file:line, the breach and its cure; exits 1 on any, 2 if the picture itself is broken.
+  - no text of the library names a command or an option, because the library has several faces.
+Prints file:line, the breach and its cure; exits with 1 after a breach, with 2 if the block itself is wrong.
 """
 import argparse
 import pathlib
@@ -37,7 +37,7 @@ CPP_HEADER = re.compile(r"^[a-z_0-9]+$")  # <vector>: no dot, no slash
 
 
 class Broken(Exception):
-    """The picture itself cannot be used."""
+    """The block itself is wrong."""
 
 
 def read_layers(document: pathlib.Path) -> dict[str, set[str]]:
@@ -64,7 +64,7 @@ def read_layers(document: pathlib.Path) -> dict[str, set[str]]:
 
 
 def layer_of(path: str) -> str | None:
-    """The layer a path from the repository root belongs to; None outside the layered rooms."""
+    """The layer of a path from the repository root; None outside the layered rooms."""
     parts = path.split("/")
     if parts[0] in ("sixstep", "faces"):
         return parts[1] if len(parts) > 2 else None
@@ -72,14 +72,14 @@ def layer_of(path: str) -> str | None:
 
 
 def corner_of(path: str) -> str:
-    """ROOM/FOLDER of a path below its room's folder; the room itself for what lies there at once."""
+    """ROOM/FOLDER of a path below its room's folder; the room itself for a file directly in the room."""
     room, parts = layer_of(path), path.split("/")
     below = parts[parts.index(room) + 1:-1]
     return "/".join([room, *below[:1]])
 
 
 def check_corner(path: str, target: str, layers: dict[str, set[str]]) -> str | None:
-    """Within a room that has corners: the breach and its cure, or None. What lies in no corner is for all of them."""
+    """Within a room that has corners: the breach and its cure, or None. Every corner may include a file that is in no corner."""
     room, here, there = layer_of(path), corner_of(path), corner_of(target)
     if there in (here, room) or not any(name.startswith(room + "/") for name in layers):
         return None
@@ -93,7 +93,7 @@ def check_corner(path: str, target: str, layers: dict[str, set[str]]) -> str | N
 
 
 def without_comments(text: str) -> str:
-    """Comments and string contents blanked, line breaks kept."""
+    """The text with blanks in place of comments and string contents; line breaks remain."""
     def blank(match: re.Match) -> str:
         found = match.group(0)
         return found if found[0] == '"' and "\n" not in found else re.sub(r"[^\n]", " ", found)
@@ -154,7 +154,7 @@ def check_file(root: pathlib.Path, file: pathlib.Path, layers: dict[str, set[str
 
 
 def check(root: pathlib.Path) -> tuple[list[str], int]:
-    """All breaches under root and the number of files looked at."""
+    """All breaches under root, and the number of checked files."""
     layers = read_layers(root / "docs" / "architecture.md")
     files = sorted(f for top in ROOTS if (root / top).is_dir() for f in (root / top).rglob("*")
                    if f.suffix in SOURCE and "node_modules" not in f.parts and f.is_file())

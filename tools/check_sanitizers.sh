@@ -1,13 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_sanitizers.sh         tests under the address and undefined-behaviour sanitizers (build/ci): of files, and the fuzzers,
-#                             which take drawn scenarios and hostile texts through all rooms, in every arithmetic
-# check_sanitizers.sh --all   of all rooms (ctest --preset long)
+# check_sanitizers.sh         runs tests under the address and undefined-behaviour sanitizers (build/ci): the tests of files/, and the
+#                             fuzzers, which run drawn scenarios and hostile texts through all rooms in every arithmetic
+# check_sanitizers.sh --all   runs the tests of all rooms (ctest --preset long)
 set -eu
 cd "$(dirname "$0")/.."
 . tools/parts.sh
 rooms=(base series files fuzz)
-# Pages, tools and headers under other compilers use no memory of ours to check.
+# Pages, tools and headers under other compilers are not compiled with the sanitizers.
 elsewhere='^control\.(alone|inserted|int_of|single)'
 case "$*" in
   '') targets=(drawn_scenarios digest_table libm_planted "${rooms[@]/%/_tests}")

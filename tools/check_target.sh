@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), flash, RAM and library calls
-#                          of drives and blocks (data/cores/), programs on an emulated chip and images
-# check_target.sh PART..   of proof, sights (what the walk's inputs reach, looked at when its digests are renewed), bits, costs and blocks
-#                          (instructions of a control tick and of a block, data/cores/), sizes, own (controllers of one's own,
-#                          tools/own_cost.sh), loop (sixstep run --on), avr (--on avr) and images (to flash) only these
-# check_target.sh --all [PART..]    armhf and aarch64 too, a million steps on emulated hosts, every drive's costs (ctest --preset long)
-# check_target.sh --renew [PART..]  writes those tables anew: after a change that is meant to change them
+# check_target.sh          checks the controller on emulated cores: its bits (tests/target/digests.txt); flash, RAM and library calls of
+#                          drives and blocks (data/cores/); programs on an emulated chip; images
+# check_target.sh PART..   only these parts: proof, sights (coverage of the walk's inputs, checked when its digests are renewed), bits,
+#                          costs and blocks (instructions of a control tick and of a block, data/cores/), sizes, own (users'
+#                          controllers, tools/own_cost.sh), loop (sixstep run --on), avr (--on avr), images (to flash)
+# check_target.sh --all [PART..]    also checks armhf and aarch64, a million steps on emulated hosts, and every drive's costs (ctest --preset long)
+# check_target.sh --renew [PART..]  writes the tables anew, after an intended change
 #
 # Processors, compilers and flags: tests/target/cores.py. tools/install.sh target installs them.
 set -eu

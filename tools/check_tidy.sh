@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_tidy.sh [BUILD]             clang-tidy over the whole product, in the batches and with the flags of a configured build: headers
-#                                   are read once for many sources, a fifth of the time
-# check_tidy.sh [BUILD] --analyzer  each source alone, with the path-sensitive analyzer, whose finds the sanitizers and the fuzzers meet
-#                                   first, and the checks that take longest for what they find (ctest --preset long)
+# check_tidy.sh [BUILD]             runs clang-tidy on the whole product, with the batches and flags of a configured build. A header is
+#                                   read once for many sources, which takes a fifth of the time
+# check_tidy.sh [BUILD] --analyzer  checks each source alone, with the slow checks: the path-sensitive analyzer, and checks that rarely
+#                                   find an error. Sanitizers and fuzzers usually find these errors first (ctest --preset long)
 set -eu
 cd "$(dirname "$0")/.."
 build=build/dev alone=
@@ -16,9 +16,9 @@ done
 dear=(clang-analyzer-\* bugprone-{reserved-identifier,stringview-nullptr,assert-side-effect,multiple-statement-macro}
   bugprone-suspicious-semicolon performance-unnecessary-value-param)
 checks=--checks=$(IFS=,; echo "${dear[*]/#/-}")
-# A batch includes sources, and a name of one source may hide that of another.
+# A batch includes several sources, and a name of one source may hide a name of another source.
 in_batches=("$checks,-bugprone-suspicious-include" --extra-arg=-Wno-shadow)
-# GCC's own flags say nothing to clang.
+# Some of the flags are only for GCC, and clang would warn of each.
 tidy() { clang-tidy --quiet --extra-arg=-Wno-unused-command-line-argument "$@" 2>/dev/null; }
 export -f tidy
 
@@ -33,10 +33,10 @@ else
     grep -vE "^$PWD/data/|/(tests|benchmarks)/" | tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" bash -c 'tidy -p "$0" "$1" "$2" "$3"' "$build" "${in_batches[@]}"
 fi
-# MPI is in a build of its own, which need not be there.
+# MPI is in a separate build, which may be missing.
 [ ! -f build/mpi/compile_commands.json ] || tidy -p build/mpi "$checks" batch/ranks_with_mpi.cpp
-# Firmware is in no build for this machine: each example with the flags of its chip, and what a core in the loop runs, with the drive of
-# an example.
+# Firmware is in no build for this machine. Each example is checked with the flags of its chip, and the program of a core in the loop
+# with the drive of an example.
 firmware() {
   tidy "$checks" "$1" -- "${@:2}" -std=c++20 -ffreestanding -nostdinc++ -I. -Ifaces/firmware/bare
 }

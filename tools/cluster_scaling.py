@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""cluster_scaling.py [PROGRAM] [--runs N] [--ranks N ..]: how a plan's runs grow with the processes that mpirun starts.
+"""cluster_scaling.py [PROGRAM] [--runs N] [--ranks N ..]: measures how the rate of runs depends on the number of
+processes that mpirun starts.
 
-Strong: the same runs on more ranks. Weak: as many runs more as there are ranks more. Shown are the wall clock, and the processor
-time that all ranks took for a run: that does not hang on what else the machine does. The drives are those of
-data/scenarios/current-square-series.toml, the program is built with MPI."""
+Strong scaling: the same number of runs on more ranks. Weak scaling: the same number of runs per rank. The output has the wall time,
+and the processor time of all ranks per run, which hardly depends on other programs. The drives are in
+data/scenarios/current-square-series.toml. The program must be built with MPI."""
 import argparse
 import os
 import pathlib
@@ -15,12 +16,12 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SERIES = ROOT / "data/scenarios/current-square-series.toml"
-# mpirun does not count the time of its processes: a shell around each of them does.
+# mpirun does not count the time of its processes, so a shell around each process does.
 COUNTED = '"$0" "$@"; times >cpu.$OMPI_COMM_WORLD_RANK'
 
 
 def measure(program, ranks, runs):
-    """Seconds of the clock, and of the processor for each rank; without mpirun where there is one rank."""
+    """Wall time, and processor time of each rank, in s. A single rank runs without mpirun."""
     environment = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_COMM_WORLD_RANK": "0"}
     with tempfile.TemporaryDirectory() as folder:
         words = ["bash", "-c", COUNTED, program, "run", str(SERIES), "--runs", str(runs), "--jobs", "1", "--store", "s.sqlite", "--quiet"]

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""compare_reference.py [PROGRAM]: runs the reference cases and holds them against float128 trajectories.
+"""compare_reference.py [PROGRAM]: runs the reference cases and compares them with float128 trajectories.
 
-The trajectories in tests/reference were computed by an independent brute-force solver in float128 arithmetic. Printed
-per case: the largest difference of a column over the column's largest value; columns that are zero count absolutely.
+The trajectories in tests/reference were computed by an independent brute-force solver in float128 arithmetic. The output
+has per case the largest difference of a column, divided by the column's largest value; columns of zeros have the absolute difference.
 Fails above 1e-10 for currents and bus voltage and above 1e-12 for speed and angle.
 """
 import csv
@@ -32,7 +32,7 @@ def error(ours, theirs):
 
 
 def case_errors(program, scenario, folder):
-    """Largest error per group of columns; a group that the trajectory lacks is left out."""
+    """Largest error per group of columns, without groups that the trajectory lacks."""
     trace = pathlib.Path(folder) / (scenario.stem + ".csv")
     subprocess.run([program, "run", scenario, "--csv", trace, "--quiet"], check=True)
     ours, theirs = columns_of(trace), columns_of(ROOT / "tests" / "reference" / trace.name)

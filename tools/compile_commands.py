@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""compile_commands.py BUILD OUT: the build's compile_commands.json with one entry for each source, also of those that are
-compiled in batches (cmake/rooms.cmake), into the folder OUT: for clang-tidy, clangd and what else looks at one source."""
+"""compile_commands.py BUILD OUT: writes the build's compile_commands.json into the folder OUT. It has one entry for each
+source, also for sources that are compiled in batches (cmake/rooms.cmake). clang-tidy, clangd and other tools read single sources."""
 import json
 import pathlib
 import re

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# configure.sh PRESET: configures build/PRESET if that is still to be done. In a copy of a checkout the copied folder
+# configure.sh PRESET: configures build/PRESET if it is not configured yet. In a copy of a checkout the copied folder
 # would still build the original's sources, so the script makes it anew and prints a message.
 # Programs and libraries that were missing at the last configuration are searched again.
 set -eu
@@ -12,7 +12,7 @@ if [ -n "$home" ] && ! [ "$home" -ef . ]; then
   echo "$build was made for $home, not for this copy of it: making it anew"
   rm -rf "$build"
 fi
-# A parts' list that has not changed since the last look brings nothing new.
+# If the list of installed parts has not changed since the last configuration, nothing is searched.
 parts=/var/lib/dpkg/status looked=$build/looked-for-parts
 newer() { [ ! -e "$parts" ] || [ ! -e "$looked" ] || [ "$parts" -nt "$looked" ]; }
 lacks() { grep -q -- '-NOTFOUND$' "$build/CMakeCache.txt" 2>/dev/null; }

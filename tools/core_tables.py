@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""core_tables.py [--check]: writes the tables of docs/reference/core-*.md and block-costs.md from what was counted on the cores (data/cores/,
-tests/target/digests.txt; tools/check_target.sh counts); with --check it tells whether they stand there."""
+"""core_tables.py [--check]: writes the tables of docs/reference/core-*.md and block-costs.md from the counts on the cores (data/cores/,
+tests/target/digests.txt, both by tools/check_target.sh). With --check it only checks whether the pages contain these tables."""
 import pathlib
 import re
 import sys
@@ -89,7 +89,7 @@ def main():
         for page in stale:
             page.write_text(written(texts[page]), encoding="utf-8")
     elif stale:
-        print(f"{', '.join(page.name for page in stale)}: tables are not what was counted: tools/core_tables.py writes them")
+        print(f"{', '.join(page.name for page in stale)}: tables differ from the counts; write them with tools/core_tables.py")
     return 1 if stale and "--check" in sys.argv else 0
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""debian_changelog.py MAINTAINER: CHANGELOG.md in the form that Debian's tools read, to the terminal.
+"""debian_changelog.py MAINTAINER: prints CHANGELOG.md in the format of Debian's tools.
 
 Each line of a release that begins with "- " becomes a change; MAINTAINER is "name <address>".
 """
@@ -16,7 +16,7 @@ DAYS, MONTHS = "Mon Tue Wed Thu Fri Sat Sun".split(), "Jan Feb Mar Apr May Jun J
 
 
 def plain(markdown: str) -> str:
-    """Without what marks links and code."""
+    """The text without the marks of links and code."""
     return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", markdown).replace("`", "").replace("**", "")
 
 

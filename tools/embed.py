@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes text files as C++: for each a function that returns its text, and all() with all of them by name.
+"""Writes text files as C++: one function per file that returns its text, and all() with all texts by name.
 
-With --packed the program holds them compressed and unpacks all of them at the first call (text/packed_text.hpp).
+With --packed the program contains the texts compressed, and unpacks all texts at the first call (text/packed_text.hpp).
 """
 import argparse
 import pathlib

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# firmware_image.sh BOARD [HEADER [OUT]] [--despite]   an image to flash: the board's program (faces/firmware/example/) around the drive of HEADER,
-#                                          which `sixstep export header` writes; without it the example's own. BOARD: stm32f303, atmega2560.
-#                                          OUT/image.elf, .hex and .bin; without it build/firmware/BOARD, installed firmware/BOARD here
-#                                          A header that its run did not clear for a bridge is refused; --despite builds it all the same.
+# firmware_image.sh BOARD [HEADER [OUT]] [--despite]   an image to flash: the board's program (faces/firmware/example/) with the drive of HEADER,
+#                                          which `sixstep export header` writes. Default: the example's header. BOARD: stm32f303, atmega2560.
+#                                          Writes OUT/image.elf, .hex and .bin. Default of OUT: build/firmware/BOARD; if installed, firmware/BOARD in
+#                                          this folder. --despite also builds a header that its run did not clear for a bridge.
 #
 # tools/install.sh target installs the compilers.
 set -eu
@@ -45,7 +45,7 @@ fi
 if grep -q 'constexpr bool cleared = false;' "$header"; then
   sed -n '/^\/\/ NOT CLEARED/,/^\/\/ Its run/p' "$header" >&2
   [ ${#despite[@]} -gt 0 ] || refuse "its drive is not cleared for a bridge; --despite builds the image all the same"
-  echo "$header: built all the same (--despite): not cleared for a bridge" >&2
+  echo "$header: built because of --despite, although it is not cleared for a bridge" >&2
 fi
 mkdir -p "$out"
 if [ "$header" != "$out/drive_config.hpp" ]; then cp "$header" "$out/drive_config.hpp"; fi

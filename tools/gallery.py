@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """gallery.py PROGRAM [--check]: writes the pages in docs/gallery and their pictures from the scenarios in data/scenarios.
 
-Titles and notes are those of the files, results those of the program, pictures are drawn from its traces at every event.
-docs/gallery/gallery.toml groups the scenarios and defines the pictures. --check writes nothing; it fails if a page or a
-picture differs from the one that would be written.
+Titles and notes come from the files, and results from the program. Pictures are drawn from the program's traces at every event.
+docs/gallery/gallery.toml groups the scenarios and defines the pictures. --check writes nothing. It fails if a page or a
+picture is not up to date.
 """
 import csv
 import io
@@ -129,7 +129,7 @@ def main(words):
             path.unlink()
     elif stale or extra:
         names = ", ".join(str(path.relative_to(ROOT)) for path in [*stale, *sorted(extra)])
-        raise SystemExit(f"not what the program says: {names}; tools/gallery.py PROGRAM writes them anew")
+        raise SystemExit(f"not up to date: {names}; write them with tools/gallery.py PROGRAM")
 
 
 if __name__ == "__main__":

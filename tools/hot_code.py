@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""hot_code.py [CASE] [--top N]: how much code a run of the engine keeps executing, by callgrind (Debian's valgrind).
+"""hot_code.py [CASE] [--top N]: measures how much code a run of the engine executes repeatedly, with callgrind (Debian's valgrind).
 
-CASE selects rows of engine_benchmark by a regular expression; the default is R3 on the lean kernel. Printed are the 64-byte lines of
-code, the processor's cache lines, that hold 90 and 99 per cent of the instructions, and the functions that they lie in. A first-level
-instruction cache has 32 KiB, and a busy neighbour on the same core takes half of it.
+CASE selects rows of engine_benchmark by a regular expression; the default is R3 on the lean kernel. The output has the number of
+64-byte cache lines of code with 90 and 99 per cent of the executed instructions, and their functions. A first-level instruction
+cache has 32 KiB; a second thread on the same core may use half of it.
 """
 import argparse
 import collections
@@ -50,7 +50,7 @@ def instructions(text):
 
 
 def hottest(costs, share):
-    """[(instructions, function)] of the fewest lines that hold the share of all instructions."""
+    """[(instructions, function)] of the fewest lines with this share of all instructions."""
     lines, functions = collections.Counter(), {}
     for address, (times, function) in costs.items():
         lines[address // LINE] += times

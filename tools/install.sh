@@ -18,7 +18,7 @@ listed() {
       print package, substitute }' tools/packages.txt
 }
 
-# dpkg-query, not apt: it answers at once and needs no package lists.
+# dpkg-query instead of apt, because it is faster and needs no package lists.
 missing_packages() {
   local section package substitute wanted=()
   for section in "$@"; do
@@ -76,8 +76,8 @@ install_browser_parts() {
   local done_for=node_modules/.installed-lock
   cmp -s package-lock.json "$done_for" && return 0
   say "npm ci: the report's chart library"
-  # Who names extra certificates for node means them for npm too; npm itself asks only its own setting, and installing
-  # Debian's npm renews the bundle that a company's machine may have put its own certificate into.
+  # Extra certificates for node are used for npm too, because npm reads only its own setting. Installing Debian's npm renews the
+  # bundle, into which a company may have put its own certificate.
   if [ -n "${NODE_EXTRA_CA_CERTS:-}" ]; then export npm_config_cafile=$NODE_EXTRA_CA_CERTS; fi
   npm ci --no-audit --no-fund --ignore-scripts --loglevel=error </dev/null
   cp package-lock.json "$done_for"

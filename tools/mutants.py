@@ -1,23 +1,26 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Do the tests notice when the engine is wrong? Marks in the sources say how to break a line as a tired engineer would; a
-law or an analytic test must fail. Minutes; `ctest --preset long` runs it too:
+"""Checks that the tests detect errors of the engine. Marks in the sources state a typical mistake for a line; with the mistake, a
+law or an analytic test must fail. It takes minutes; `ctest --preset long` runs it too:
 
-    tools/mutants.py              all of them; exits non-zero where one survives
-    tools/mutants.py 7 12         these only
-    tools/mutants.py --list       the marks, with the lines that they stand on
+    tools/mutants.py              all marks; exits non-zero if a mistake is not detected
+    tools/mutants.py 7 12         only these marks
+    tools/mutants.py --list       the marks with their lines
 
-A mark stands above the line it breaks, and replaces the first match from there on:
+A mark is above the line that it changes, and replaces the first match after the mark:
 
     // mutant: OLD => NEW             an expression, or one statement with its semicolon
     // mutant: BEFORE «OLD» => NEW    where OLD alone would be found too early
-    // mutant: OLD => nothing         a statement is left out
+    // mutant: OLD => nothing         a statement is removed
 
-All mutants are built at once into a copy under build/mutants, each behind a switch that the environment turns, so the
-tree stays as it is. Left out are the digests and the reference cases: a golden value notices everything and explains
-nothing. Not marked, because another line gives the same result: the length that useful_length() proposes (the series' own
-end decides), near_root() (a guess), the order in which settle() tries motions and sources (one alone is consistent), act()
-looking at the comparators after every segment (a guard below zero is an event at once).
+All mutants are built at once in a copy under build/mutants. An environment variable switches each mutant on, and the tree does
+not change. Digests and reference cases do not run, because a golden value detects every change but does not explain it.
+
+Some lines have no marks, because another line gives the same result:
+  - the length that useful_length() proposes: the series' end decides;
+  - near_root(): it is only a guess;
+  - the order in which settle() tries motions and sources: only one combination is consistent;
+  - the check of the comparators in act() after every segment: a guard below zero is an event at once.
 """
 import collections
 import os
@@ -43,7 +46,7 @@ constexpr bool mutant_is(int n) { return !std::is_constant_evaluated() && sixste
 
 
 def mutants_of(file):
-    """The marks of a source; each part that they break as its place in the text."""
+    """The marks of a source, each with the position of the text that it replaces."""
     text = (root / file).read_text(encoding="utf-8")
     for mark in re.finditer(r"(?m)^ *// mutant: (.*) => (.*)\n", text):
         before, old = re.fullmatch(r"(?:(.*)«)?(.*?)»?", mark[1]).groups(default="")
@@ -62,7 +65,7 @@ def all_mutants():
 
 
 def broken(file, mutants):
-    """The file's text with all its mutants behind switches. Several may share one place."""
+    """The file's text with all its mutants behind switches. Several mutants may have the same position."""
     text = (root / file).read_text(encoding="utf-8")
     places = collections.defaultdict(list)
     for number, mutant in enumerate(mutants, 1):
@@ -99,7 +102,7 @@ def build(mutants):
 
 
 def failing(number):
-    """The tests that fail with this mutant on; one that crashes or does not end counts."""
+    """The tests that fail with this mutant. A test that crashes or does not end counts as failed."""
     tests = []
     for program in programs:
         command = [work / "build" / "tests" / f"{program}_tests", "--gtest_color=no"]

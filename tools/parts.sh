@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# For ./test and .ci/run, which read it in: how long each part took.
+# Measures how long each part takes. ./test and .ci/run include this file.
 
-# part NAME COMMAND..: runs it; its seconds go to the file that SIXSTEP_PARTS names, where it names one
+# part NAME COMMAND..: runs the command. If SIXSTEP_PARTS names a file, writes the seconds into this file.
 part() {
   local name=$1 start=$SECONDS status=0
   shift

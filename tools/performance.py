@@ -3,11 +3,11 @@
 """performance.py: builds the benchmarks, runs them (three minutes), prints the tables of speed as Markdown.
 
   --renew   also writes them between their markers in README.md and docs/explanation/performance.md
-  --check   runs nothing: are the tables there the ones that the benchmarks would fill, row by row and column by column?
+  --check   runs nothing; checks that the tables in the pages have the rows and columns of the benchmarks.
             Figures differ between machines and are not compared.
-  --programs FOLDER   where the benchmarks lie, already built
+  --programs FOLDER   folder with the built benchmarks
 
-CPU time; of fifteen repetitions, shuffled among each other, the fastest counts: what else the machine does only adds.
+Times are CPU times. The fastest of fifteen repetitions in random order counts, because other programs can only increase a time.
 """
 import argparse
 import json
@@ -93,7 +93,7 @@ def speed_table(engine, users):
 
 
 def short_table(speed):
-    """Excerpt of the table of speed: a row for each case, on its scenario's own kernel, with the textbook's solver for comparison."""
+    """Excerpt of the table of speed: one row per case, on the kernel of its scenario, with the textbook solver for comparison."""
     rows = [["case", "simulated s per s, engine alone", "simulated s per s, as a user runs it", speed[0][4], *speed[0][5:7]]]
     for alone, user in zip(speed, speed[1:]):
         if user[0] == alone[0] + AS_USER:
@@ -176,7 +176,7 @@ def main():
     tables = tables_of(look(folder / "engine_benchmark"), look(folder / "observer_benchmark"))
     if words.check:
         wrong = differences(tables, lambda place: (ROOT / place).read_text(encoding="utf-8"))
-        print("\n".join(wrong + ["write them anew: tools/performance.py --renew"] if wrong else ["the tables are those of the benchmarks"]))
+        print("\n".join(wrong + ["write them anew: tools/performance.py --renew"] if wrong else ["the tables have the rows and columns of the benchmarks"]))
         return 1 if wrong else 0
     on = machine()
     for name, rows in tables.items():

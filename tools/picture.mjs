@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// node tools/picture.mjs [PROGRAM]: photographs the top of the pages that the documents show, as a reader sees them, into
-// docs/images: report.png, of the README's scenario, curve.png, the torque-speed curve, bench.png, a measured back-EMF, and plan.png,
-// from the middle of a plan's page. Needs what tools/install.sh test installs (playwright-core and Chromium).
+// node tools/picture.mjs [PROGRAM]: writes screenshots of pages into docs/images: report.png (the README's scenario), curve.png (the
+// torque-speed curve), bench.png (a measured back-EMF), and plan.png (the middle of a plan's page). Requires the programs that
+// tools/install.sh test installs (playwright-core and Chromium).
 import {execFileSync, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -17,11 +17,11 @@ const browser = await playwright.chromium.launch({
   args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-dev-shm-usage'],
 });
 
-/** What `words` makes with --html, from the element `first` or the top down to `last`. Charts may be drawn already. */
+/** Takes a screenshot of the page that `words` writes with --html, from the element `first` or the top down to `last`. */
 async function photograph(name, last, words, first) {
   const file = path.join(folder, `${name}.html`);
   const {status, stderr} = spawnSync(program, [...words, '--html', file, '--quiet'], {cwd: root, encoding: 'utf8'});
-  if (status !== 0 && status !== 1) throw new Error(stderr); // 1: a requirement is missed, which is what a plan's page is for
+  if (status !== 0 && status !== 1) throw new Error(stderr); // 1: a requirement is missed, which is expected for a plan's page
   const page = await browser.newPage({viewport: {width: 1200, height: 1400}, colorScheme: 'light', deviceScaleFactor: 1.15});
   await page.goto(pathToFileURL(file).href);
   if (last.startsWith('#chart')) await page.waitForFunction(() => globalThis.sixstep?.charts?.length > 0);

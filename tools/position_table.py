@@ -3,14 +3,14 @@
 """position_table.py [PROGRAM]: results of each method of rotor sensing on the maxon 251601, as Markdown.
 
   --renew          also writes the table between its markers in docs/howto/choose-a-rotor-sensor.md
-  --check          fails where the table there is another one
-  --costs          no PROGRAM and nothing measured: the page's cells stay, what a chip pays is summed anew from data/cores/
-  --keep FOLDER    leaves the scenarios there
+  --check          fails if the page's table differs in rows or columns
+  --costs          needs no PROGRAM and measures nothing: only the costs on a chip are computed again from data/cores/
+  --keep FOLDER    keeps the scenarios in this folder
 
-At the bench the motor is turned from outside at a steady speed while its drive holds 1 A: at which angle the pairs change, and
-how even the torque is. Then it starts by itself, from rest to 100 rad/s against a tenth of the nominal torque. Everything is a
-scenario that `sixstep run` runs; seeds are fixed, so that the table is the same on every machine. What a chip pays was counted on
-emulated cores (tools/check_target.sh).
+In the first test a dynamometer turns the motor at a constant speed while its drive controls 1 A. It measures the angle at which the
+pairs change, and the ripple of the torque. In the second test the drive starts the motor from rest to 100 rad/s against a tenth of
+the nominal torque. Each test is a scenario of `sixstep run` with a fixed seed, so that the table is the same on every machine. The
+costs on a chip were counted on emulated cores (tools/check_target.sh).
 """
 import argparse
 import concurrent.futures
@@ -118,7 +118,7 @@ DECODERS = {
 
 
 def cost_of(source, counted):
-    """The worst calls of a period, added: instructions on each core."""
+    """Instructions on each core: the sum of the worst calls of a period."""
     def worst(core, scalar, block, function):
         row = counted.get((core, block, scalar, function)) or counted.get((core, block, "whole", function))
         if not row:
@@ -173,7 +173,7 @@ class Bench:
 
 
 def drives(turned):
-    """Held alive, and with the torque of its current."""
+    """Whether the drive runs to the end with the torque of its current."""
     return turned is not None and turned[2] is not None and turned[2] > 0.9 * K_T
 
 
@@ -198,7 +198,7 @@ MEASURED = ["known by"] + [f"{speed}" for speed in SPEEDS] + ["lowest", "ripple"
 
 
 def kept_rows(table):
-    """The measured rows of the page: every method once, in the order of this file."""
+    """The measured rows of the page: each method once, in the order of this file."""
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
     if rows[0][:len(MEASURED)] != MEASURED or [row[0] for row in rows[2:]] != list(SOURCES):
         sys.exit("docs/howto/choose-a-rotor-sensor.md has other rows or columns: tools/position_table.py PROGRAM --renew measures them")
@@ -206,7 +206,7 @@ def kept_rows(table):
 
 
 def markdown(rows):
-    """Measured cells, and behind them what a chip pays."""
+    """The measured cells, followed by the costs on a chip."""
     counted = core_tables.keyed(core_tables.CORES / "blocks.txt", 4)
     head, rows = [*MEASURED, "chip"], [[*cells, cost_of(cells[0], counted)] for cells in rows]
     lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]

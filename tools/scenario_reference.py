@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """scenario_reference.py [--check] [PROGRAM]: writes docs/reference/keys/, the pages of all keys, from `sixstep help`.
 
-With --check nothing is written; it fails where a page is not what the program says.
+With --check it writes nothing, and fails if a page differs from the program's help.
 """
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGES = ROOT / "docs/reference/keys"
 OVERRIDE = "motor_override."
-LONG = 12  # more words than this do not go into a table's cell
+LONG = 12  # largest number of words in a table's cell
 HEAD = """# Scenario and motor files: all keys
 
 Which keys can a scenario or a motor file have, in which units and ranges? For everybody who writes such a file. In the terminal,
@@ -25,7 +25,7 @@ from it; a test checks that they are up to date.
 - "also as" names the key for a linear motor, whose files must use that name.
 
 A number may have another unit, in quotes. The unit must fit the key
-([list of units](../../start/your-motor.md#what-does-a-number-mean)):
+([list of units](../../start/your-motor.md#which-unit-and-frame-does-each-number-have)):
 
 - key: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 = "135 gcm2"`, `damping = "90 %"`
 - reference, by its control mode: `value = "6710 rpm"`
@@ -52,12 +52,12 @@ number counts as 0. Some numbers are allowed alone but make no drive together. T
 - A value in brackets or braces replaces the other as a whole. Empty braces drop a table of a base: `load = {}`, or `speed = {}`
   under `[control]`.
 
-## Which table holds which keys
+## Which table contains which keys
 
 """
 NOTES = {
     "at": """`[[at]]` changes something at an instant of the run. The controller takes over gains, limits, mode and chopping with its next
-sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-does-the-chip-do-at-a-change)).
+sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-happens-in-the-chip-at-a-change)).
 """,
     "reference": """The controller reads a moving reference at each control tick and holds it until the next. Figures of the reference's
 steps need a reference that does not move in their window, or their own `level`.
@@ -108,7 +108,7 @@ class Entry:
         return "".join(f"{separator}`{word}` {meaning}" for word, meaning in self.words)
 
     def cells(self, prefix):
-        what, kind = self.meaning, self.type.replace("one word of those below", "").replace("|", " or ")
+        what, kind = self.meaning, self.type.replace("one of the words below", "").replace("|", " or ")
         if self.path.startswith("compare.") and self.words:
             what += ", as in [`[[require]]`](require.md)"
         elif len(self.words) > LONG:
@@ -131,7 +131,7 @@ def table(entries, prefix):
 
 
 def repeats(entry, top):
-    """The table at the top of the file that has the same keys: they are told there."""
+    """The table at the top of the file that has the same keys and describes them."""
     inner = [path.removeprefix(entry.path) for path in entry.inner]
     return next((t for t in top if t.is_table and t.path != entry.path and inner == [path.removeprefix(t.path) for path in t.inner]), None)
 
@@ -180,7 +180,7 @@ def main(words):
     made = pages(pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve())
     there = {file.name: file.read_text(encoding="utf-8") for file in PAGES.glob("*.md")}
     if check and there != made:
-        raise SystemExit("docs/reference/keys is not what `sixstep help` says; tools/scenario_reference.py build/dev/sixstep renews it")
+        raise SystemExit("docs/reference/keys differs from `sixstep help`; renew it with tools/scenario_reference.py build/dev/sixstep")
     if check:
         return
     PAGES.mkdir(parents=True, exist_ok=True)

@@ -4,8 +4,8 @@
 
     tools/single_header.py [--out FILE]
 
-Each part stands whole, in the order of its includes, without its licence line, guard and includes; the standard headers
-come first, once. tests/tools/single_header_test.py holds the result to its parts: both preprocess to the same tokens.
+The file contains each part completely, in the order of the includes, without licence line, guard and includes. The standard headers
+are at the beginning, each once. tests/tools/single_header_test.py checks that the result and its parts preprocess to the same tokens.
 """
 import argparse
 import pathlib
@@ -20,7 +20,7 @@ STANDARD = re.compile(r"^#include (<[a-z0-9_]+>)\n", re.M)
 
 
 def ordered(root: pathlib.Path) -> list[str]:
-    """All parts, each behind what it includes; where nothing decides, by name."""
+    """All parts, each after the parts that it includes; otherwise ordered by name."""
     order: list[str] = []
 
     def visit(path: str) -> None:
@@ -31,7 +31,7 @@ def ordered(root: pathlib.Path) -> list[str]:
         order.append(path)
 
     for part in sorted((root / FOLDER).rglob("*.hpp")):
-        if part.parent.name == "own":  # the door for who runs sixstep: no firmware passes it
+        if part.parent.name == "own":  # the interface of users' controllers, which firmware does not include
             continue
         visit(part.relative_to(root).as_posix())
     return order
@@ -56,7 +56,7 @@ def single_header(root: pathlib.Path) -> str:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=pathlib.Path, help="the file to write; without it, to the terminal")
+    parser.add_argument("--out", type=pathlib.Path, help="file to write. Default: standard output")
     parser.add_argument("--root", type=pathlib.Path, default=ROOT, help="repository root")
     args = parser.parse_args()
     text = single_header(args.root)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Charts over time for a printed page, one below the other on one time axis, as an SVG file that needs nothing.
+"""Charts over time for a printed page, one below the other on one time axis, as an SVG file that refers to no other file.
 
-The same columns give the same bytes: a test holds the manual's pictures to what the program computes.
+The same columns give the same bytes, so that a test can compare the manual's pictures with the program's results.
 """
 import math
 from xml.sax.saxutils import escape
 
 WIDTH, HEIGHT, LEFT, RIGHT, HEAD, GAP, FOOT = 720, 132, 58, 14, 30, 12, 40
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#555555")  # told apart by colour-blind readers too
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#555555")  # colours that colour-blind readers can distinguish
 DASHED = "#888888"
 
 
@@ -20,7 +20,7 @@ def ticks(low, high):
 
 
 def thinned(points):
-    """At most first, least, largest and last of each place on the time axis: no peak is lost."""
+    """At most the first, least, largest and last row of each pixel of the time axis, so that no peak is lost."""
     out, bundle = [], []
     for point in points + [None]:
         if bundle and (point is None or round(point[0]) != round(bundle[0][0])):
@@ -33,7 +33,7 @@ def thinned(points):
 
 def path(curve, at, colour, dashed):
     places = [(f"{x:.1f}", f"{y:.1f}") for x, y in thinned([at(x, y) for x, y in curve])]
-    corners = [here for n, here in enumerate(places)  # what lies on a level line, or is there twice, says nothing
+    corners = [here for n, here in enumerate(places)  # points within a level line are not needed
                if not 0 < n < len(places) - 1 or not here[1] == places[n - 1][1] == places[n + 1][1]]
     words = [f"{x} {y}" for n, (x, y) in enumerate(corners) if n == 0 or (x, y) != corners[n - 1]]
     dash = ' stroke-dasharray="5 4"' if dashed else ""
@@ -52,7 +52,7 @@ def heading(title, curves, top):
 
 
 def panel(spec, top, span, bottom_axis):
-    """One chart. spec: title, curves [(label, [(t, y)..], dashed)]; span: of the time axis."""
+    """One chart. spec: title, curves [(label, [(t, y)..], dashed)]; span: range of the time axis."""
     values = [y for _, curve, _ in spec["curves"] for _, y in curve]
     low, high = min(values), max(values)
     room = 0.06 * (high - low) or max(abs(high) * 0.05, 1e-9)

@@ -7,14 +7,14 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SLOW = ROOT / "tests/slow.txt"
-SECONDS = 8  # of a test's time, two side by side
-HEAD = f"""# Tests that take more than {SECONDS} s, and how many, two side by side: tools/test_costs.py --write has measured them.
-# ./test leaves them out, ./test --faces has them, and .ci/run one half of them in two of four turns.
+SECONDS = 8  # a test is long if it takes more than this, with two tests in parallel
+HEAD = f"""# Tests that take more than {SECONDS} s, with their times. tools/test_costs.py --write measures them, two tests in parallel.
+# ./test does not run them. ./test --faces runs all of them. .ci/run runs one half of them in two of four turns.
 """
 
 
 def measured(build):
-    """Seconds by name, of the tests that ctest counts among those that end."""
+    """{name: seconds} of the tests that ctest has measured to their end."""
     text = (build / "Testing/Temporary/CTestCostData.txt").read_text().split("---")[0]
     costs = {name: float(seconds) for name, runs, seconds in (line.rsplit(" ", 2) for line in text.splitlines()) if int(runs)}
     return {name: seconds for name, seconds in costs.items() if not name.startswith("long.")}

@@ -35,7 +35,8 @@ double correlation_at(const Eigen::VectorXd& r, const std::vector<Index>& rows, 
   return square > 0 ? product / square : 0.0;
 }
 
-/// Lags that are summed: twice the lag from which on five correlations in a row are within the noise. 0: white.
+/// Number of lags in the sum: twice the lag after which five consecutive correlations are within the noise.
+/// 0: white noise.
 std::size_t lags_of(const Eigen::VectorXd& r, const std::vector<Index>& rows) {
   const double noise = 2.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(rows.size(), 4)));
   const std::size_t most = rows.size() / 8;
@@ -46,7 +47,7 @@ std::size_t lags_of(const Eigen::VectorXd& r, const std::vector<Index>& rows) {
   return std::min(2 * last, most);
 }
 
-/// Sum over the lags of the products of the scores: the covariance of J' r.
+/// Covariance of J' r (J: derivatives, r: residuals): the sum over the lags of the products of the scores.
 Eigen::MatrixXd scores_of(const Eigen::MatrixXd& j, const Eigen::VectorXd& r, const std::vector<Index>& rows,
                           std::size_t lags) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(j.cols(), j.cols());
@@ -61,9 +62,9 @@ Eigen::MatrixXd scores_of(const Eigen::MatrixXd& j, const Eigen::VectorXd& r, co
   return sum;
 }
 
-/// Covariance of J' r by the steps of a converter. Where the noise is below a step, rows in one step have one error, which
-/// no residual shows: of variance step^2/12 without noise, and reduced by the noise as the first harmonic of the steps'
-/// sawtooth is.
+/// Covariance of J' r that the steps of a converter cause. If the noise is below a step, rows within one step
+/// have the same error, which no residual shows. Its variance is step^2/12 without noise. Noise reduces the
+/// variance like the first harmonic of the steps' sawtooth.
 Eigen::MatrixXd steps_of(const FitProblem& problem, const Eigen::MatrixXd& j, const Eigen::VectorXd& r,
                          const std::vector<Index>& rows, std::size_t group) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(j.cols(), j.cols());
@@ -87,7 +88,7 @@ Eigen::MatrixXd steps_of(const FitProblem& problem, const Eigen::MatrixXd& j, co
   return sum;
 }
 
-/// The columns of the free unknowns.
+/// The columns of J for the free unknowns.
 Eigen::MatrixXd free_columns(const Eigen::MatrixXd& j, const std::vector<bool>& free) {
   Eigen::MatrixXd out(j.rows(), static_cast<Index>(std::count(free.begin(), free.end(), true)));
   for (Index k = 0, at = 0; k < j.cols(); ++k)
@@ -109,7 +110,8 @@ Eigen::MatrixXd spread_out(const Eigen::MatrixXd& part, const std::vector<bool>&
   return out;
 }
 
-/// Inverse of J'J, which the rows of the start make positive definite; each column is scaled to length 1 first.
+/// Inverse of J'J, which the rows of the start values make positive definite. Each column is first scaled to
+/// length 1.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& j) {
   const Eigen::VectorXd inverse_length = j.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = j * inverse_length.asDiagonal();
@@ -128,7 +130,7 @@ FitCovariance covariance_of(const FitProblem& problem, const Eigen::MatrixXd& de
                             const Eigen::VectorXd& residuals, const std::vector<bool>& free) {
   const Eigen::MatrixXd j = free_columns(derivatives, free);
   const Eigen::MatrixXd inverse = inverse_of(j);
-  // The rows of the start are independent.
+  // The rows of the start values are independent of each other.
   const Eigen::MatrixXd of_start = j.bottomRows(j.rows() - static_cast<Index>(problem.cells()));
   Eigen::MatrixXd scores = of_start.transpose() * of_start;
   double independent = 0.0;
@@ -162,12 +164,12 @@ base::Result<UnknownBounds> bounds_of(FitProblem& problem, const FitSolution& so
   const auto at = static_cast<Index>(k);
   const double variance = covariance.covariance(at, at), white = covariance.of_white_noise(at, at);
   const double width = analysis::student_95(covariance.degrees_of_freedom) * std::sqrt(variance);
-  // Growth of the sum of squares at the bounds, in variances of one residual.
+  // Increase of the sum of squares at the bounds, relative to the variance of one residual.
   const double growth = width * width / white;
   UnknownBounds out{solution.u[at] - width, solution.u[at] + width, false};
   const double least = solution.square();
   const Eigen::VectorXd along =
-      covariance.of_white_noise.col(at) / white;  // the others' best move per move of k
+      covariance.of_white_noise.col(at) / white;  // best change of the other unknowns per change of k
   std::vector<bool> others = free;
   others[k] = false;
   for (double* const bound : {&out.low, &out.high}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the free parameters that the recordings do not determine, and says why.
+// Finds the free parameters that the recordings do not determine, and the reasons.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
@@ -10,10 +10,12 @@
 
 namespace batch {
 
-/// Whether the recordings determine the parameter k: its bounds are less than half as wide as those of its start.
+/// Whether the recordings determine the parameter k: its bounds are less than half as wide as the bounds of
+/// the start value.
 bool is_determined(const FitCovariance& covariance, std::size_t k);
 
-/// Why the recordings do not determine the parameter k: no cell depends on it, or others have the same effect.
+/// The reason why the recordings do not determine the parameter k: no cell depends on k, or other parameters
+/// have the same effect.
 std::string why_undetermined(const FitProblem& problem, const Eigen::MatrixXd& derivatives,
                              const FitCovariance& covariance, std::size_t k);
 

@@ -17,7 +17,7 @@ namespace {
 /// Least number of rows of a fit.
 constexpr std::size_t fewest_rows = 10;
 
-/// What the probes of one bench do to instants and values.
+/// Changes of instants and values by the probes of one bench.
 struct Probes {
   explicit Probes(std::size_t columns) : gain(columns, 1.0), offset(columns, 0.0), delay_s(columns, 0.0) {}
 
@@ -47,7 +47,7 @@ Probes probes_of(const FitBench& bench, std::size_t index, std::span<const FitPa
   return probes;
 }
 
-/// Largest move of the recording's times during a fit: the rows nearer to the run's ends are left out.
+/// Largest shift of the recording's times during a fit. Rows nearer to the run's ends are not used.
 double margin_s(const FitBench& bench) {
   return std::min(2.0 * bench.scenario.pwm.period_s, 0.01 * bench.scenario.duration_s);
 }

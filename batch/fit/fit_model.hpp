@@ -32,7 +32,7 @@ class FitModel {
                                            std::span<const double> u) const {
     return values(parameters, u, cells_.size());
   }
-  /// Those of the first `count` cells; the simulation ends with them.
+  /// The values of the first `count` cells; the simulation ends after these cells.
   base::Result<std::vector<double>> values(std::span<const FitParameter> parameters,
                                            std::span<const double> u, std::size_t count) const;
   /// Number of cells in the first part of the recording's time, 0 to 1.
@@ -43,7 +43,8 @@ class FitModel {
   std::size_t index_ = 0;
   std::vector<FitCell> cells_;
   std::vector<std::size_t> signal_;  ///< for each column of the log: its index in a full row
-  std::vector<double> factor_;  ///< from the full row's unit to the column's, which differ for a linear motor
+  std::vector<double>
+      factor_;  ///< factor from the full row's unit to the column's unit, which differ for a linear motor
 };
 
 }  // namespace batch

@@ -10,7 +10,7 @@ namespace batch {
 
 namespace {
 
-/// The free unknowns of a problem as Eigen's method expects them.
+/// The free unknowns of a problem, in the form that Eigen's method requires.
 struct FreeUnknowns {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -21,7 +21,7 @@ struct FreeUnknowns {
   FitProblem& problem;
   const std::vector<bool>& free;
   Eigen::VectorXd all;
-  std::vector<Eigen::Index> place{};  ///< of each free unknown in `all`
+  std::vector<Eigen::Index> place{};  ///< index in `all` of each free unknown
   base::Problems problems{};
 
   int inputs() const { return static_cast<int>(place.size()); }
@@ -78,7 +78,8 @@ base::Result<FitSolution> solve(FitProblem& problem, const Eigen::VectorXd& u, c
   method.parameters.ftol = 1e-6;  // a change of 0.03 standard deviations at a thousand rows
   method.parameters.xtol = 1e-6;
   method.parameters.maxfev = evaluations;
-  // A step is bounded in u, whose scale is alike for all unknowns: the first one changes a constant by a third.
+  // Limits the first step in u, whose scale is similar for all unknowns: it changes a constant by at most a
+  // third.
   method.parameters.factor = 0.3;
   method.useExternalScaling = true;
   method.diag = Eigen::VectorXd::Ones(x.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the unknowns with the least sum of squares. The method is MINPACK's lmder in Eigen's port, which is kept with
-// Eigen and needs no further package; Ceres has the same method, and installs 60 MB for it.
+// Finds the unknowns with the least sum of squares. The method is MINPACK's lmder in Eigen's port, which
+// needs no further package. Ceres has the same method, but would add 60 MB.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

@@ -18,8 +18,8 @@ using Cbor = nlohmann::json;
 
 constexpr char magic[] = "sixstep session";
 
-/// The bytes of an answer as they lie in memory. The layout is the same in every process with the same
-/// interface number and byte order.
+/// The bytes of an answer as in memory. The layout is the same in every process with the same interface
+/// number and byte order.
 std::vector<std::uint8_t> bytes_of(const sixstep_answer& answer) {
   std::vector<std::uint8_t> out(sizeof answer);
   std::memcpy(out.data(), &answer, sizeof answer);

@@ -95,7 +95,7 @@ sixstep_status opened(Session& session, Source source, const sixstep_options* op
     std::memcpy(&is, options, options->bytes);
   }
   if (is.chip < SIXSTEP_CHIP_OF_SCENARIO || is.chip > SIXSTEP_CHIP_GATES)
-    return misplaced(session, "options.chip", "is none of sixstep_chip", "take SIXSTEP_CHIP_OF_SCENARIO");
+    return misplaced(session, "options.chip", "is none of sixstep_chip", "use SIXSTEP_CHIP_OF_SCENARIO");
   source.chip = is.chip;
   source.settings = settings_of(is.settings);
   if (is.data != nullptr) source.data_folder = is.data;
@@ -253,7 +253,8 @@ size_t sixstep_save(sixstep_session* session, void* bytes, size_t room) {
 
 sixstep_status sixstep_load(const void* bytes, size_t count, sixstep_session** session) {
   return made(session, [&](Session& fresh) {
-    if (bytes == nullptr) return misplaced(fresh, "bytes", "are null", "give what sixstep_save() wrote");
+    if (bytes == nullptr)
+      return misplaced(fresh, "bytes", "are null", "give the bytes that sixstep_save() wrote");
     return loaded({static_cast<const std::uint8_t*>(bytes), count}, fresh);
   });
 }

@@ -78,7 +78,7 @@ SIXSTEP_API sixstep_status sixstep_problem_at(const sixstep_session* session, si
 
 /* ---- Open ---------------------------------------------------------------------------------------------------- */
 
-/* What controls the bridge. */
+/* The controller of the bridge. */
 typedef enum {
   SIXSTEP_CHIP_OF_SCENARIO = 0, /* the controller that the scenario names */
   SIXSTEP_CHIP_PAIR = 1,        /* the caller, at each control tick: a driven pair and a duty (sixstep_set_pair) */
@@ -86,7 +86,7 @@ typedef enum {
   SIXSTEP_CHIP_GATES = 3        /* the caller, at any instant: the six gates (sixstep_set_gates) */
 } sixstep_chip;
 
-/* Begin with sixstep_options options = SIXSTEP_OPTIONS and set what differs. */
+/* Begin with sixstep_options options = SIXSTEP_OPTIONS and set the members that differ. */
 typedef struct {
   size_t bytes;                /* sizeof(sixstep_options). By it the library recognizes the struct of an older header */
   const char* const* settings; /* null, or settings such as "pwm.period_s=40us", ended by a null; they override the
@@ -192,11 +192,12 @@ SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixst
 
 /* SIXSTEP_CHIP_GATES: sets the gates from the present instant on, as bits 0..5: upper a, lower a, upper b, lower
  * b, upper c, lower c. The caller must keep a dead time: two set bits of a leg are a shoot-through. It ends the
- * run, and the next advance returns SIXSTEP_OVER. If gates are set twice at one instant, the last ones apply.
+ * run, and the next advance returns SIXSTEP_OVER. If gates are set twice at one instant, the last setting applies.
  * Instants of changes are rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
-/* Advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows which. Changes by
- * sensors.hall_delay_s, by a glitch or by a broken line count. With SIXSTEP_CHIP_GATES the instant is rounded to 1 ps. */
+/* Advances to the next change of a Hall line, or to to_s if no change comes before. The signal "hall" then shows the
+ * new code. Delayed edges (sensors.hall_delay_s), glitches and broken lines count as changes. With SIXSTEP_CHIP_GATES the
+ * instant is rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
 /* SIXSTEP_CHIP_GATES: advances to the next edge of a comparator for the back-EMF, or to to_s if none comes before.
  * The comparator's input is the voltage of the terminal of leg 0, 1 or 2, minus the mean of the three terminal voltages.

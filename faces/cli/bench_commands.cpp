@@ -212,12 +212,12 @@ void declare_common(CLI::App& verb, BenchArguments& a, const char* voltages) {
   verb.add_option("--voltages", a.columns.voltages, voltages)->delimiter(',');
   verb.add_option(
       "--between", a.between,
-      "points between which the probes were connected: lines, two terminals; or star, a terminal and a common point");
-  verb.add_option("--interval", a.interval_s, "time from row to row, s, if no column holds the time");
-  verb.add_flag("--json", a.json, "for programs");
+      "points between which the voltages were measured: lines (two terminals) or star (a terminal and a common point)");
+  verb.add_option("--interval", a.interval_s, "time from row to row in s, if the file has no column of time");
+  verb.add_flag("--json", a.json, "print the results as JSON");
   verb.add_option("--html", a.html, "write a page with charts");
   take_force(verb, a.force);
-  verb.add_flag("--quiet", a.quiet, "no text, only files and errors");
+  verb.add_flag("--quiet", a.quiet, "print errors only; files are still written");
 }
 
 }  // namespace
@@ -238,7 +238,7 @@ Verb declare_identify(CLI::App& motor) {
   declare_common(identify, *a, "headings of the voltages, as CH4,CH5,CH6");
   identify.add_option(
       "--pole-pairs", a->pole_pairs,
-      "locate each edge of a shaft turn separately; without it the six edges of an electrical turn");
+      "locate each edge of a shaft turn separately. Default: the six edges of an electrical turn");
   identify.add_option("--write", a->write,
                       "write the lines of a scenario, and the table for a user's firmware");
   return {&identify, calling(identify_command, a)};

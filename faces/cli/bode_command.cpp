@@ -103,12 +103,13 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
     if (a.paths.of(option) == "-") print(content(option, job.name(), *s, a));
   const bool prints = a.paths.prints() || a.paths.of("--csv") == "-";
   if (!a.quiet) print(text::bode_text(job.name(), *s), prints ? stderr : stdout);
-  // A quiet run prints its notes only if no line of the spectrum has a coherence of 0.9.
+  // A quiet run prints only one message, if no line of the spectrum has a coherence of at least 0.9.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)
-    print(text::visible(job.name()) +
-              ": NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n",
-          stderr);
+    print(
+        text::visible(job.name()) +
+            ": NOTHING WAS MEASURED: no line reaches a coherence of 0.9; run without --quiet for the reason\n",
+        stderr);
   return answered ? Exit::ok : Exit::failed;
 }
 

@@ -27,7 +27,7 @@ void choose(const char* option, const std::string& word, const Choices& choices,
   const std::string near = text::nearest(word, known);
   found.push_back(
       {option, word, fmt::format("must be one of {}", fmt::join(known, ", ")),
-       near.empty() ? fmt::format("take {}", known.front()) : fmt::format("did you mean {}?", near)});
+       near.empty() ? fmt::format("write {}", known.front()) : fmt::format("did you mean {}?", near)});
 }
 
 }  // namespace cli

@@ -107,9 +107,9 @@ Verb declare_commission(CLI::App& motor) {
   verb.add_option("--voltage", a->voltage_V, "bus voltage, V. Default: the sheet's nominal voltage");
   verb.add_option(
       "--current", a->current_A,
-      "test current, A; the motor must withstand it for seconds. At most 0.41 U/R_s, R_s of a phase, which the "
-      "bus drives at rest; less for a salient rotor. Default: twice the nominal current (if the sheet names none, a "
-      "fifth of U/(2 R_s)), but at most half of that bound");
+      "test current, A; the motor must withstand this current for seconds. Largest value: 0.41 U/R_s (U: bus "
+      "voltage, R_s: phase resistance), less for a salient rotor. Default: twice the nominal current, or a fifth of "
+      "U/(2 R_s) if the sheet names no nominal current; at most half of the largest value");
   verb.add_option("--phases", a->phases,
                   "phases of the motor at legs a, b, c: abc, bca, cab, acb, cba or bac")
       ->capture_default_str();
@@ -122,13 +122,13 @@ Verb declare_commission(CLI::App& motor) {
   verb.add_option("--seed", a->seed, "seed of the converters' noise")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
-  verb.add_flag("--json", a->json, "for programs");
+  verb.add_flag("--json", a->json, "print the results as JSON");
   verb.add_option("--write", a->write, "write the results as lines for a motor's file");
   verb.add_option("--html", a->html,
                   "write a page with the currents of the test, the rotor's path and all figures");
   take_force(verb, a->force);
   take_data(verb, a->data_dir);
-  verb.add_flag("--quiet", a->quiet, "no text, only files and errors");
+  verb.add_flag("--quiet", a->quiet, "print errors only; files are still written");
   return {&verb, calling(commission_command, a)};
 }
 

@@ -138,8 +138,8 @@ base::Problems lay_over(Log& log, const Compared& run) {
   const study::Trace simulated = run.events->trace();
   study::Trace& trace = log.read.trace;
   if (const double start_s = analysis::start_shift_s(simulated, trace); start_s != 0.0) {
-    log.read.notes.push_back(
-        fmt::format("its clock starts at {:.10g} s, so that times are counted from its first row", -start_s));
+    log.read.notes.push_back(fmt::format(
+        "the log's clock starts at {:.10g} s, so that times are counted from its first row", -start_s));
     for (double& t : trace.values.front()) t += start_s;
   }
   const double period_s = run.scenario.pwm.period_s;

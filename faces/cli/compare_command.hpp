@@ -9,8 +9,8 @@ namespace cli {
 
 struct RunArguments;
 
-/// Whether runs are compared: one run with a board's log; or, if --html is the only output, several files
-/// with each other, or one file on host and chip (lays_over).
+/// Whether runs are compared. This is the case for one run with a board's log. It is also the case for
+/// several files if --html is the only output, and for one file if lays_over() is true.
 bool compares(const RunArguments& arguments);
 
 /// Whether --on names a map of a user's own firmware.

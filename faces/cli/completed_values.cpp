@@ -140,7 +140,7 @@ Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std:
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
   if (name == "--data") return files(current, "", true);
-  // CLI11 names the type of a number. Any other text is the path of an output file.
+  // CLI11 gives numbers another type name. Every other option without a list is the path of an output file.
   return option.get_type_name() == "TEXT" ? files(current, "") : Candidates{};
 }
 

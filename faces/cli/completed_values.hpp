@@ -12,8 +12,8 @@ class Option;
 
 namespace cli {
 
-/// `current`: the typed part of the value; for files it determines the folder. Numbers cannot be listed; for
-/// a text without its own list, files are listed.
+/// `current`: the typed part of the value; for files it determines the folder. Numbers have no list. A text
+/// argument without a list of words gets a list of files.
 std::vector<Candidate> values_of(const CLI::App& verb, const CLI::Option& option, const std::string& current);
 
 }  // namespace cli

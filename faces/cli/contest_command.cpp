@@ -237,8 +237,9 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--voltage", a.voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
   verb.add_option("--settle", a.settle_s,
                   "settling time of all speed loops in s. Default: the shortest that Hall probes allow");
-  verb.add_option("--current-settle", a.current_settle_s,
-                  "settling time of all current loops in s. Default: that of the design");
+  verb.add_option(
+      "--current-settle", a.current_settle_s,
+      "settling time of all current loops in s. Default: the settling time that the design chooses");
   verb.add_option("--period", a.period_s, "control and PWM period in s. Default: 30e-6");
   verb.add_option("--board", a.board, "scenario whose supply, bridge, PWM and sensors all controllers share");
   for (const auto& [option, unit] : {std::pair{"--voltage", "V"}, std::pair{"--settle", "s"},
@@ -250,26 +251,27 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
           "number of drives within the sheet's tolerances, for each controller; 0: only the nominal drive")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
-  verb.add_option("--seed", a.seed, "seed of these drives")->capture_default_str();
-  take_store(verb, a.store, "an SQLite file for the figures of each of these drives, one row each");
+  verb.add_option("--seed", a.seed, "seed of the drives of --runs")->capture_default_str();
+  take_store(verb, a.store, "SQLite file for the figures of the drives of --runs, one row per drive");
   verb.add_flag("--resume", a.resume, "continue with the drives that --store does not have yet");
-  verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
-  verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");
+  verb.add_option("--json", a.json,
+                  "write all results as JSON; - writes to standard output instead of the tables");
+  verb.add_option("--csv", a.csv, "write one line of CSV per controller; - writes to standard output");
   verb.add_option(
       "--html", a.html,
-      "write a page with pictures: the best controller by each figure, and each controller's response to the load");
+      "write a page with pictures: the best controller for each figure, and each controller's response to the load");
   verb.add_option("--write", a.write, "a folder for the scenario of each controller, for sixstep run");
   take_force(verb, a.force);
   take_data(verb, a.data_dir);
   take_jobs(verb, a.jobs);
-  verb.add_flag("--quiet", a.quiet, "no tables, only files and errors");
+  verb.add_flag("--quiet", a.quiet, "print errors only; files are still written");
 }
 
 }  // namespace
 
 Verb declare_contest(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand(
-      "compare", "controllers of one motor, each designed by its rule, side by side on one course");
+      "compare", "compare controllers of one motor on one course; each is designed by its own rule");
   const auto a = std::make_shared<ContestArguments>();
   declare_options(verb, *a);
   return {&verb, calling(contest_command, a)};

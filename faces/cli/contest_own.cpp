@@ -69,8 +69,9 @@ base::Result<Contestants> contestants_of(const OwnArguments& own) {
 }
 
 void declare_own(CLI::App& verb, OwnArguments& own) {
-  verb.add_option("--own", own.files,
-                  "shared object of a user's controller, compared with the built-in ones; may be repeated")
+  verb.add_option(
+          "--own", own.files,
+          "shared object of a user's controller, compared with the built-in controllers; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   verb.add_option(

@@ -184,19 +184,20 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--chopping", a.chopping, "chopping for a duty below 1: soft, hard or complementary");
   curve.add_option("--pwm-period", a.pwm_period_s, "PWM period in s, for a duty below 1. Default: 30e-6");
   curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm. Default: 0");
-  curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
+  curve.add_option("--diode-drop", a.diode_drop_V, "forward voltage of a diode, V. Default: 0");
   curve.add_option("--points", a.points, "number of points from standstill to no load. Default: 41");
   curve.add_option("--ambient", a.ambient_degC, "temperature of the air around the motor, degC. Default: 25");
   curve.add_option("--winding", a.winding_degC, "temperature of the winding on the curve, degC. Default: 25");
   curve.add_option("--housing", a.housing_degC,
                    "temperature of housing and magnets on the curve, degC. Default: 25");
   curve.add_option("--csv", a.csv, "write all points with all columns");
-  curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
+  curve.add_option("--json", a.json,
+                   "write all results as JSON; - writes to standard output instead of the table");
   curve.add_option("--html", a.html, "write a page with charts");
   take_force(curve, a.force);
   take_data(curve, a.data_dir);
   take_jobs(curve, a.jobs, "points");
-  curve.add_flag("--quiet", a.quiet, "no table, only files and errors");
+  curve.add_flag("--quiet", a.quiet, "print errors only; files are still written");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct DesignArguments {
   std::optional<double> force_limit_N, load_mass_kg;  ///< linear motor: replace torque_limit_Nm and
                                                       ///< load_inertia_kg_m2
   std::optional<int> delay_periods, edges;
-  bool quick = false;  ///< true: without the runs within the tolerances
+  bool quick = false;  ///< true: no runs within the tolerances
   bool quiet = false, force = false;
   unsigned jobs = 0;
   std::string json, toml, models, html;  ///< paths of the files; json "-": standard output

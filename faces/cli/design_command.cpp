@@ -146,7 +146,8 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with")) w.cure += ", tried without the limits of the board's drive";
-  // A sensorless drive keeps its loops' verdict although the written file lacks the drive's commutation.
+  // This warning does not change the verdict of a sensorless drive: the verdict is about the loops, and only
+  // the drive's commutation is missing in the written file.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
     warn("the designed file keeps " + carried.kept + " of the board's scenario, so that its run shows " +
@@ -156,7 +157,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
     warn("the design does not use these keys of the board's scenario: " + keys, false);
   if (const std::string course = analysis::replaced(*board, carried.scenario);
       writes_scenario && !course.empty()) {
-    const std::string what = " the design's own test in place of the board's " + course;
+    const std::string what = " the design's test in place of the board's " + course;
     carried.scenario.notes = "Run with" + what;
     warn("the designed file has" + what +
              "; to export a header, write the gains into the board's scenario and export it",
@@ -291,11 +292,11 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--mode", a.mode, "current, speed or position. Default: current");
   design.add_option(
       "--settle", a.settle_s,
-      "settling time of the mode's PI loop in s. Default: current 1e-3, or 8 L/R if shorter; speed 10e-3, or what sensor and torque allow");
+      "settling time of the mode's PI loop in s. Default for current: the shorter of 1e-3 and 8 L/R. Default for speed: 10e-3, or the shortest time that sensor and torque allow");
   design.add_option("--damping", a.damping, "damping of the placed poles, above 0 to 1. Default: 0.9");
   design.add_option(
       "--current-settle", a.current_settle_s,
-      "speed, position: settling time of the current loop in s. Default: the shortest of 1e-3, 8 L/R and a tenth of the speed loop's");
+      "speed, position: settling time of the current loop in s. Default: the shortest of 1e-3, 8 L/R and a tenth of the speed loop's settling time");
   design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
       ->capture_default_str();
   design.add_option("--bandwidth", a.bandwidth_rad_s,
@@ -316,7 +317,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
       "speed, position: clock of the timer that captures the edges of Hall probes or an encoder, in Hz. Default: 1e6, for an encoder 16e6");
   design.add_option(
       "--lowest-speed", a.lowest_speed_rad_s,
-      "speed, position: lowest speed that the loop must hold, in rad/s or m/s. Default: a tenth of the speed that the bus allows");
+      "speed, position: lowest speed that the loop must control, in rad/s or m/s. Default: a tenth of the speed that the bus allows");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal. Default: phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2,
                     "speed, position: inertia on the shaft besides the rotor's, in kg m2. Default: 0");
@@ -325,7 +326,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--delay", a.delay_periods, "periods until a command takes effect, 0 or 1. Default: 1");
   design.add_option("--chopping", a.chopping, "soft, hard or complementary. Default: soft");
   design.add_option("--step", a.step, "simulated step, in the mode's unit: A, rad/s (m/s) or deg (mm)");
-  design.add_option("--json", a.json, "write everything as numbers; - for standard output");
+  design.add_option("--json", a.json, "write all numbers as JSON; - writes to standard output");
   design.add_option(
       "--toml", a.toml,
       "write the simulated scenario, for sixstep run and export; without --scenario the dead time is 0.5 us");
@@ -337,12 +338,12 @@ void declare_options(CLI::App& design, DesignArguments& a) {
       ->needs(models);
   CLI::Option* optimise = design.add_option(
       "--optimise", a.optimise,
-      "plan with ranges and the figure to minimise; the design is the best point, and the output names what limits it");
-  take_store(design, a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
+      "plan with ranges and the figure to minimise; the design is the best point, and the output names the limits of this point");
+  take_store(design, a.store, "store each run of --optimise in this SQLite file")->needs(optimise);
   design.add_flag("--resume", a.resume, "continue the runs of --store")->needs("--store");
   take_force(design, a.force);
-  design.add_flag("--quick", a.quick, "leave out the tolerances");
-  design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");
+  design.add_flag("--quick", a.quick, "do not simulate the tolerances");
+  design.add_flag("--quiet", a.quiet, "print errors only");
   for (const auto& [option, unit] :
        {std::pair{"--settle", "s"}, std::pair{"--current-settle", "s"}, std::pair{"--period", "s"},
         std::pair{"--voltage", "V"}, std::pair{"--torque-limit", "Nm"}, std::pair{"--force-limit", "N"},

@@ -10,9 +10,10 @@ namespace cli {
 /// The words of --method.
 inline constexpr base::Choice<design::GainMethod> method_choices[] = {
     {"pole-placement", design::GainMethod::pole_placement, "a pair of poles from settling time and damping"},
-    {"cancellation", design::GainMethod::cancellation, "the PI's zero on the plant's pole, bandwidth free"},
+    {"cancellation", design::GainMethod::cancellation,
+     "the PI's zero cancels the plant's pole; the bandwidth is free"},
     {"symmetrical-optimum", design::GainMethod::symmetrical_optimum,
-     "speed: the most phase for the lag of the current loop"},
+     "speed loop: the largest phase margin for the lag of the current loop"},
 };
 
 /// `sixstep design MOTOR`: computes gains from the sheet and checks them by simulation.

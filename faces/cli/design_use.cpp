@@ -23,7 +23,7 @@ struct Use {
   std::string_view member;  ///< member of the spec that the option sets; empty: every design of gains uses
                             ///< the option
   const char* in_field;     ///< cure if a field-oriented drive does not use the option; nullptr: it does
-  bool in_optimise;         ///< whether --optimise reads the option
+  bool in_optimise;         ///< true: --optimise reads the option
 };
 
 using A = DesignArguments;

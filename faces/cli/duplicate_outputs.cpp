@@ -21,7 +21,7 @@ base::Problems duplicate_outputs(const std::vector<std::pair<std::string, std::s
     if (!is_new)
       problems.push_back({.where = option,
                           .value = path,
-                          .limit = fmt::format("is what {} writes", other->second),
+                          .limit = fmt::format("is also the file of {}", other->second),
                           .cure = "give each output its own file"});
   }
   return problems;

@@ -40,7 +40,7 @@ struct ExportArguments {
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = text::nearest(word, known);
-  return near.empty() ? fmt::format("take one of {}", fmt::join(known, ", "))
+  return near.empty() ? fmt::format("write one of {}", fmt::join(known, ", "))
                       : fmt::format("did you mean {}?", near);
 }
 
@@ -147,7 +147,7 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
               text::visible(a.file) + " --toml NEW.toml\n",
           stderr);
   print(
-      "no header was written; to write it anyway, add --despite REASON, and the header will state all of this\n",
+      "no header was written; to write it anyway, add --despite REASON, and the header states these reasons\n",
       stderr);
   const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
   return graver(cli::exit_of(c.outcome), told);
@@ -208,12 +208,12 @@ Exit export_header(const ExportArguments& a) {
 
 void declare_options(CLI::App& header, ExportArguments& a) {
   header.add_option("SCENARIO", a.file, "scenario file")->required();
-  header.add_option("--out", a.out, "the file to write; without it standard output");
+  header.add_option("--out", a.out, "file to write. Default: standard output");
   take_force(header, a.force);
   std::string words;
   for (const auto& choice : study::arithmetic_choices)
     words += (words.empty() ? "" : ", ") + std::string(choice.word);
-  header.add_option("--arithmetic", a.arithmetic, words + "; without it control.arithmetic");
+  header.add_option("--arithmetic", a.arithmetic, words + ". Default: control.arithmetic");
   header
       .add_option(
           "--range", a.ranges,
@@ -225,7 +225,7 @@ void declare_options(CLI::App& header, ExportArguments& a) {
       ->capture_default_str();
   header.add_option(
       "--despite", a.despite,
-      "write the header although its run fails or neglects effects of a real board; the header states this reason and everything that was overridden");
+      "write the header although its run fails or neglects effects of a real board; the header states this reason and the findings that it overrides");
   header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
   take_data(header, a.data_dir);
 }

@@ -40,8 +40,8 @@ base::Result<files::Sink> report_sink(const files::Destination& to, const study:
 /// The output of a chip's serial line, below a comment line with the chip and the command.
 std::string sent_text(const files::RunStory& s) {
   if (!s.outcome.chip) return "";
-  return fmt::format("# sixstep {}: what an emulated {} sent; {}\n{}", SIXSTEP_VERSION, s.outcome.chip->chip,
-                     text::visible(s.origin.command), s.outcome.chip->sent);
+  return fmt::format("# sixstep {}: serial output of an emulated {}; {}\n{}", SIXSTEP_VERSION,
+                     s.outcome.chip->chip, text::visible(s.origin.command), s.outcome.chip->sent);
 }
 
 base::Result<files::Sink> uart_sink(const files::Destination& to, const study::Scenario&,
@@ -59,7 +59,7 @@ std::string grid_foretold(const study::Scenario& s, double bytes_a_number) {
   if (!(bytes > many_bytes)) return "";
   const auto rough = [](double x) { return x < 10 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x); };
   return fmt::format(
-      "one row each {} makes some {} million rows, {} GB; for fewer rows set a longer record.grid_s",
+      "one row per {} gives about {} million rows, {} GB; for fewer rows set a longer record.grid_s",
       text::quantity_text(grid_s, "s", 3), rough(rows / 1e6), rough(bytes / 1e9));
 }
 std::string csv_foretold(const study::Scenario& s) { return grid_foretold(s, 11); }
@@ -88,7 +88,7 @@ constexpr Format list[] = {
      .open = files::vcd_sink,
      .in_folder = ""},
     {.option = "--json",
-     .meaning = "write verdicts and figures; - for standard output",
+     .meaning = "write verdicts and figures as JSON; - writes to standard output",
      .open = files::json_sink,
      .in_folder = ".json",
      .printed = json_text},

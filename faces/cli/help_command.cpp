@@ -55,7 +55,7 @@ std::string of_key(const KeyEntry& entry) {
   if (entry.path != "record.columns") return text;
   for (const study::Column& column : study::all_columns())
     text += fmt::format("    {:<20}{}\n", column.name, column.meaning);
-  text += "  for a linear motor, instead of those for a turning motor\n";
+  text += "  for a linear motor, in place of the columns for a rotary motor\n";
   const std::vector<study::Column>& linear = study::all_columns(design::MotorKind::linear);
   for (std::size_t n = 0; n < linear.size(); ++n)
     if (linear[n].name != study::all_columns()[n].name)
@@ -63,7 +63,7 @@ std::string of_key(const KeyEntry& entry) {
   return text;
 }
 
-/// The entry whose path ends with this word, if exactly one entry does; else null.
+/// The entry whose path ends with this word, if there is exactly one such entry; else null.
 const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
   for (const KeyEntry& entry : entries) {

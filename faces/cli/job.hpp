@@ -47,7 +47,8 @@ class Job {
   /// run, a message if an output does not contain it. Empty otherwise.
   std::string foretold() const;
   std::string left_out() const;
-  /// The message about an interrupted run: the time, and the files with its results. Empty otherwise.
+  /// The message about an interrupted run: it states the reached time and the files with the results. Empty
+  /// if the run was not interrupted.
   std::string cut_short() const;
 
  private:
@@ -64,8 +65,8 @@ class Job {
   const loop::Core* core_ = nullptr;
   std::string where_;
   bool interrupted_ = false;
-  bool broken_ = false;       // whether writing an output failed
-  bool reader_gone_ = false;  // whether the reader of a pipe closed it
+  bool broken_ = false;       // true: writing an output failed
+  bool reader_gone_ = false;  // true: the reader of a pipe closed it
 };
 
 }  // namespace cli

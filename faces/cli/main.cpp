@@ -64,7 +64,7 @@ constexpr Listed listed[] = {{"new", declare_new},         {"run", declare_run},
                              {"man", declare_man, true}};
 
 /// Declares the requested verb, or all verbs if `word` is not a verb. Declaring all verbs takes longer than
-/// many verbs run.
+/// running many of them.
 std::vector<Verb> declared(CLI::App& app, std::string_view word) {
   for (const Listed& verb : listed)
     if (verb.name == word && !verb.looks_at_all) return {verb.declare(app)};

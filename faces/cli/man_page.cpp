@@ -113,10 +113,10 @@ std::string keys_of_file(const std::vector<text::KeyEntry>& keys) {
 std::string files() {
   std::string text =
       ".SH SCENARIO FILES\n"
-      "A scenario is a TOML file.\nEvery key carries its unit; an unknown key is an error that\n"
+      "A scenario is a TOML file.\nThe name of every key contains its unit. For an unknown key, the error\n"
       "names the key that is probably meant.\n"
       "These are its keys and tables;\n"
-      ".B sixstep help\n.I TABLE\nlists the keys of one, and\n.B sixstep help\n.I KEY\n"
+      ".B sixstep help\n.I TABLE\nlists the keys of a table, and\n.B sixstep help\n.I KEY\n"
       "prints unit, range, default and words.\n";
   return text + keys_of_file(text::scenario_keys()) +
          ".PP\nA motor file is a TOML file of the motor's data sheet;\n.B sixstep motor new\nwrites one to "
@@ -125,12 +125,12 @@ std::string files() {
          ".SH PLAN FILES\n"
          "A plan is a TOML file that names a scenario and the keys that differ\nbetween its runs;\n"
          ".B sixstep run\n"
-         "takes one wherever it takes a\nscenario.\nThese are its keys:\n" +
+         "accepts a plan wherever it accepts a\nscenario.\nThese are its keys:\n" +
          keys_of_file(text::plan_keys());
 }
 
 constexpr std::string_view examples =
-    ".SH EXAMPLES\nA scenario to start from, its report, and the same on a weaker bus:\n.PP\n.nf\n.RS\nsixstep new first\nsixstep run first.toml \\-\\-html first.html\nsixstep run first.toml \\-\\-set supply.voltage_V=20\n.RE\n.fi\n.PP\nThree PWM periods, and a hundred drives within the tolerances, in a file that a\nlater call continues:\n.PP\n.nf\n.RS\nsixstep run first.toml \\-\\-vary pwm.period_s=20us:60us:3\nsixstep run first.toml \\-\\-tolerances \\-\\-runs 100 \\-\\-store first.sqlite\n.RE\n.fi\n.PP\nGains of a speed cascade, checked over the sheet's tolerances, as a\nscenario:\n.PP\n.nf\n.RS\nsixstep design maxon\\-251601 \\-\\-mode speed \\-\\-toml drive.toml\n.RE\n.fi\n";
+    ".SH EXAMPLES\nA scenario to start from, its report, and the same scenario with a lower bus voltage:\n.PP\n.nf\n.RS\nsixstep new first\nsixstep run first.toml \\-\\-html first.html\nsixstep run first.toml \\-\\-set supply.voltage_V=20\n.RE\n.fi\n.PP\nThree PWM periods, and a hundred drives within the tolerances, in a file that a\nlater call continues:\n.PP\n.nf\n.RS\nsixstep run first.toml \\-\\-vary pwm.period_s=20us:60us:3\nsixstep run first.toml \\-\\-tolerances \\-\\-runs 100 \\-\\-store first.sqlite\n.RE\n.fi\n.PP\nGains of a speed cascade, checked over the sheet's tolerances, as a\nscenario:\n.PP\n.nf\n.RS\nsixstep design maxon\\-251601 \\-\\-mode speed \\-\\-toml drive.toml\n.RE\n.fi\n";
 
 }  // namespace
 

@@ -155,10 +155,11 @@ Verb declare_motor(CLI::App& app) {
     verb->add_option("NAME", a->name, "name or path")->required();
     take_data(*verb, a->data_dir);
   }
-  for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
+  for (CLI::App* const verb : {&list, &show, &check})
+    verb->add_flag("--json", a->json, "print the results as JSON");
   CLI::App& fresh =
       *motor.add_subcommand("new", "write a motor file to be filled in, or taken over from another program");
-  fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
+  fresh.add_option("NAME", a->name, "file to write, NAME.toml. Default: standard output");
   CLI::Option* const style =
       fresh
           .add_option("--style", a->style,
@@ -167,13 +168,13 @@ Verb declare_motor(CLI::App& app) {
   fresh
       .add_option(
           "--from", a->from,
-          "take the values over from a VESC motor configuration (XML), an ODrive or moteus configuration, a "
+          "read the values from a VESC motor configuration (XML), an ODrive or moteus configuration, a "
           "SimpleFOC sketch or MATLAB's struct of a motor")
       ->excludes(style);
   fresh
       .add_option(
           "--answer", a->answers,
-          "what the file of --from leaves open, as resistance=phase,kv=line-peak; the message names the answers")
+          "answers to questions about the file of --from, as resistance=phase,kv=line-peak; the error message lists the possible answers")
       ->type_name("WORD=CHOICE")
       ->delimiter(',');
   const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),

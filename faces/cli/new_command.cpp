@@ -78,7 +78,7 @@ base::Result<std::string> write_schema(const std::string& path) {
         "; the existing {} beside it differs and was kept: for editors, replace it by the output of sixstep schema scenario",
         text::visible(path));
   }
-  return fmt::format(", and {}, which editors use to complete and check it", text::visible(path));
+  return fmt::format(", and {}, with which editors complete and check the scenario", text::visible(path));
 }
 
 Exit new_command(const NewArguments& a) {
@@ -121,12 +121,12 @@ Exit new_command(const NewArguments& a) {
 Verb declare_new(CLI::App& app) {
   CLI::App& fresh = *app.add_subcommand("new", "write a scenario to start from, each line explained");
   const auto a = std::make_shared<NewArguments>();
-  fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
+  fresh.add_option("NAME", a->name, "file to write, NAME.toml. Default: standard output");
   fresh.add_option("--mode", a->mode, "controlled quantity: speed, current, position or duty")
       ->capture_default_str();
   fresh.add_option("--motor", a->motor, "motor's name or file")->capture_default_str();
   fresh.add_option("--voltage", a->voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
-  fresh.add_flag("--full", a->full, "write all keys, not only those for a start");
+  fresh.add_flag("--full", a->full, "write all keys, not only the keys of a first scenario");
   take_data(fresh, a->data_dir);
   return {&fresh, calling(new_command, a)};
 }

@@ -14,7 +14,7 @@ std::string toml_path(const std::string& name);
 /// Returns a Problem if a file of that name exists.
 base::Problems taken(const std::string& path);
 
-/// Writes a new file completely; never replaces an existing one.
+/// Writes a new, complete file. Never replaces an existing file.
 base::Problems write_new(const std::string& path, const std::string& text);
 
 /// The motor's path relative to the folder of the scenario `toml`. The name of a built-in motor is unchanged.

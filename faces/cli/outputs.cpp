@@ -25,8 +25,8 @@ files::Sink stdout_sink(const Format& format) {
   return sink;
 }
 
-/// A message if the control period is shorter than 1 us, as on no board, and makes the run slow: each period
-/// takes 0.3 us to 3 us of computing time.
+/// A message if the control period is shorter than 1 us and makes the run slow. No board has such a period;
+/// each period takes 0.3 us to 3 us of computing time.
 std::string length_foretold(const study::Scenario& s) {
   constexpr double short_s = 1e-6, many = 1e7, one_s = 1e-6;
   const double periods = s.duration_s / s.pwm.period_s;

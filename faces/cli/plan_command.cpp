@@ -77,9 +77,10 @@ class MadePlan {
     each([&](const analysis::RunRecord& record) { analysis::add(series_, record); });
     const std::size_t wanted = analysis::runs_of(plan.scenarios->plan());
     if (problems_.empty() && series_.runs < wanted && !interrupted())
-      problems_.push_back({store_.path() + ":", "",
-                           fmt::format("holds only {} of the {} runs that were stored", series_.runs, wanted),
-                           "start again with --force"});
+      problems_.push_back(
+          {store_.path() + ":", "",
+           fmt::format("contains only {} of the {} runs that were stored", series_.runs, wanted),
+           "start again with --force"});
   }
   MadePlan(const MadePlan&) = delete;
   MadePlan& operator=(const MadePlan&) = delete;
@@ -90,9 +91,10 @@ class MadePlan {
   /// A message about runs in the store that are not part of the plan; empty if there are none.
   std::string beyond() const {
     if (beyond_ == 0) return "";
-    return fmt::format("{}: holds {} more run{} than the {} of this plan; ask for more runs to see them\n",
-                       text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
-                       analysis::runs_of(plan_.scenarios->plan()));
+    return fmt::format(
+        "{}: contains {} more run{} than the {} of this plan; request more runs to include them\n",
+        text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
+        analysis::runs_of(plan_.scenarios->plan()));
   }
   Exit exit() const { return exit_of_series(series_); }
   /// The number of stopped or refused runs, and the reason for the first such run.
@@ -110,7 +112,7 @@ class MadePlan {
     const analysis::Plan& p = plan_.scenarios->plan();
     beyond_ = 0;
     const base::Problems unread = store_.each([&](const analysis::RunRecord& record) {
-      // the row belongs to an earlier call with more runs
+      // The row belongs to an earlier call with more runs.
       if (record->number >= analysis::runs_of(p)) return void(++beyond_);
       analysis::RunValues values = *record;
       values.point = analysis::point_of_run(p, record->number);

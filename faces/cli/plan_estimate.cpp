@@ -82,7 +82,7 @@ Exit estimate(const RunArguments& arguments, const ReadPlan& plan) {
                                    .take = {},
                                    .stop = {},
                                    .jobs = 1});
-  if (interrupted()) return told_interrupted("the look at " + text::visible(plan.name));
+  if (interrupted()) return told_interrupted("the estimate of " + text::visible(plan.name));
   const double cores = threads_for_runs(arguments.jobs);
   const double columns = static_cast<double>(plan.columns->keys.size() + plan.columns->strayed.size() +
                                              plan.columns->figures.size());
@@ -101,7 +101,8 @@ Exit estimate(const RunArguments& arguments, const ReadPlan& plan) {
                       time_text(sample.each_s * static_cast<double>(all) / cores), cores);
   text += fmt::format("  a store of {}\n",
                       size_text(static_cast<double>(all) * (row_bytes + column_bytes * columns)));
-  if (!sample.refused.empty()) text += "  some cannot run, as " + text::visible(sample.refused) + "\n";
+  if (!sample.refused.empty())
+    text += "  some runs cannot start, for example " + text::visible(sample.refused) + "\n";
   print(text);
   return Exit::ok;
 }

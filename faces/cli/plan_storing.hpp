@@ -13,10 +13,10 @@ namespace cli {
 base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
                                         std::string identity);
 
-/// The message after an interrupt: the store contains the finished rows, and how to continue. Empty without a
-/// store.
+/// The message after an interrupt. It says that the store contains the finished rows, and how to continue.
+/// Empty without a store.
 std::string kept_in(const std::string& store);
-/// kept_in(), followed by the files with partial names. Empty if no file remains.
+/// The text of kept_in(), followed by the files with partial names. Empty if no file remains.
 std::string left_behind(const std::vector<std::string>& partial_files, const std::string& store);
 
 /// The unit of a scenario's key; empty if it has none.

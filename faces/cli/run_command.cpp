@@ -208,17 +208,18 @@ std::vector<std::string_view> core_names() {
 }
 
 void declare_plan_options(CLI::App& run, PlanArguments& a) {
-  run.add_option("--vary", a.vary, "KEY=FROM:TO:POINTS, or KEY=VALUE,VALUE; several make a grid");
+  run.add_option("--vary", a.vary, "KEY=FROM:TO:POINTS, or KEY=VALUE,VALUE; several options make a grid");
   run.add_option("--sampling", a.sampling,
                  "arrangement of the points: grid, latin-hypercube, sobol, monte-carlo, saltelli");
-  run.add_option("--points", a.points,
-                 "number of points; a grid has its own, saltelli makes points x (keys + 2)")
+  run.add_option(
+         "--points", a.points,
+         "number of points; in a grid each range has its own number, saltelli runs points x (keys + 2)")
       ->check(integer_in(1, 1'000'000'000));
   run.add_flag(
       "--tolerances", a.tolerances,
       "drives of --runs also vary in R, L, K_t and Hall edges, which the sheet states without tolerances");
-  take_store(run, a.store, "keep each finished run in this SQLite file");
-  run.add_flag("--resume", a.resume, "continue the runs of --store, or of --out as it was");
+  take_store(run, a.store, "store each finished run in this SQLite file");
+  run.add_flag("--resume", a.resume, "continue the runs of --store, or of the earlier --out");
   run.add_flag("--dry-run", a.dry_run, "print only number, duration and file size of the runs");
   run.add_option("--only", a.only, "only run N of the plan, with all its outputs")
       ->check(integer_in(0, std::numeric_limits<std::int64_t>::max()));
@@ -232,11 +233,11 @@ void declare_options(CLI::App& run, RunArguments& a) {
   for (std::size_t n = 0; n < formats().size(); ++n)
     run.add_option(std::string(formats()[n].option), a.paths.of_formats[n],
                    std::string(formats()[n].meaning));
-  run.add_option("--junit", a.junit, "write the verdicts of all files for build servers: JUnit's XML");
+  run.add_option("--junit", a.junit, "write the verdicts of all files as JUnit XML, for build servers");
   take_force(run, a.paths.force);
   take_sets(run, a.sets);
   take_data(run, a.data_dir);
-  run.add_flag("--quiet", a.quiet, "no table, only errors and the exit code");
+  run.add_flag("--quiet", a.quiet, "print errors only");
   take_jobs(run, a.jobs);
   CLI::Option* watch = run.add_flag("--watch", a.watch, "run again whenever a file that was read is saved");
   CLI::Option* runs =
@@ -271,19 +272,19 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option(
          "--columns", a.log.columns,
          "meaning of each column of --compare, with constants: "
-         "time=ms_today/1000,speed=erpm*2*pi/60/7,i_m=current_motor; without it by its headings, also those of "
+         "time=ms_today/1000,speed=erpm*2*pi/60/7,i_m=current_motor. Default: by the log's headings, also the headings of "
          "VESC Tool, ArduPilot, Betaflight, ODrive, moteus and SimpleFOC")
       ->delimiter(',')
       ->needs(log);
   run.add_option("--interval", a.log.interval_s,
-                 "time from row to row of --compare, s, if no column holds the time")
+                 "time from row to row of --compare in s, if the log has no column of time")
       ->needs(log);
-  run.add_option("--esc", a.log.esc, "number of the ESC or motor in a log of several")
+  run.add_option("--esc", a.log.esc, "number of the ESC or motor in a log of several ESCs or motors")
       ->check(integer_in(0, 1000))
       ->needs(log);
   run.add_option(
          "--shift", a.log.shift_s,
-         "time to add to the rows of --compare, s. Default: a shift fitted within 20 PWM periods. A clock that starts after the run counts from its first row")
+         "time to add to the rows of --compare, s. Default: a shift fitted within 20 PWM periods. If the log's clock starts after the run, times count from the log's first row")
       ->needs(log);
   declare_plan_options(run, a.plan);
 }

@@ -16,7 +16,7 @@ struct PlanArguments {
   std::vector<std::string> vary;  ///< "key=from:to:points" or "key=value,value"
   std::string sampling;           ///< one of analysis::sampling_choices; empty: as in the plan
   std::size_t points = 0;
-  bool tolerances = false;  ///< drives also differ within the sheet's tolerances
+  bool tolerances = false;  ///< true: drives also differ within the sheet's tolerances
   std::string store;
   bool resume = false, dry_run = false;
   std::optional<std::uint64_t> only;  ///< number of the plan's only run to make, with the outputs of a
@@ -30,7 +30,7 @@ struct LogArguments {
   std::vector<std::string> columns;  ///< formulas such as "speed=erpm*2*pi/60/7"; empty: columns by their
                                      ///< headings
   std::optional<double> interval_s;  ///< interval of the log's rows, if no column is a time
-  std::optional<int> esc;            ///< number of the ESC in a log of several
+  std::optional<int> esc;            ///< number of the ESC in a log of several ESCs
 };
 
 struct RunArguments {
@@ -46,10 +46,11 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> drive;  ///< number of the only drive of the series to run
   PlanArguments plan;
-  bool bode = false;                ///< measure the loop's frequency response instead of a run
+  bool bode = false;                ///< true: measures the loop's frequency response instead of a run
   std::optional<double> amplitude;  ///< amplitude of the multisine, in the mode's unit; empty: the default
   std::string junit;                ///< file with verdicts for build servers
-  std::string on;       ///< core that runs the drive, beside the host or instead of it; empty: none
+  std::string
+      on;  ///< core that runs the drive, beside the host or instead of it; empty: only the host runs the drive
   LogArguments log;     ///< log to compare with the run
   std::string command;  ///< the command line as it can be typed again
 };

@@ -15,9 +15,9 @@ namespace {
 
 struct StopSignal {
   int number;
-  /// Whether a second signal of this kind ends the program at once, because only the user can send it twice.
-  /// SIGHUP arrives twice when a terminal closes, from the kernel and from the shell. SIGXCPU arrives once a
-  /// second.
+  /// true: a second signal of this kind ends the program at once. This applies only to signals that the user
+  /// alone can send twice: SIGHUP arrives twice when a terminal closes, from the kernel and from the shell,
+  /// and SIGXCPU arrives once a second.
   bool again_ends_at_once;
 };
 constexpr StopSignal stop_signals[] = {

@@ -9,8 +9,8 @@ namespace cli {
 
 /// Lets a termination signal remove temporary files and end the program at once.
 void take_stop_signals();
-/// Lets a termination signal stop the runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once.
-/// Every verb calls it that must remove more than temporary files.
+/// Lets a termination signal stop the runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once. A
+/// verb calls this function if it must remove more than temporary files.
 void catch_interrupts();
 
 bool interrupted();
@@ -23,11 +23,11 @@ void tell_stop(const std::string& line);
 void stop_is_told();
 /// Reports an interrupt of work without a result. `kept` names the files that remain.
 Exit told_interrupted(const std::string& what, const std::string& kept = "");
-/// The exit code of work that always runs until it is interrupted: returns `exit` unchanged.
+/// The exit code of work that only an interrupt can end (--watch): returns `exit` unchanged.
 Exit ended_as_asked(Exit exit);
 
 /// The exit code of a verb that has returned. After an interrupt it is never success, because the result may
-/// be incomplete. Also reports the interrupt if the verb has not.
+/// be incomplete. Reports the interrupt if the verb has not reported it.
 Exit exit_after_stop(Exit exit);
 
 }  // namespace cli

@@ -31,8 +31,8 @@ bool may_colour(std::FILE* stream);
 /// beginning of the line.
 std::size_t terminal_width(std::FILE* stream);
 
-/// A closed pipe, a file at its size limit and a closed stream (>&-) then cause write errors instead of
-/// ending the program. No file then gets the number of a standard stream.
+/// After this call, a closed pipe, a file at its size limit and a closed stream (>&-) cause write errors
+/// instead of ending the program. No file gets the number of a standard stream.
 void take_write_errors();
 
 }  // namespace cli

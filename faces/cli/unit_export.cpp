@@ -96,8 +96,8 @@ struct UnitParts {
   std::optional<files::ZipEntry> controller;
 };
 
-/// modelDescription.xml is the first entry and uncompressed: the program recognises its units by the
-/// beginning of the file.
+/// modelDescription.xml is the first entry and uncompressed: by these first bytes, the program recognises a
+/// unit that it has written.
 std::string archive_of(const UnitParts& parts, int fmi) {
   const std::string folder = fmi == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
   std::vector<files::ZipEntry> entries = {
@@ -117,7 +117,7 @@ std::string archive_of(const UnitParts& parts, int fmi) {
 base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
   if (a.kind != "drive" && a.kind != "plant")
     return base::Problem{"--kind", a.kind, "must be drive or plant",
-                         "use drive for a unit with its controller, plant without"};
+                         "use drive for a unit with the controller, or plant for a unit without it"};
   if (a.kind == "drive") {
     if (a.inputs.empty()) return text::FmiChip::of_scenario;
     return base::Problem{"--inputs", a.inputs, "has no effect on a unit of the kind drive",
@@ -179,7 +179,7 @@ Verb declare_unit_export(CLI::App& exports) {
   unit.add_option("--fmi", a->fmi, "version of FMI: 2 or 3")->capture_default_str();
   unit.add_option("--kind", a->kind, "drive: with its controller; plant: motor, bridge and sensors alone")
       ->capture_default_str();
-  unit.add_option("--inputs", a->inputs, "what a plant's bridge takes: gates, pair or legs (default: gates)");
+  unit.add_option("--inputs", a->inputs, "inputs of a plant's bridge: gates, pair or legs. Default: gates");
   take_sets(unit, a->sets);
   take_data(unit, a->data_dir);
   return {&unit, calling(export_unit, a)};

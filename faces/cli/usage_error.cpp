@@ -59,7 +59,7 @@ std::string nearest_verb(const std::string& word, const std::vector<std::string>
   return "";
 }
 
-/// For a key of the scenario that was written as an option ("--duration"): the --set that the user meant.
+/// The --set option that the user meant with a key of the scenario written as an option ("--duration").
 std::string setting_meant(const CLI::App& verb, const std::string& word) {
   if (!verb.get_option_no_throw("--set")) return "";
   std::vector<std::string> keys;

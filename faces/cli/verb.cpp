@@ -8,7 +8,7 @@
 namespace cli {
 
 void take_data(CLI::App& verb, std::string& folder) {
-  verb.add_option("--data", folder, "folder that holds motors/");
+  verb.add_option("--data", folder, "folder that contains motors/");
 }
 
 void take_sets(CLI::App& verb, std::vector<std::string>& sets) {
@@ -21,7 +21,8 @@ void take_force(CLI::App& verb, bool& force) {
 }
 
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {
-  verb.add_option("--jobs", jobs, what + " side by side. Default: one per core")->check(integer_in(1, 1024));
+  verb.add_option("--jobs", jobs, "number of " + what + " in parallel. Default: one per core")
+      ->check(integer_in(1, 1024));
 }
 
 }  // namespace cli

@@ -22,8 +22,8 @@ struct Verb {
   std::function<Exit(const std::string& command)> call;
 };
 
-/// Returns a function that stores the command line in `arguments` and calls `verb` with them. The parser has
-/// written the options into `arguments`.
+/// Returns a function that stores the command line in `arguments` and calls `verb` with `arguments`. The
+/// parser has written the options into `arguments`.
 template <class Arguments>
 std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
                                                 std::shared_ptr<Arguments> arguments) {
@@ -33,7 +33,7 @@ std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
   };
 }
 
-// Options that several verbs have:
+// Functions that add an option which several verbs have:
 void take_data(CLI::App& verb, std::string& folder);             ///< --data
 void take_sets(CLI::App& verb, std::vector<std::string>& sets);  ///< --set
 void take_force(CLI::App& verb, bool& force);                    ///< --force

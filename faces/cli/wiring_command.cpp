@@ -121,14 +121,14 @@ Verb declare_wiring(CLI::App& motor) {
   wiring.add_option(
       "--current", a->current_A,
       "current of the stalled motor, A, which sets the duty. Default: the nominal current, or a tenth of the current at full duty");
-  wiring.add_flag("--json", a->json, "for programs");
+  wiring.add_flag("--json", a->json, "print the results as JSON");
   wiring.add_option("--svg", a->svg, "write the picture");
   wiring.add_option("--html", a->html, "write a page with the picture and all figures");
   wiring.add_option("--toml", a->toml, "write the simulated run, with straight wires, for sixstep run");
   take_force(wiring, a->force);
   take_data(wiring, a->data_dir);
   take_jobs(wiring, a->jobs);
-  wiring.add_flag("--quiet", a->quiet, "no text, only files and errors");
+  wiring.add_flag("--quiet", a->quiet, "print errors only; files are still written");
   return {&wiring, calling(wiring_command, a)};
 }
 

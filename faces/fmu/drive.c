@@ -42,7 +42,7 @@ drive_result drive_refused(drive* self, const char* function, const sixstep_sess
     snprintf(text, sizeof text, "%.200s%s%.100s %.300s; %.280s", p.place, *p.value ? " = " : "", p.value, p.limit, p.cure);
     drive_fail(self, function, text);
   }
-  return n ? DRIVE_ERROR : drive_fail(self, function, "memory ended");
+  return n ? DRIVE_ERROR : drive_fail(self, function, "not enough memory");
 }
 
 /* snprintf() writes the decimal separator of the locale; this function writes a point. */
@@ -93,7 +93,8 @@ drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop
   return DRIVE_OK;
 }
 
-/* Opens a longer run if the stop time needs it. A shorter run would be another scenario, without advantage. */
+/* Opens a longer run if the stop time is later than the end of the run. An earlier stop time changes nothing, because a
+ * shorter run would be another scenario. */
 static drive_result lengthen(drive* self) {
   char setting[64] = "duration_s=";
   const char* settings[2] = {setting, NULL};
@@ -138,7 +139,7 @@ drive_result drive_initialize(drive* self) {
 drive_result drive_terminate(drive* self) {
   sixstep_session* end = NULL;
   drive_result result = DRIVE_OK;
-  if (sixstep_copy(self->state.session, &end) != SIXSTEP_OK) return drive_fail(self, "terminate", "memory ended");
+  if (sixstep_copy(self->state.session, &end) != SIXSTEP_OK) return drive_fail(self, "terminate", "not enough memory");
   if (sixstep_finish(end) == SIXSTEP_OK)
     snprintf(self->state.digest, sizeof self->state.digest, "%016llx", (unsigned long long)sixstep_digest(end));
   else

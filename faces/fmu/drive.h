@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A drive as a functional mock-up unit: the part that FMI 2.0 and 3.0 have in common. It uses only sixstep.h. fmi2.c
- * and
- * fmi3.c check the order of calls and translate names. plant.c adds the functions of a unit without controller. C99.
+ * and fmi3.c check the order of calls and translate names. plant.c adds the functions of a unit without controller.
+ * The language is C99.
  *
  * Resources of the unit: scenario.toml with its motor, and variables.txt, which lists the variables by reference.
  * A changed input acts at the first control tick at or after the communication point; gates act at the communication
@@ -16,7 +16,7 @@
 
 typedef enum { DRIVE_OK, DRIVE_DISCARD, DRIVE_ERROR } drive_result;
 
-/* Phases of an instance as bits, so that a set of them is a number. */
+/* Phases of an instance as bits, so that one number can contain several phases. */
 typedef enum {
   DRIVE_INSTANTIATED = 1,
   DRIVE_INITIALIZATION = 2,

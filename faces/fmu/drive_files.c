@@ -105,7 +105,7 @@ static int read_variables(const char* path, drive_variables* v) {
 
 drive_result drive_read(drive* self, const char* location, const char* token) {
   char folder[sizeof self->scenario], path[sizeof self->scenario + 16], text[DRIVE_MESSAGE];
-  if (sixstep_abi() != SIXSTEP_ABI) return drive_fail(self, "libsixstep", "has another interface than this unit was made for");
+  if (sixstep_abi() != SIXSTEP_ABI) return drive_fail(self, "libsixstep", "has another interface number than this unit requires");
   if (!location || !path_of(location, folder, sizeof folder - 16))
     return drive_fail(self, "resource location", "must be a URI such as file:///tmp/unit/resources");
   snprintf(path, sizeof path, "%s/variables.txt", folder);
@@ -114,7 +114,7 @@ drive_result drive_read(drive* self, const char* location, const char* token) {
     return drive_fail(self, "resource location", text);
   }
   if (!token || strcmp(token, self->variables.token) != 0)
-    return drive_fail(self, "GUID or token", "is not that of this unit; use the one in the unit's modelDescription.xml");
+    return drive_fail(self, "GUID or token", "differs from the unit's token; copy the token from the unit's modelDescription.xml");
   snprintf(self->scenario, sizeof self->scenario, "%.*s/scenario.toml", (int)sizeof self->scenario - 16, folder);
   drive_reset(self);
   return DRIVE_OK;
@@ -150,11 +150,11 @@ drive_result drive_save(drive* self, const char* function, void** at) {
   drive_state* to;
   if (!at) return drive_fail(self, function, "the pointer to the state is null");
   to = *at ? find(self, *at) : new_state(self);
-  if (!to) return drive_fail(self, function, *at ? "the state is not one of this instance" : "memory ended");
+  if (!to) return drive_fail(self, function, *at ? "the state does not belong to this instance" : "not enough memory");
   if (copy_state(&self->state, to) != DRIVE_OK) {
     void* fresh = to;
     if (!*at) drive_forget(self, function, &fresh);
-    return drive_fail(self, function, "memory ended");
+    return drive_fail(self, function, "not enough memory");
   }
   *at = to;
   return DRIVE_OK;
@@ -162,15 +162,15 @@ drive_result drive_save(drive* self, const char* function, void** at) {
 
 drive_result drive_restore(drive* self, const char* function, const void* from) {
   const drive_state* s = find(self, from);
-  if (!s) return drive_fail(self, function, "the state is not one of this instance");
-  return copy_state(s, &self->state) == DRIVE_OK ? DRIVE_OK : drive_fail(self, function, "memory ended");
+  if (!s) return drive_fail(self, function, "the state does not belong to this instance");
+  return copy_state(s, &self->state) == DRIVE_OK ? DRIVE_OK : drive_fail(self, function, "not enough memory");
 }
 
 drive_result drive_forget(drive* self, const char* function, void** at) {
   drive_state **link = &self->saved, *s;
   if (!at || !*at) return DRIVE_OK;
   while (*link && *link != *at) link = &(*link)->next;
-  if (!*link) return drive_fail(self, function, "the state is not one of this instance");
+  if (!*link) return drive_fail(self, function, "the state does not belong to this instance");
   s = *link;
   *link = s->next;
   sixstep_free(s->session);
@@ -251,7 +251,7 @@ drive_result drive_from_bytes(drive* self, const char* function, const unsigned 
   to = *at ? find(self, *at) : new_state(self);
   if (!to) {
     sixstep_free(session);
-    return drive_fail(self, function, *at ? "the state is not one of this instance" : "memory ended");
+    return drive_fail(self, function, *at ? "the state does not belong to this instance" : "not enough memory");
   }
   h.state.next = to->next;
   sixstep_free(to->session);

@@ -240,7 +240,7 @@ fmi2Status FMI2(SerializedFMUstateSize)(fmi2Component c, fmi2FMUstate state, siz
   if (!may(c, "fmi2SerializedFMUstateSize", ANY_PHASE)) return fmi2Error;
   if (!size) return fail(c, "fmi2SerializedFMUstateSize", "the pointer to the size is null");
   bytes = drive_bytes(&((instance*)c)->unit, state, NULL, 0);
-  if (!bytes) return fail(c, "fmi2SerializedFMUstateSize", "the state is not one of this instance");
+  if (!bytes) return fail(c, "fmi2SerializedFMUstateSize", "the state does not belong to this instance");
   *size = bytes;
   return fmi2OK;
 }
@@ -248,7 +248,7 @@ fmi2Status FMI2(SerializeFMUstate)(fmi2Component c, fmi2FMUstate state, fmi2Byte
   size_t size;
   if (!may(c, "fmi2SerializeFMUstate", ANY_PHASE)) return fmi2Error;
   size = drive_bytes(&((instance*)c)->unit, state, (unsigned char*)bytes, room);
-  if (!size) return fail(c, "fmi2SerializeFMUstate", "the state is not one of this instance");
+  if (!size) return fail(c, "fmi2SerializeFMUstate", "the state does not belong to this instance");
   return bytes && size <= room ? fmi2OK : fail(c, "fmi2SerializeFMUstate", "the buffer is smaller than the state");
 }
 fmi2Status FMI2(DeSerializeFMUstate)(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate* state) {
@@ -266,7 +266,7 @@ fmi2Status FMI2(DoStep)(fmi2Component c, fmi2Real point, fmi2Real size, fmi2Bool
 }
 
 fmi2Status FMI2(CancelStep)(fmi2Component c) {
-  return c ? fail(c, "fmi2CancelStep", "no step is pending: each ends before fmi2DoStep returns") : fmi2Error;
+  return c ? fail(c, "fmi2CancelStep", "no step is pending: each step ends before fmi2DoStep returns") : fmi2Error;
 }
 
 static int has_status(fmi2Component c, const char* function, const void* value) {
@@ -283,29 +283,29 @@ static fmi2Status no_status(fmi2Component c, const char* message) {
 
 fmi2Status FMI2(GetStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Status* value) {
   if (!has_status(c, "fmi2GetStatus", value)) return fmi2Error;
-  if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus: has fmi2DoStepStatus only");
+  if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus: accepts only fmi2DoStepStatus");
   *value = ((instance*)c)->stepped;
   return fmi2OK;
 }
 fmi2Status FMI2(GetRealStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Real* value) {
   if (!has_status(c, "fmi2GetRealStatus", value)) return fmi2Error;
-  if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus: has fmi2LastSuccessfulTime only");
+  if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus: accepts only fmi2LastSuccessfulTime");
   *value = ((instance*)c)->unit.state.now_s;
   return fmi2OK;
 }
 fmi2Status FMI2(GetIntegerStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Integer* value) {
   (void)kind;
-  return has_status(c, "fmi2GetIntegerStatus", value) ? no_status(c, "fmi2GetIntegerStatus: there is none") : fmi2Error;
+  return has_status(c, "fmi2GetIntegerStatus", value) ? no_status(c, "fmi2GetIntegerStatus: the unit has no integer status") : fmi2Error;
 }
 fmi2Status FMI2(GetBooleanStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Boolean* value) {
   if (!has_status(c, "fmi2GetBooleanStatus", value)) return fmi2Error;
-  if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus: has fmi2Terminated only");
+  if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus: accepts only fmi2Terminated");
   *value = ((instance*)c)->unit.state.phase == DRIVE_STEP_FAILED;
   return fmi2OK;
 }
 fmi2Status FMI2(GetStringStatus)(fmi2Component c, fmi2StatusKind kind, fmi2String* value) {
   if (!has_status(c, "fmi2GetStringStatus", value)) return fmi2Error;
-  if (kind != fmi2PendingStatus) return no_status(c, "fmi2GetStringStatus: has fmi2PendingStatus only");
+  if (kind != fmi2PendingStatus) return no_status(c, "fmi2GetStringStatus: accepts only fmi2PendingStatus");
   *value = "";
   return fmi2OK;
 }
@@ -316,7 +316,7 @@ fmi2Status FMI2(GetDirectionalDerivative)(fmi2Component c, const fmi2ValueRefere
                                           const fmi2ValueReference known[], size_t knowns, const fmi2Real in[],
                                           fmi2Real out[]) {
   (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)in, (void)out;
-  return c ? fail(c, "fmi2GetDirectionalDerivative", "the unit gives no derivatives") : fmi2Error;
+  return c ? fail(c, "fmi2GetDirectionalDerivative", "the unit computes no derivatives") : fmi2Error;
 }
 fmi2Status FMI2(SetRealInputDerivatives)(fmi2Component c, const fmi2ValueReference r[], size_t count,
                                          const fmi2Integer orders[], const fmi2Real values[]) {
@@ -326,5 +326,5 @@ fmi2Status FMI2(SetRealInputDerivatives)(fmi2Component c, const fmi2ValueReferen
 fmi2Status FMI2(GetRealOutputDerivatives)(fmi2Component c, const fmi2ValueReference r[], size_t count,
                                           const fmi2Integer orders[], fmi2Real values[]) {
   (void)r, (void)count, (void)orders, (void)values;
-  return c ? fail(c, "fmi2GetRealOutputDerivatives", "the unit gives no derivatives") : fmi2Error;
+  return c ? fail(c, "fmi2GetRealOutputDerivatives", "the unit computes no derivatives") : fmi2Error;
 }

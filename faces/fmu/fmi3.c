@@ -122,7 +122,7 @@ static int fits(fmi3Instance c, const char* function, const fmi3ValueReference r
   size_t n, needed = 0;
   for (n = 0; n < count; ++n) needed += (size_t)drive_size(c, r[n]);
   if (needed == room) return 1;
-  fmi3_fail(c, function, "the number of values must be that of the variables, with all elements of arrays");
+  fmi3_fail(c, function, "the number of values must equal the number of elements of all variables");
   return 0;
 }
 
@@ -202,7 +202,7 @@ FMI3_FUNCTION(SerializedFMUStateSize, (fmi3Instance c, fmi3FMUState state, size_
   if (!fmi3_may(c, "fmi3SerializedFMUStateSize", ANY_PHASE)) return fmi3Error;
   if (!size) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the pointer to the size is null");
   bytes = drive_bytes(c, state, NULL, 0);
-  if (!bytes) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the state is not one of this instance");
+  if (!bytes) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the state does not belong to this instance");
   *size = bytes;
   return fmi3OK;
 }
@@ -210,7 +210,7 @@ FMI3_FUNCTION(SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte b
   size_t size;
   if (!fmi3_may(c, "fmi3SerializeFMUState", ANY_PHASE)) return fmi3Error;
   size = drive_bytes(c, state, bytes, room);
-  if (!size) return fmi3_fail(c, "fmi3SerializeFMUState", "the state is not one of this instance");
+  if (!size) return fmi3_fail(c, "fmi3SerializeFMUState", "the state does not belong to this instance");
   return bytes && size <= room ? fmi3OK : fmi3_fail(c, "fmi3SerializeFMUState", "the buffer is smaller than the state");
 }
 FMI3_FUNCTION(DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState* state)) {

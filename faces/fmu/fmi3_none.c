@@ -53,7 +53,7 @@ FMI3_FUNCTION(SetClock, (fmi3Instance c, const fmi3ValueReference r[], size_t n,
     return fmi3_fail(c, "fmi3" #name, why);                   \
   }
 #define NO_CLOCKS "the clocks are triggered: they have no interval"
-#define NO_DERIVATIVES "the unit gives no derivatives"
+#define NO_DERIVATIVES "the unit computes no derivatives"
 #define NO_EXCHANGE "the unit is for co-simulation only"
 
 typedef const fmi3ValueReference* references;
@@ -74,7 +74,7 @@ REFUSED(SetShiftDecimal, (fmi3Instance c, references r, size_t n, const fmi3Floa
 REFUSED(SetShiftFraction, (fmi3Instance c, references r, size_t n, const fmi3UInt64 v[], const fmi3UInt64 of[]),
         ((void)r, (void)n, (void)v, (void)of), NO_CLOCKS)
 
-REFUSED(EvaluateDiscreteStates, (fmi3Instance c), (void)0, "fmi3UpdateDiscreteStates does it")
+REFUSED(EvaluateDiscreteStates, (fmi3Instance c), (void)0, "call fmi3UpdateDiscreteStates instead")
 REFUSED(EnterConfigurationMode, (fmi3Instance c), (void)0, "the unit has no structural parameters")
 REFUSED(ExitConfigurationMode, (fmi3Instance c), (void)0, "the unit has no structural parameters")
 

@@ -47,7 +47,7 @@ const char* plant_wrong_pair(const drive_variables* variables, const drive_state
   if (variables->chip != SIXSTEP_CHIP_PAIR || !byte(set, PLANT_PAIR_ENABLED)) return NULL;
   return byte(set, PLANT_SOURCE) != byte(set, PLANT_SINK)
              ? NULL
-             : "the inputs source and sink are the same leg; set two different ones while enabled is true";
+             : "the inputs source and sink are the same leg; set two different legs while enabled is true";
 }
 
 static sixstep_answer answer_of(sixstep_chip chip, const double* set) {

@@ -25,7 +25,7 @@ enum {
 
 /* Null, or the limit that the value of an input violates. */
 const char* plant_limit(unsigned reference, double value);
-/* Sets the inputs for the bridge to their start values in modelDescription.xml. They are 0 before. */
+/* Sets the inputs for the bridge to their start values in modelDescription.xml. Before this call they are 0. */
 void plant_start(const drive_variables* variables, drive_state* state);
 /* Null, or the limit that source and sink together violate. They are checked together, because an importer sets them
    one after the other. */

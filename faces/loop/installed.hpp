@@ -8,8 +8,8 @@
 namespace loop {
 
 /// The folder with sixstep/ and faces/, from which a core's program is compiled. In this order:
-/// SIXSTEP_SOURCES, the sources of the build, the installed sources. Without sources: empty, or a folder
-/// without them.
+/// SIXSTEP_SOURCES, the sources of the build, the installed sources. If all sources are missing: empty, or a
+/// folder without sources.
 std::filesystem::path sources_folder();
 
 /// The path of the program that emulates the ATmega2560's board. Only the name if the program must be on

@@ -11,8 +11,8 @@ namespace loop {
 base::Problems stands_against(const Core& core, const study::Scenario& scenario);
 
 /// Calls study::run() with the drive also on a core, or with a chip in place of the drive; if `core` is null,
-/// only on the host. All temporary files are removed. Problems: those of stands_against(), an error of the
-/// compiler, a missing emulator.
+/// only on the host. All temporary files are removed. Problems: the problems of stands_against(), an error of
+/// the compiler, a missing emulator.
 base::Result<study::Outcome> run(const Core* core, const study::Scenario& scenario,
                                  const study::Listeners& listeners);
 

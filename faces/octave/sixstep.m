@@ -13,7 +13,7 @@ classdef sixstep
   methods (Static)
 
     function r = run(scenario, varargin)
-      % R = SIXSTEP.RUN(SCENARIO, KEY, VALUE, ...) runs a scenario file with keys that replace the file's. Values are numbers
+      % R = SIXSTEP.RUN(SCENARIO, KEY, VALUE, ...) runs a scenario file. The given keys replace keys of the file. Values are numbers
       % or texts ("20us").
       %   R.summary  verdicts and figures as `sixstep run --json` writes them; R.passed, R.fault, R.digest from it
       %   R.signals  a column for each recorded signal: R.signals.t_s, R.signals.i_a_A
@@ -39,7 +39,7 @@ classdef sixstep
     function v = vary(scenario, varargin)
       % V = SIXSTEP.VARY(SCENARIO, KEY, VALUES, ...) runs the scenario at each point of a grid. VALUES is a vector of numbers, or
       % a text: "20us:60us:5" (from, to, points), "20us,40us".
-      %   V.columns  names of the columns, a cell; V.rows: the cells of each run; V.values: their numbers, NaN for others
+      %   V.columns  names of the columns, a cell; V.rows: the cells of each run; V.values: numbers of the cells, NaN for texts
       %   V.summary  the whole result as `sixstep run --json` writes it
       if isempty(varargin) || mod(numel(varargin), 2) ~= 0
         error('sixstep:refused', 'sixstep.vary: needs pairs of a key and its values; give sixstep.vary(file, "pwm.period_s", "20us:60us:5")');
@@ -94,7 +94,7 @@ classdef sixstep
     end
 
     function path = program(chosen)
-      % SIXSTEP.PROGRAM(PATH) chooses the program; PATH = SIXSTEP.PROGRAM() tells which one is called.
+      % SIXSTEP.PROGRAM(PATH) sets the program; PATH = SIXSTEP.PROGRAM() returns the program that is called.
       persistent own
       if nargin > 0
         own = char(chosen);
@@ -116,7 +116,7 @@ classdef sixstep
   methods (Static, Hidden)
 
     function called(words)
-      % Exit codes 0, 1 and 3 have results: the requirements hold, one does not, a fault stopped the run.
+      % Exit codes 0, 1 and 3 have results: the requirements hold, a requirement fails, a fault stopped the run.
       command = sixstep.quoted(sixstep.program());
       for k = 1:numel(words)
         command = [command, ' ', sixstep.quoted(words{k})];

@@ -24,8 +24,8 @@ constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL
 }  // namespace
 
 /// Rows are queued for the writer thread, which writes all queued rows in one transaction. The queue contains
-/// few rows if runs are long, and many rows if runs are short. If the program is killed, only rows are lost
-/// that rows() does not count yet.
+/// few rows if runs are long, and many rows if runs are short. If the program is killed, it loses only the
+/// rows that rows() does not yet count.
 struct PlanStore::Inside {
   static constexpr std::size_t most_waiting = 4096;
 
@@ -106,7 +106,7 @@ struct PlanStore::Inside {
     const auto told = static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums));
     base::Result<analysis::RunRecord> record = record_of_cells(cells, plan.columns);
     if (record && select.cell(select.columns() - 1) == Cell(told)) return record;
-    return damaged(db.path(), fmt::format("run {} differs from the written one", select.whole(0)));
+    return damaged(db.path(), fmt::format("run {} differs from the written row", select.whole(0)));
   }
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit) {
     base::Result<Statement> select = db.prepare(select_sql(stored));
@@ -155,8 +155,8 @@ Standing standing_at(const std::string& path) {
   return begin.starts_with("SQLite format 3") && id == store_mark ? Standing::store : Standing::other;
 }
 
-/// Whether the file remains of a program that was killed while it created a store. All tables are created in
-/// one transaction, so such a file is empty after SQLite's recovery. A damaged store still contains pages.
+/// Whether a program was killed while it created the store in this file. All tables are created in one
+/// transaction, so such a file is empty after SQLite's recovery. A damaged store still contains pages.
 bool was_killed_at_birth(const std::string& path) {
   base::Result<Database> db = Database::open(path);
   base::Result<Statement> pages =
@@ -191,7 +191,7 @@ base::Result<PlanStore> PlanStore::create(const std::string& path, StoredPlan pl
   const Standing standing = standing_at(path);
   if (standing == Standing::other) return foreign(path);
   if (standing == Standing::store && !force)
-    return base::Problem{path + ":", "", "holds runs already",
+    return base::Problem{path + ":", "", "already contains runs",
                          "continue the runs (resume), name another file, or overwrite this file (force)"};
   if (standing == Standing::store)
     for (const char* part : {"", "-wal", "-shm"}) ::remove((path + part).c_str());
@@ -228,14 +228,14 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return base::Problem{path + ":", "", std::move(limit), std::move(cure)};
   };
   if (before.sixstep != now.sixstep)
-    return refuse("was begun by sixstep " + before.sixstep + ", and this is " + now.sixstep +
-                      ", whose rows would look alike",
+    return refuse("was begun by sixstep " + before.sixstep + ", but this is " + now.sixstep +
+                      "; rows of two versions cannot be distinguished",
                   "finish the runs with that version, or start again (force)");
   if (before.plan != now.plan)
-    return refuse("holds the runs of another plan: " + before.plan,
+    return refuse("contains the runs of another plan: " + before.plan,
                   "name another store for this plan: " + now.plan);
   if (before.inputs != now.inputs || *before.columns != *now.columns)
-    return refuse("holds runs of a scenario that has changed since then: " + before.scenario +
+    return refuse("contains runs of a scenario that has changed since then: " + before.scenario +
                       " or a file that it names",
                   "name another store, or overwrite this one (force)");
   // Messages name columns as the plan does, not as the file does.

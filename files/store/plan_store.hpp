@@ -54,7 +54,7 @@ class PlanStore {
   void add(analysis::RunRecord&& record);
   /// Whether a row could not be written. Then no further rows are written.
   bool failed() const;
-  /// Waits until all rows are in the file. Problems: the reason why a row is not.
+  /// Waits until all rows are in the file. Problems: the reason why a row is missing.
   base::Problems finish();
 
   /// Calls `visit` for the rows in the order of the runs' numbers. Problems: the reason why a row could not

@@ -34,7 +34,7 @@ base::Result<Statement> Database::prepare(const std::string& sql) {
 base::Problem Database::problem() const {
   const int code = handle_ ? sqlite().errcode(handle_.get()) : SQLITE_NOMEM;
   if ((code & 0xff) == SQLITE_NOMEM)
-    return {path_.empty() ? "the rows of the runs" : path_ + ":", "", "found no memory",
+    return {path_.empty() ? "the rows of the runs" : path_ + ":", "", "has not enough memory",
             "free memory, or reduce the work: fewer --jobs, fewer runs"};
   base::Problem problem{.where = path_ + ":", .limit = "cannot be used as a store"};
   switch (code & 0xff) {

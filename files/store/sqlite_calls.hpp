@@ -15,14 +15,15 @@ namespace files {
 // clang-format on
 
 struct SqliteCalls {
-// A declaration cannot stand in parentheses.
+// A declaration cannot be in parentheses.
 // NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define SIXSTEP_SQLITE_MEMBER(name) decltype(&sqlite3_##name) name = nullptr;
   SIXSTEP_SQLITE_CALLS(SIXSTEP_SQLITE_MEMBER)
 #undef SIXSTEP_SQLITE_MEMBER
 };
 
-/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call it.
+/// The functions of the loaded library; null if it cannot be loaded. Any number of threads may call this
+/// function.
 const SqliteCalls* sqlite_calls();
 
 /// Requires that sqlite_calls() was not null before: a handle of a database exists.

@@ -209,7 +209,7 @@ base::Result<StoredPlan> read_plan(Database& db) {
     for (const std::vector<Cell>& row : *about)
       if (text_of(row[0]) == word) *value = text_of(row[1]);
   if (checksum != base::written_hex(checksum_of_plan(plan)) || column_rows(*plan.columns) != *columns)
-    return damaged(db.path(), "its plan differs from the written one");
+    return damaged(db.path(), "its plan differs from the written plan");
   if (!has_tables(*tables, plan)) return damaged(db.path(), "its tables do not match its columns");
   return plan;
 }

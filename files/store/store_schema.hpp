@@ -33,7 +33,8 @@ std::uint64_t checksum_begin(const StoredPlan& plan);
 
 /// Writes the tables `about` and `columns`.
 base::Problems write_plan(Database& db, const StoredPlan& plan);
-/// Reads a plan. Problems: another format; marks, words, columns or tables that differ from the written ones.
+/// Reads a plan. Problems: another format; marks, words, columns or tables that write_plan() cannot have
+/// written.
 base::Result<StoredPlan> read_plan(Database& db);
 
 }  // namespace files

@@ -21,7 +21,8 @@ struct RunStory {
 struct Sink {
   std::function<void(study::Row)> on_record, on_event;  ///< empty if the output does not need rows
   study::LogicSink on_logic;                            ///< empty if the output does not need logic signals
-  std::function<bool()> failed;  ///< whether the output can no longer be written; empty: it never fails
+  std::function<bool()>
+      failed;  ///< returns true if the output can no longer be written; empty: it never fails
   /// Renames the file to its final name, or to its partial name if the run was interrupted.
   std::function<base::Problems(const RunStory&, bool whole)> finish;
   std::function<std::string()> left_out;  ///< parts of the run that the finished file lacks; empty: none

@@ -9,7 +9,7 @@ function svgNode(name, attributes, parent) {
   return parent.appendChild(node);
 }
 
-/** One switch with the diode across it; `up` is 1 for the upper one. */
+/** Draws one switch with its antiparallel diode; `up` is 1 for the upper switch. */
 function halfLeg(parent, x, top, name) {
   const middle = top + 30;
   const wire = (d, css) => svgNode('path', {d, class: css}, parent);
@@ -23,8 +23,8 @@ function halfLeg(parent, x, top, name) {
   return {device, diode, wire};
 }
 
-/** Draws the bridge into the SVG, each leg with the phase that hangs at it; returns the function that shows it at an instant. `middle` is that of the
- * charts, where nobody points at another one. */
+/** Draws the bridge into the SVG, each leg with its connected phase. Returns the function that shows the bridge at an instant.
+ * `middle` is the instant in the middle of the charts, used while the pointer is at no other instant. */
 function bridgeDrawing(svg, say, phaseAt = [0, 1, 2]) {
   const names = phaseAt.map((n) => 'abc'[n]);
   const legs = names.map((phase, k) => {
@@ -57,7 +57,7 @@ function bridgeDrawing(svg, say, phaseAt = [0, 1, 2]) {
   };
 }
 
-/** The states of the legs at an instant: a code per leg in base five, held from row to row. */
+/** The states of the legs at an instant. The code has one base-five digit per leg and is constant from row to row. */
 function conductionAt(conduction, end, t) {
   const n = conduction ? rowAt(conduction.time, t) : -1;
   if (n < 0 || !(t <= end)) return null;

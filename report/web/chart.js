@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws one chart with its caption from its data, with uPlot. Charts share only the cursor.
 
-const GUTTER = {left: 62, right: 56};  // the same for all, so that one instant stands on one vertical line
+const GUTTER = {left: 62, right: 56};  // the same for all charts, so that an instant has the same x position in each
 
 // The colours are only in the style sheet; they are read once per theme.
 let palette = {};
@@ -22,14 +22,14 @@ const translucent = (color, share) => {
   return color.startsWith('color(') ? `rgb(${r * 255} ${g * 255} ${b * 255} / ${share})` : `rgb(${r} ${g} ${b} / ${share})`;
 };
 
-/** Decimals that tell multiples of a step apart: one more for 2.5 than for 2. */
+/** Number of decimals that distinguish multiples of a step: one more for 2.5 than for 2. */
 function decimalsOf(step) {
   const fewest = Math.max(0, Math.min(9, -Math.floor(Math.log10(step * 1.0001) + 1e-9)));
   const whole = (decimals) => Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) < 1e-6;
   return !whole(fewest) && fewest < 9 && whole(fewest + 1) ? fewest + 1 : fewest;
 }
 
-/** Time in the unit that suits the whole run, with the decimals that the step needs. */
+/** Time in the unit that fits the length of the run, with the decimals that the step requires. */
 function timeFormat(duration) {
   const [factor, unit] = duration < 2e-3 ? [1e6, 'µs'] : duration < 2 ? [1e3, 'ms'] : [1, 's'];
   return {
@@ -40,7 +40,7 @@ function timeFormat(duration) {
   };
 }
 
-/** Four digits, but never more than six behind the point. */
+/** Text with four significant digits and at most six decimals. */
 function figure(value) {
   if (value == null) return '–';
   const size = Math.abs(value);
@@ -60,7 +60,7 @@ function labelNode(label) {
 
 const STRIP = 0.66;  // height of a logic one, relative to its strip
 
-/** Strips stand one below the other: the first on top. */
+/** Strips are one below the other, the first at the top. */
 function stripped(values, index, count) {
   const base = count - 1 - index;
   return Array.from(values, (v) => (v == null ? null : base + v * STRIP));
@@ -72,7 +72,7 @@ function roundBelow(value) {
   return power * [5, 2, 1].find((m) => m * power <= value * 1.000001);
 }
 
-/** Lanes stand one below the other, each around its own zero; all have the same height and scale. */
+/** Lanes are one below the other, each with its own zero line. All have the same height and scale. */
 function inLanes(chart, raw) {
   let size = 0;
   for (const values of raw) for (const v of values) if (Math.abs(v) > size) size = Math.abs(v);
@@ -88,7 +88,7 @@ function inLanes(chart, raw) {
 
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
-  // A pale band lies below curves that coincide with it at times, so that both are visible.
+  // A pale band is drawn below curves that coincide with it in parts, so that both are visible.
   const width = {beneath: 5, main: 1.8}[curve.style] ?? 1.3;
   const options = {label: curve.label, stroke: color, width, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
@@ -98,7 +98,7 @@ function curveOptions(curve, index, chart, count) {
   if (curve.points) Object.assign(options, {paths: () => null, points: {show: true, size: 11, width: 2, stroke: color, fill: () => palette.paper}});
   if (chart.logic) {
     const base = count - 1 - index;
-    // Steps, so that a thinned strip does not slant between two kept rows.
+    // Draws steps, so that a thinned strip has no slope between two rows.
     Object.assign(options, {paths: uPlot.paths.stepped({align: 1})});
     Object.assign(options, {width: 1, fill: () => translucent(color(), 0.3), fillTo: () => base});
   }
@@ -113,7 +113,7 @@ function decades(min, max) {
   return splits;
 }
 
-/** A logarithmic axis names its powers of ten only, and writes them as such. */
+/** A logarithmic axis has labels only at powers of ten, written as powers. */
 function powerText(v, unit) {
   if (v == null) return '';
   const power = Math.round(Math.log10(v));
@@ -123,7 +123,7 @@ function powerText(v, unit) {
   return unit ? `${name}\u202f${unit}` : name;
 }
 
-/** The left axis, and on the right the same in another unit where the chart has one. */
+/** The left axis. If the chart has a second unit, the right axis shows the same values in this unit. */
 function valueAxes(chart) {
   const font = '12px system-ui, sans-serif';
   const common = {scale: 'y', stroke: () => palette.quiet, font, ticks: {show: false}, grid: {stroke: () => palette.grid, width: 1}};
@@ -147,7 +147,7 @@ function valueAxes(chart) {
   }
   const right = {...common, side: 1, size: GUTTER.right, gap: 6, space: 28, grid: {show: false}};
   if (chart.other) {
-    // Round numbers of the other unit, at their own places.
+    // Round numbers of the other unit, at the positions of these numbers.
     right.splits = (u, axis, min, max, incr) => {
       const f = chart.other.factor, span = (max - min) * f, rough = span / Math.max(2, (max - min) / incr);
       const power = 10 ** Math.floor(Math.log10(rough));
@@ -171,7 +171,7 @@ function chartOptions(chart, width, time, hooks) {
     values: (u, splits, axis, space, incr) => splits.map((t) => (chart.log ? powerText(t, time.unit) : time.text(t, incr) + '\u202f' + time.unit)),
   };
   if (chart.log) Object.assign(x, {splits: (u, axis, min, max) => decades(min, max), filter: (u, splits) => splits});
-  // A curve that never moves would otherwise fill the chart with rounding noise.
+  // Otherwise the rounding noise of a constant curve would fill the chart.
   const range = (u, min, max) => {
     if (min == null) return [0, 1];
     if (chart.corner && !chart.whole) max = Math.min(max, chart.corner);
@@ -185,7 +185,7 @@ function chartOptions(chart, width, time, hooks) {
     scales: {x: chart.log ? {time: false, distr: 3, range: (u, min, max) => [min, max]} : {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range, distr: chart.log ? 3 : 1}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
-    // The wider of two regions is filled down to the narrower, so that their colours do not mix.
+    // The larger of two regions is filled only down to the smaller region, so that the colours do not mix.
     bands: chart.curves.flatMap((c, i) => (c.region && chart.curves[i + 1]?.region ? [{series: [i + 1, i + 2]}] : [])),
     cursor: {
       y: false, points: {show: !chart.logic && !chart.joined, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},
@@ -199,7 +199,7 @@ function chartOptions(chart, width, time, hooks) {
   };
 }
 
-/** The caption is legend, switch and read-out in one. */
+/** The caption contains the legend, the switches of the curves, and the values at the cursor. */
 function captionOf(chart, onToggle) {
   const caption = document.createElement('figcaption');
   const add = (css, text) => Object.assign(caption.appendChild(document.createElement('span')), {className: css, textContent: text});
@@ -228,7 +228,7 @@ function captionOf(chart, onToggle) {
   return {caption, values, unit};
 }
 
-/** Curves on their way to uPlot, in the chart's unit. */
+/** The curves for uPlot, in the chart's unit. */
 function drawnData(chart, curves) {
   const same = curves.every((c) => c.axis === curves[0].axis);
   chart.joined = !same;
@@ -239,7 +239,7 @@ function drawnData(chart, curves) {
   return [axis, ...(chart.lanes ? inLanes(chart, scaled) : scaled)];
 }
 
-/** Builds one chart into the parent; returns what the page needs to steer it. `axisOf(curve)` is its own x axis. */
+/** Builds one chart in the parent. Returns the functions with which the page controls the chart. `axisOf(curve)` is the x axis of a curve. */
 function buildChart(parent, chart, axisOf, x, hooks) {
   const box = parent.appendChild(document.createElement('figure'));
   box.className = chart.logic ? 'chart logic' : 'chart';

@@ -9,7 +9,7 @@ const speed = {
 };
 const whole = [axis[0], axis[axis.length - 1]];
 const charts = [];
-let linking = true;  // while true, a chart's change of scale is our own doing
+let linking = true;  // true while this script itself changes a chart's scale
 
 function show(from, to) {
   linking = true;
@@ -22,7 +22,7 @@ function pointed(at) {
   document.getElementById('cursor').textContent = at == null ? '' : `${speed.text(at, data.speed ? 0.001 : 1)} ${speed.unit}`;
 }
 
-/** Up to what the motor is used with, or up to what it does at standstill. */
+/** Shows the motor's usual range of torque, or the range up to standstill. */
 function showUpTo(stall) {
   for (const [id, on] of [['usable', !stall], ['stall', stall]]) document.getElementById(id).setAttribute('aria-pressed', String(on));
   linking = true;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles curves as numbers: unpacks them, reads them at an instant, puts them on one axis, prints them.
+// Unpacks curves, reads their values at an instant, puts them on a common axis, and prints them.
 
-/** Little-endian numbers; every machine with a browser keeps them that way. */
+/** Unpacks little-endian numbers. Every machine with a browser is little-endian. */
 function unpack(text, Type) {
   const letters = atob(text), bytes = new Uint8Array(letters.length);
   for (let n = 0; n < letters.length; ++n) bytes[n] = letters.charCodeAt(n);
   return new Type(bytes.buffer);
 }
 
-/** uPlot takes null for "no value here". */
+/** uPlot requires null for a missing value. */
 function curveValues(text) {
   const values = unpack(text, Float32Array);
   return values.some(Number.isNaN) ? Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values;
 }
 
-/** The axis of all curves together, and each curve on it: null where it has no row of its own. */
+/** The common axis of all curves, and each curve on this axis: null at instants at which the curve has no row. */
 function joined(curves) {
   const rows = curves.flatMap(({axis}, c) => Array.from(axis, (t, n) => [t, c, n])).sort((a, b) => a[0] - b[0]);
   const columns = curves.map(() => new Array(rows.length).fill(null));
@@ -22,7 +22,7 @@ function joined(curves) {
   return [Float64Array.from(rows, (r) => r[0]), columns];
 }
 
-/** The row at or before t, from the right of a jump; -1 before the first. */
+/** The last row at or before t; at a jump, the row after the jump. -1 before the first row. */
 function rowAt(axis, t) {
   let low = 0, high = axis.length;
   while (low < high) {
@@ -33,7 +33,7 @@ function rowAt(axis, t) {
   return low - 1;
 }
 
-/** A curve at an instant: on the line between its rows, as drawn; a logic level is held. */
+/** The value of a curve at an instant, on the straight line between its rows as drawn. A logic level is constant between rows. */
 function valueAt({axis, raw, held}, t) {
   const n = rowAt(axis, t);
   if (n < 0) return null;
@@ -42,7 +42,7 @@ function valueAt({axis, raw, held}, t) {
   return before + ((after - before) * (t - axis[n])) / (axis[n + 1] - axis[n]);
 }
 
-/** Lowest, highest and last value of each curve in words, for whoever cannot see it. */
+/** Lowest, highest and last value of each curve in words, for screen readers. */
 function summaryOf(chart, curves, x) {
   const told = curves.map(({raw}, i) => {
     let low = Infinity, high = -Infinity, last = null;

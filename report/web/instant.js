@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the values of all curves at the cursor and at two marks, and what lies between the marks.
+// Shows the values of all curves at the cursor and at two marks, and the differences between the marks.
 
-/** The marks in a chart: a line with its letter on top. */
+/** Draws the marks in a chart: a line with the mark's letter at the top. */
 function drawMarks(u, marks) {
   const {ctx, bbox} = u, ratio = devicePixelRatio;
   ctx.save();
@@ -26,7 +26,7 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
-/** "1.25 kHz": what has the period dt. */
+/** The frequency with the period dt: "1.25 kHz". */
 function frequencyText(dt) {
   const f = 1 / Math.abs(dt);
   if (!Number.isFinite(f)) return '–';
@@ -34,8 +34,8 @@ function frequencyText(dt) {
   return `${figure(f * factor)}\u00a0${unit}`;
 }
 
-/** A table of all curves: at the cursor, at A, at B, and B − A. Builds the rows once and returns what fills them. With
- *  `named`, each chart's name stands above its curves, which are called alike in all of them. */
+/** A table of all curves: at the cursor, at A, at B, and B − A. Builds the rows once and returns the function that fills them. With
+ *  `named`, each chart's name is above its curves, because the curves have the same names in all charts. */
 function readout(table, entries, named) {
   const cell = (row, tag, text = '') => Object.assign(row.appendChild(document.createElement(tag)), {textContent: text});
   const body = table.tBodies[0];

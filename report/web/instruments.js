@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds the parts beside a run's charts: the bridge, the currents' locus, the table of all curves, the units.
 
-/** The rotor's angle, which grows with every turn: shown within one. Not a chart, but read out like one. */
+/** The rotor's angle, which increases with every turn and is shown within one turn. It has no chart, but its value is shown like a curve's. */
 function rotorEntry(axisOf) {
   if (!data.angle) return null;
   const chart = {quantity: 'angle', curves: [{label: 'rotor'}], rotor: true};
@@ -13,7 +13,7 @@ function wearRotorUnit(entry) {
   Object.assign(entry.chart, {unit: unit.unit, factor: unit.factor, turn: unit.turn});
 }
 
-/** What is between the marks: their distance and the frequency of that period. */
+/** The time between the marks, and the frequency with this period. */
 function describeMarks() {
   const {A, B} = instants, dt = B - A, step = (view[1] - view[0]) / 1000;
   element('between').textContent = A == null || B == null ? `${instants.cursor == null ? 'Point at a chart to read all curves here. ' : ''}Marks A and B: keys a, b.`
@@ -29,7 +29,7 @@ function makeInstruments(axisOf) {
   const logic = charts.filter((c) => c.chart.logic), others = charts.filter((c) => !c.chart.logic);
   const fill = readout(element('readout'), [...others, ...(rotor ? [rotor] : []), ...logic], data.compared);
   const drawBridge = data.conduction && phases ? bridgeDrawing(element('bridge'), element('conducts'), data.legs) : null;
-  // In a long run it comes with the rows.
+  // In a long run, the rows contain the conduction codes.
   let conduction = drawBridge && data.conduction.time ? {time: unpack(data.conduction.time, Float64Array), code: unpack(data.conduction.code, Uint8Array)} : null;
   const drawPlane = phases ? currentPlane(element('plane'), currents, phases) : null;
   element('bridge').closest('figure').hidden = !drawBridge;
@@ -40,7 +40,7 @@ function makeInstruments(axisOf) {
     const t = instants.cursor;
     fill([t, instants.A, instants.B]);
     if (drawBridge) {
-      // Before the pointer is over a chart: the middle of the time shown.
+      // While the pointer is over no chart, the middle of the shown time is used.
       const at = t ?? (view[0] + view[1]) / 2, factor = currents.chart.factor ?? 1;
       const now = phases.map((c) => (valueAt(c.full ?? c, at) ?? 0) * factor);
       drawBridge(conductionAt(conduction, data.conduction.end, at), now, currents.chart.unit, t == null ? at : null);

@@ -13,7 +13,7 @@ function watchPage(charts, changed, parent = document.getElementById('charts')) 
   };
   new ResizeObserver(resize).observe(parent);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
-  // Paper is white whatever the screen's theme, and narrower than most screens.
+  // Paper is white in every theme, and narrower than most screens.
   addEventListener('beforeprint', () => {
     document.documentElement.classList.add('printing');
     readPalette();

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a plan's page: data that its drawings share, the selected runs, the chosen one, the theme, the printer.
+// Controls a plan's page: the common data of its drawings, the selected runs, the chosen run, the theme, the printer.
 
 const table = planTable(JSON.parse(document.getElementById('data').textContent));
 
-/** Columns that can be drawn at all: with a number in them. */
+/** Columns that can be drawn: columns with at least one number. */
 const choices = table.columns.filter((c) => c.of.some((values) => values?.some((v) => !Number.isNaN(v))));
 
 const views = [], waiting = new Set();
-const picks = table.plans.map(() => null);  // a flag per run, or all
+const picks = table.plans.map(() => null);  // a flag per run; null: all runs are selected
 
 const page = {
   table, choices, chosen: null,
   picked: (plan, n) => picks[plan.index] === null || picks[plan.index][n] === 1,
-  /** Ranges on columns' axes: the runs that lie in all of them. */
+  /** Selects the runs whose values are within all ranges on the columns' axes. */
   mark(brushes) {
     const ranges = [...brushes].map(([column, range]) => ({column, scale: scaleOf(column), range}));
     for (const plan of table.plans) picks[plan.index] = ranges.length === 0 ? null : Uint8Array.from(plan.states, (_, n) =>
@@ -31,7 +31,7 @@ const page = {
     tellRun(run);
     drawAll();
   },
-  /** Drawn with the next frame, once. */
+  /** Draws once, with the next frame. */
   soon(draw) {
     if (waiting.size === 0) requestAnimationFrame(() => {
       const due = [...waiting];
@@ -48,7 +48,7 @@ function element(name, text, css) {
   return Object.assign(document.createElement(name), {textContent: text ?? '', className: css ?? ''});
 }
 
-/** All of one run, and how to see more of it. */
+/** Shows all values of one run, and the command for its report. */
 function tellRun({plan, row}) {
   const number = plan.numberOf(row), list = element('table'), body = list.createTBody();
   for (const column of table.columns) {
@@ -70,19 +70,19 @@ function tellRun({plan, row}) {
   document.getElementById('number').value = number;
 }
 
-/** A colour per plan and outcome that there is. */
+/** Writes the legend: a colour for each plan and each outcome that occurs. */
 function legend() {
   const parent = document.getElementById('legend');
   for (const plan of table.plans) for (const bad of [0, 1]) {
     if (!plan.states.some((s) => (s !== 0) === Boolean(bad))) continue;
     const asks = table.columns.some((c) => c.limits[plan.index]), entry = parent.appendChild(element('span'));
     entry.append(element('i'), (table.plans.length > 1 ? plan.name + ': ' : '') + (bad ? 'misses a requirement, or a fault (+)' : asks ? 'holds' : 'runs'));
-    if (bad) entry.firstChild.style.clipPath = 'polygon(0 0, 100% 0, 50% 100%)';  // as it is drawn
+    if (bad) entry.firstChild.style.clipPath = 'polygon(0 0, 100% 0, 50% 100%)';  // the shape in the drawing
     entry.firstChild.style.background = `var(--${[['a', 'c'], ['b', 'reference']][bad][plan.index]})`;
   }
 }
 
-/** Drawings follow the theme, the width and the printer. */
+/** Redraws if the theme, the width or the printer changes. */
 function watch() {
   const repaint = () => {
     readPalette();

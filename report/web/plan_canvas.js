@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the drawings of a plan: a canvas in the screen's resolution, axes, colours of runs.
+// Common code of a plan's drawings: a canvas in the screen's resolution, axes, colours of runs.
 
 const FRAME = {left: 64, right: 16, top: 12, bottom: 42};
 
-/** Blue and green hold, orange and purple miss: of the first plan and of the second. */
+/** First plan: blue for runs that hold, orange for runs that miss. Second plan: green and purple. */
 const runColour = (plan, state) => palette[state === 0 ? ['a', 'c'][plan] : ['b', 'reference'][plan]];
 
-/** A canvas as large as it is shown, cleared. */
+/** Returns an empty canvas with the size at which it is shown. */
 function cleared(canvas) {
   const ratio = devicePixelRatio, width = canvas.clientWidth, height = canvas.clientHeight, ctx = canvas.getContext('2d');
   Object.assign(canvas, {width: Math.round(width * ratio), height: Math.round(height * ratio)});
@@ -16,7 +16,7 @@ function cleared(canvas) {
   return {ctx, width, height};
 }
 
-/** Text that has no more room than that. */
+/** The text, shortened to the available width. */
 function fitted(ctx, text, room) {
   if (ctx.measureText(text).width <= room) return text;
   let length = text.length;
@@ -24,13 +24,13 @@ function fitted(ctx, text, room) {
   return text.slice(0, length) + '…';
 }
 
-/** Where a drawing begins, that its texts at the left stand whole: of long words so much further in, up to a third. */
+/** The left edge of a drawing. Long words at the left move it to the right, by at most a third of the width. */
 const leftBeside = (ctx, texts, width) => Math.min(width / 3, Math.max(FRAME.left, ...texts.map((text) => ctx.measureText(text).width + 24)));
 
-/** Numbers or words up the left side. */
+/** Writes numbers or words along the left side. */
 const ticksUp = (scale, h) => scale.ticks(Math.max(2, h / 60));
 
-/** Places of two columns on a canvas. */
+/** Positions of two columns' values on a canvas. */
 function frameOf(canvas, across, up) {
   const {ctx, width, height} = cleared(canvas);
   const h = height - FRAME.top - FRAME.bottom, x = scaleOf(across), y = scaleOf(up);
@@ -45,14 +45,14 @@ function line(ctx, x1, y1, x2, y2) {
   ctx.stroke();
 }
 
-/** Grid, numbers and names. `bands`: ticks that cells stand on instead, with no line through them. */
+/** Draws grid, numbers and names. `bands`: the ticks are the middles of cells and have no grid lines. */
 function drawAxes(f, bands = {}) {
   const {ctx, left, w, h} = f, bottom = FRAME.top + h;
   ctx.lineWidth = 1;
   ctx.strokeStyle = palette.grid;
   ctx.fillStyle = palette.quiet;
   ctx.textAlign = 'center';
-  let free = -Infinity;  // texts that would lie over each other are left out
+  let free = -Infinity;  // overlapping texts are omitted
   for (const {at, text} of bands.x ?? f.x.ticks(Math.max(2, w / 110)).map((t) => ({at: f.px(t.v), text: t.text}))) {
     if (!bands.x) line(ctx, at, FRAME.top, at, bottom);
     const half = ctx.measureText(text).width / 2;
@@ -78,7 +78,7 @@ function drawAxes(f, bands = {}) {
   ctx.restore();
 }
 
-/** Requirements as dashed lines, each named where it stands. */
+/** Draws requirements as dashed lines with their names. */
 function drawLimits(f) {
   const {ctx, left, w, h} = f, inside = (s) => s >= 0 && s <= 1;
   ctx.save();
@@ -89,13 +89,13 @@ function drawLimits(f) {
   ctx.restore();
 }
 
-/** Where on a canvas an event happened. */
+/** The position of an event on a canvas. */
 function placeOf(canvas, event) {
   const box = canvas.getBoundingClientRect();
   return [event.clientX - box.left, event.clientY - box.top];
 }
 
-/** Options of a select; what was chosen stays chosen where it can. */
+/** Sets the options of a select. The chosen option stays chosen if it still exists. */
 function fillSelect(select, columns, chosen) {
   select.replaceChildren(...columns.map((c) => new Option(columnName(c), c.id, false, c === chosen)));
 }

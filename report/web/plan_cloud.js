@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws runs as points: any column over any other.
+// Draws runs as points, with any two columns as axes.
 
-/** A run that holds is a square, one that misses a triangle, a fault a cross: colour alone is not for everybody. */
+/** A run that holds is a square, a run that misses is a triangle, a fault is a cross. Not every reader can distinguish the colours. */
 function drawRun(ctx, x, y, size, state) {
   if (state === 0) return ctx.fillRect(x - size / 2, y - size / 2, size, size);
   if (state === 2) return ctx.fillRect(x - size, y - 1, 2 * size, 2), ctx.fillRect(x - 1, y - size, 2, 2 * size);
@@ -12,7 +12,7 @@ function drawRun(ctx, x, y, size, state) {
   ctx.fill();
 }
 
-/** Draws all runs that are picked; those that miss lie on top, for they are sought. */
+/** Draws all selected runs. Runs that miss a requirement are drawn last, so that they are visible. */
 function drawCloud(f, table, picked) {
   const {ctx} = f;
   for (const bad of [false, true]) for (const plan of table.plans) {
@@ -31,7 +31,7 @@ function drawCloud(f, table, picked) {
   ctx.globalAlpha = 1;
 }
 
-/** A ring around the run that was chosen. */
+/** Draws a ring around the chosen run. */
 function drawRing(f, chosen) {
   if (!chosen) return;
   const x = f.px(f.across.of[chosen.plan.index]?.[chosen.row] ?? NaN), y = f.py(f.up.of[chosen.plan.index]?.[chosen.row] ?? NaN);
@@ -43,7 +43,7 @@ function drawRing(f, chosen) {
   f.ctx.stroke();
 }
 
-/** The run nearest to a place, not further than a finger is wide. */
+/** The run nearest to a position, within the width of a finger. */
 function nearestRun(f, table, picked, [x, y]) {
   let best = null, least = 22 ** 2;
   for (const plan of table.plans) {
@@ -57,7 +57,7 @@ function nearestRun(f, table, picked, [x, y]) {
   return best;
 }
 
-/** A cloud with its selects: `extra` draws over it. Returns what draws it again. */
+/** Builds a cloud with its selects; `extra` draws over the cloud. Returns the function that redraws it. */
 function cloud(id, page, {across, up, extra}) {
   const canvas = document.querySelector(`#${id} canvas`), said = document.getElementById(id + '-said');
   const selects = {x: document.getElementById(id + '-x'), y: document.getElementById(id + '-y')};

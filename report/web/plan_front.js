@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the best trade-offs of two figures: no other run is better in one figure without being worse in the other.
 
-/** Rows of the front, from the best across to the best up; `signs` are 1 where higher is better, -1 where lower. Of equal runs each
- *  is on it. Rows without a value are not. */
+/** Rows of the front, from the best x value to the best y value; `signs` are 1 if higher is better, -1 if lower is better. Equal runs
+ *  are all on the front. Rows without a value are not on the front. */
 function paretoFront(xs, ys, [signX, signY], picked = () => true) {
   const rows = [];
   for (let n = 0; n < xs.length; ++n) if (!Number.isNaN(xs[n]) && !Number.isNaN(ys[n]) && picked(n)) rows.push(n);
@@ -19,7 +19,7 @@ function paretoFront(xs, ys, [signX, signY], picked = () => true) {
   return front;
 }
 
-/** Steps from run to run: between two of them no trade was seen. */
+/** Draws steps from run to run, because no run exists between two neighbours. */
 function drawFront(f, plan, front) {
   const {ctx} = f, xs = f.across.of[plan.index], ys = f.up.of[plan.index];
   ctx.strokeStyle = palette.ink;
@@ -52,7 +52,7 @@ function listFront(page, fronts, x, y) {
   list.replaceChildren(table);
 }
 
-/** Whether less of a figure is better, as its requirements have it: one that is bounded below alone wants to be high. */
+/** Whether a lower value of a figure is better. Not if its requirements have only a lower limit. */
 const likesHigh = (column) => column.limits.some((l) => l && l.min != null && l.max == null);
 
 function frontView(page) {

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a figure over two columns: cells of a grid, or of a range cut in even parts, each in the colour of its mean.
+// Draws a figure over two columns. The cells are the points of a grid or equal parts of a range, each in the colour of its mean.
 
 const MOST_CELLS = 60;
 
-/** Even parts of a range: some four runs to a cell, and no more than can be told apart. */
+/** Number of equal parts of a range: about four runs per cell, and no more cells than can be distinguished. */
 const cutsFor = (runs) => Math.min(32, Math.max(4, Math.round(Math.sqrt(runs / 4))));
 
-/** From dark blue to yellow, as bright as it is high: read in grey, and by every kind of colour vision (viridis). */
+/** Colours from dark blue to yellow (viridis). A higher value is brighter, so that the colours are readable in grey and with every colour vision. */
 const HEAT = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
 function heatColour(part) {
   const at = Math.min(Math.max(part, 0), 1) * (HEAT.length - 1), n = Math.min(Math.floor(at), HEAT.length - 2);
   return `rgb(${HEAT[n].map((c, i) => Math.round(c + (at - n) * (HEAT[n + 1][i] - c))).join(' ')})`;
 }
 
-/** No zeros that say nothing, and none of a float's last bits. */
+/** Text of a number without trailing zeros and without the rounding error of a float. */
 const shortest = (v) => String(Number(v.toPrecision(5))).replace('-', '−');
 
-/** The cells along a column: its values where they are few, as a grid's are, else even parts of its range. */
+/** The cells along a column: its values if they are few, as in a grid; else equal parts of its range. */
 function cellsAlong(column, plan) {
   const values = column.of[plan.index];
   if (column.words) return {count: column.words.length, of: (v) => v, ticks: column.words.map((text, n) => [n + 0.5, text])};
@@ -92,7 +92,7 @@ function drawHeat(canvas, plan, across, up, column, picked) {
   return f;
 }
 
-/** What a cell is made of, in words. */
+/** The contents of a cell in words. */
 function cellText(f, column, [x, y]) {
   const {cells} = f, i = Math.floor((x - f.left) / f.cw), j = Math.floor((FRAME.top + f.h - y) / f.ch), n = j * cells.x.count + i;
   if (i < 0 || j < 0 || i >= cells.x.count || j >= cells.y.count || !cells.counts[n]) return '';
@@ -106,7 +106,7 @@ function heatView(page) {
   const over = places.length > 1 ? places : page.choices;
   fillSelect(element('x'), over, over[0]);
   fillSelect(element('y'), over, over[1] ?? over[0]);
-  // Not a column of the runs, but the first one that a designer looks for.
+  // A computed figure that is no column of the runs; designers look for it first.
   const held = {id: String(table.columns.length), kind: 'figure', name: 'runs that hold', unit: '%', limits: table.plans.map(() => null),
     of: table.plans.map((plan) => Float32Array.from(plan.states, (s) => (s === 3 ? NaN : s === 0 ? 100 : 0)))};
   const judged = table.columns.some((c) => c.limits.some((l) => l));

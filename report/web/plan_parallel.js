@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws all columns at once: an axis each, a line per run, and ranges that select runs for the whole page.
+// Draws all columns at once: one axis per column, one line per run, and ranges that select runs for the whole page.
 
 const PARALLEL = {top: 40, bottom: 12, side: 56, grain: 3, shades: 5};
 
-/** Lines between two axes that start and end at the same few pixels are one, the darker the more runs it stands for: so a hundred
- *  thousand are drawn as quickly as they can be read. */
+/** Lines between two axes that start and end at the same few pixels are drawn as one line, which is darker for more runs. So the
+ *  drawing time does not increase with the number of runs. */
 function bundled(left, right, plan, wanted, height) {
   const steps = Math.ceil(height / PARALLEL.grain) + 1, counts = new Map();
   for (let n = 0; n < plan.runs; ++n) {
@@ -65,7 +65,7 @@ function drawAxis(ctx, axis, x, top, height, room, brush) {
   ctx.strokeRect(x - 8, from, 16, tall);
 }
 
-/** Names stand in two rows in turn, each as wide as the next but one axis is away. */
+/** Writes the axes' names alternately in two rows. Each name may be as wide as the distance to the axis after the next. */
 function drawNames(ctx, axes, places, gap) {
   ctx.fillStyle = palette.ink;
   axes.forEach(({column}, n) => {
@@ -75,7 +75,7 @@ function drawNames(ctx, axes, places, gap) {
   });
 }
 
-/** Boxes with which columns come and go; the first ten are shown to begin with. */
+/** Checkboxes that show or hide columns. At first, ten columns are shown. */
 function columnBoxes(columns, changed) {
   const parent = document.getElementById('parallel-columns');
   return columns.map((column, n) => {
@@ -103,7 +103,7 @@ function parallelView(page) {
     view = {axes, places, height};
     ctx.lineWidth = 1;
     const down = (axis, plan) => (n) => 1 - axis.scale.at(axis.column.of[plan.index]?.[n] ?? NaN);
-    const layers = [[0, 0], [0, 1], [1, 0], [1, 1]].filter(([on]) => on || brushes.size);  // runs not selected lie below the others
+    const layers = [[0, 0], [0, 1], [1, 0], [1, 1]].filter(([on]) => on || brushes.size);  // runs that are not selected are drawn first
     for (const [on, bad] of layers) for (const plan of table.plans) for (let k = 0; k + 1 < axes.length; ++k) {
       const wanted = (n) => (plan.states[n] !== 0) === Boolean(bad) && page.picked(plan, n) === Boolean(on);
       ctx.strokeStyle = on ? runColour(plan.index, bad) : palette.line;
@@ -122,7 +122,7 @@ function parallelView(page) {
     said.textContent = brushes.size ? `${some} of ${all} runs` : `${all} runs`;
     document.getElementById('all').hidden = brushes.size === 0;
   };
-  let from = null;  // {axis, s}: where a drag began
+  let from = null;  // {axis, s}: start of a drag
   const part = ([, y]) => Math.min(1, Math.max(0, 1 - (y - PARALLEL.top) / view.height));
   const brushed = (event) => {
     const s = part(placeOf(canvas, event));
@@ -138,7 +138,7 @@ function parallelView(page) {
   canvas.addEventListener('pointermove', (event) => {
     if (!from) return;
     brushed(event);
-    page.mark(brushes);  // the other drawings follow when the range stands
+    page.mark(brushes);  // the other drawings are updated when the drag ends
     page.soon(draw);
   });
   canvas.addEventListener('pointerup', (event) => {

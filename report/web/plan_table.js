@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds a plan's runs as columns of numbers, and the scales of the drawings.
+// Stores a plan's runs as columns of numbers, and computes the scales of the drawings.
 
 const STATES = ['holds', 'misses a requirement', 'stopped by a fault', 'could not run'];
 
-/** Numbers come in the units of files: here they get the prefix that the page shows. */
+/** Converts numbers from the units of files to the prefixes on the page. */
 function shownValues(raw, factor) {
   if (factor !== 1) for (let n = 0; n < raw.length; ++n) raw[n] *= factor;
   return raw;
 }
 
-/** Words of a second plan count through one list with the first one's. */
+/** The words of both plans are in one list. */
 function oneList(column, words, raw) {
   const place = words.map((word) => (column.words.includes(word) ? column.words.indexOf(word) : column.words.push(word) - 1));
   for (let n = 0; n < raw.length; ++n) raw[n] = place[raw[n]] ?? NaN;
   return raw;
 }
 
-/** {plans, columns}: a column of the same kind, name and unit is one, whichever plans have it; `of[p]` are its values in plan p. */
+/** {plans, columns}: columns of the plans with the same kind, name and unit are one column; `of[p]` are its values in plan p. */
 function planTable(data) {
   const columns = [];
   const plans = data.plans.map((plan, p) => {
@@ -44,12 +44,12 @@ const columnTitle = (column) => columnName(column) + (column.unit ? `, ${column.
 const valueText = (column, v) => (v == null || Number.isNaN(v) ? '–' : column.words ? column.words[v]
   : v === Infinity ? 'never' : v === -Infinity ? '−∞' : `${figure(v)}${column.unit ? '\u00a0' + column.unit : ''}`);
 
-/** The limits that any plan asks of a column, each once. */
+/** The limits that any plan requires of a column, without repetition. */
 function limitsOf(column) {
   return [...new Set(column.limits.flatMap((l) => (l ? [l.min, l.max] : [])).filter((v) => v != null))];
 }
 
-/** Least and greatest finite value; a limit that lies near is among them. */
+/** Least and greatest finite value, including a limit that is near the values. */
 function reachOf(column) {
   let low = Infinity, high = -Infinity;
   for (const values of column.of) if (values) for (const v of values)
@@ -60,7 +60,7 @@ function reachOf(column) {
   return [low, high];
 }
 
-/** Round numbers, some `wanted` of them. */
+/** About `wanted` round numbers. */
 function roundTicks(low, high, wanted) {
   const rough = (high - low) / wanted, power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 5, 10].find((m) => m * power >= rough * 0.999), ticks = [];
@@ -71,7 +71,7 @@ function roundTicks(low, high, wanted) {
   return ticks.map((v) => ({v, text: text(v)}));
 }
 
-/** From values to places between 0 and 1 and back. What never came stands at the far end. */
+/** Converts values to positions between 0 and 1 and back. An event that never occurred is at the upper end. */
 function scaleOf(column, margin = 0.04) {
   if (column.words) {
     const count = column.words.length;

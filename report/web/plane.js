@@ -3,12 +3,12 @@
 
 const clarke = (a, b, c) => [(2 * a - b - c) / 3, (b - c) / Math.sqrt(3)];
 
-/** Takes the chart of the phase currents and these three; returns the function that draws view and instant. */
+/** `entry` and `phases`: the chart of the phase currents and its three curves. Returns the function that draws view and instant. */
 function currentPlane(canvas, entry, phases) {
   const point = ([a, b, c], n) => clarke(a.raw[n], b.raw[n], c.raw[n]);
   return (from, to, t) => {
     const shown = curvesInView(phases, from, to) ?? phases, {axis} = shown[0], first = Math.max(0, rowAt(axis, from));
-    let reach = 0;  // the view's own, for both axes
+    let reach = 0;  // largest current in view, for both axes
     for (let n = first; n < axis.length && axis[n] <= to; ++n) reach = Math.max(reach, Math.hypot(...point(shown, n)));
     reach ||= 1;
     const ratio = devicePixelRatio, width = canvas.clientWidth, height = canvas.clientHeight, ctx = canvas.getContext('2d');
@@ -33,7 +33,7 @@ function currentPlane(canvas, entry, phases) {
   };
 }
 
-/** Axes of the phases, and a circle of a round number of amperes. */
+/** Draws the axes of the phases, and a circle with a round number of amperes. */
 function drawPlaneGrid(ctx, width, height, round, scale, chart) {
   ctx.clearRect(-width, -height, 2 * width, 2 * height);
   const long = Math.min(width, height) / 2;

@@ -7,19 +7,19 @@ const time = {...timeFormat(runEnd - runStart), name: 'time'};
 const address = new URLSearchParams(location.hash.slice(1));
 const usualUnits = {speed: 'rad_s', angle: data.charts.some((c) => c.id === 'position') ? 'deg' : 'deg_el', torque: 'mNm', current: 'A'};
 const units = unitChoices(address, usualUnits);
-const charts = [];    // over time, as buildChart returns them
-const spectra = [];   // over frequency
+const charts = [];    // charts over time, as returned by buildChart
+const spectra = [];   // charts over frequency
 const instants = {cursor: null, A: null, B: null};
 let instruments = {view() {}, instant() {}};
 let view = [runStart, runEnd];
-let linking = true;   // while true, a chart's change of scale is our own doing
+let linking = true;   // true while this script itself changes a chart's scale
 
 const element = (id) => document.getElementById(id);
 const close = (a, b) => Math.abs(a - b) <= 1e-9 * (runEnd - runStart);
 const isWhole = ([from, to]) => close(from, runStart) && close(to, runEnd);
 const inRun = (t) => t != null && t >= runStart && t <= runEnd;
 
-/** Shows [from, to] in all charts; keeps inside the run and above a nanosecond. */
+/** Shows [from, to] in all charts, limited to the run and to at least a nanosecond. */
 function show(from, to) {
   const span = Math.min(Math.max(to - from, 1e-9), runEnd - runStart);
   const start = Math.min(Math.max(from, runStart), runEnd - span);
@@ -36,7 +36,7 @@ function zoomed(from, to) {
   show(from, to);
 }
 
-/** The address remembers close-up, marks and units, so that a link can point at them. */
+/** Writes close-up, marks and units into the address, so that a link contains them. */
 function remember() {
   const parts = isWhole(view) ? [] : [`t=${view[0].toPrecision(9)},${view[1].toPrecision(9)}`];
   for (const name of ['A', 'B']) if (instants[name] != null) parts.push(`${name}=${instants[name].toPrecision(9)}`);
@@ -56,7 +56,7 @@ function describeView() {
   remember();
 }
 
-/** Puts the common cursor at t, or takes it away. */
+/** Moves the common cursor to t, or removes it. */
 function pointAt(t) {
   instants.cursor = inRun(t) ? t : null;
   for (const {plot} of charts)
@@ -64,14 +64,14 @@ function pointAt(t) {
   showInstant();
 }
 
-/** The mouse has pointed: uPlot moves the lines by itself. */
+/** Called when the mouse moves. uPlot itself moves the lines. */
 function pointed(t) {
-  if (t == null) return pointAt(instants.cursor);  // it left: the instant stays, so that it can be read
+  if (t == null) return pointAt(instants.cursor);  // the mouse has left the chart: the instant does not change, so that its values can be read
   instants.cursor = inRun(t) ? t : null;
   showInstant();
 }
 
-let asked = false;  // once per frame is enough
+let asked = false;  // true: an update is scheduled with the next frame
 function showInstant() {
   if (asked) return;
   asked = true;
@@ -92,7 +92,7 @@ function mark(name, t) {
   showInstant();
 }
 
-/** Where a mark goes that was asked for by a button: to the cursor, else into view. */
+/** The position of a mark that a button sets: at the cursor, else in the view. */
 const markPlace = (name) => instants.cursor ?? view[0] + (view[1] - view[0]) * (name === 'A' ? 0.3 : 0.7);
 
 function addViews() {
@@ -105,7 +105,7 @@ function addViews() {
     element('mark-' + name).addEventListener('click', () => mark(name, instants[name] == null ? markPlace(name) : null));
 }
 
-/** The next row of the trace from t on, in the direction asked for. */
+/** The next row of the trace after t in the given direction. */
 function nextRow(t, direction) {
   let best = null;
   for (const {axis} of charts.map((c) => c.curves[0].full ?? c.curves[0])) {
@@ -163,7 +163,7 @@ function noteEnvelope() {
     `peak replaces them; ${data.rows?.length ? `where fewer than ${grouped(ROWS_IN_VIEW)} are in view, all are drawn.` : 'the close-ups hold every row.'}`;
 }
 
-/** The envelope stands first; every row follows when the page can be read already. */
+/** Draws the envelope first. Every row is unpacked after the page is shown. */
 async function addRows() {
   for (const block of data.rows ?? []) {
     const conduction = await unpackRows(block, charts);

@@ -8,7 +8,7 @@ async function inflated(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Differences, byte by byte of equal weight, summed up again: what each row counts, modulo 2^(8 planes). */
+/** Adds up the differences, which are stored in planes of bytes of equal weight. The result is each row's count modulo 2^(8 planes). */
 function counted(bytes, offset, rows, planes, row) {
   const modulus = 256 ** planes;
   let count = 0;
@@ -19,12 +19,12 @@ function counted(bytes, offset, rows, planes, row) {
   }
 }
 
-/** Gives each curve that a block holds all its rows as `full`; returns what conducts from each row on, where it is in. */
+/** Sets `full`, all rows, for each curve of a block. Returns the conduction codes of the rows, if the block contains them. */
 async function unpackRows(packed, charts) {
   const bytes = await inflated(packed.data), {rows} = packed, axis = new Float64Array(rows);
   counted(bytes, 0, rows, 4, (n, difference, count) => {
     axis[n] = packed.start + packed.tick * (count + difference);
-    return count + difference;  // times only grow: not modulo
+    return count + difference;  // times only increase, so no modulo is needed
   });
   let conduction = null;
   packed.columns.forEach(({low, step, chart, curve: place}, column) => {
@@ -40,11 +40,11 @@ async function unpackRows(packed, charts) {
   return conduction;
 }
 
-/** The curves of a chart as they are drawn over [from, to]: all rows where few enough are in view, else null. A curve
- *  without `full` has all its rows anyway. */
+/** The curves of a chart as drawn over [from, to]: all rows if few enough are in view, else null. A curve without `full`
+ *  already contains all its rows. */
 function curvesInView(curves, from, to) {
   if (!curves.some((c) => c.full)) return null;
-  const parts = new Map();  // curves on one axis stay on one
+  const parts = new Map();  // curves on a common axis keep a common axis
   for (const {axis} of curves.map((c) => c.full ?? c)) {
     if (parts.has(axis)) continue;
     const first = Math.max(0, rowAt(axis, from) - 1), last = Math.min(axis.length, rowAt(axis, to) + 2);

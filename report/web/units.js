@@ -12,7 +12,7 @@ const UNITS = {
 };
 const QUANTITIES = {speed: 'Speed', angle: 'Angle', torque: 'Torque', current: 'Current'};
 
-/** Which unit each quantity is shown in: as the address says, else the usual one. */
+/** The unit in which each quantity is shown: the unit in the address, else the usual unit. */
 function unitChoices(address, usual) {
   return Object.fromEntries(Object.entries(UNITS).map(([quantity, list]) => {
     const asked = list.find((u) => u.id === address.get(quantity));
@@ -26,7 +26,7 @@ function unitOf(quantity, id, polePairs) {
   return found ? {...found, factor: found.factor * (found.electrical ? polePairs : 1)} : null;
 }
 
-/** Gives a chart its unit, and a second one for the right axis where two are in daily use. */
+/** Sets a chart's unit, and a second unit for the right axis if two units are common. */
 function wearUnit(chart, chosen, polePairs) {
   const main = unitOf(chart.quantity, chosen[chart.quantity], polePairs);
   if (!main) return;
@@ -36,7 +36,7 @@ function wearUnit(chart, chosen, polePairs) {
   chart.other = other ? {unit: other.unit, factor: other.factor / main.factor} : undefined;
 }
 
-/** One select per quantity that the charts show; `chosen` follows, then `changed` is told. */
+/** Builds one select per quantity of the charts. A choice updates `chosen` and then calls `changed`. */
 function unitSelects(parent, quantities, chosen, changed) {
   for (const quantity of quantities) {
     const label = parent.appendChild(document.createElement('label'));

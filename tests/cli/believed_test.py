@@ -35,7 +35,7 @@ class Believed(ProgramTest):
 
     def test_a_design_tells_what_each_belief_costs_and_uses_it(self):
         told = self.run_program("design", "--scenario", str(GALLERY / "belief-inductance.toml"), "--json", "a.json", code=None).stdout
-        self.assertRegex(told, r"Wrong beliefs, and what each costs\n  - the drive believes L = 0\.572 instead of 0\.286 mH")
+        self.assertRegex(told, r"Costs of wrong beliefs\n  - the drive believes L = 0\.572 instead of 0\.286 mH")
         design = json.loads((self.path / "a.json").read_text())
         self.assertEqual(len(design["wrong_beliefs"]), 1)
         self.assertAlmostEqual(design["model"]["q_axis_inductance_H"], 0.572e-3)

@@ -218,7 +218,7 @@ class Bench(Started):
                             (("identify", "log.csv", "--between", "wires"), "--between = wires must be lines or star"),
                             (("identify", "log.csv", "--hall", "a,b,c"), 'log.csv: has no column "a"; it has time, hall1'),
                             (("identify", "log.csv", "--html", "log.csv"), "log.csv"),
-                            (("identify", "log.csv", "--html", "a", "--write", "a"), "--html = a is what --write writes"),
+                            (("identify", "log.csv", "--html", "a", "--write", "a"), "--html = a is also the file of --write"),
                             (("emf", "scope.csv", "--speed", "-1"), "--speed = -1 must lie in 0.01 to 600000"),
                             (("emf", "scope.csv", "--tolerance", "100"), "--tolerance = 100 must"),
                             (("emf", "scope.csv", "--speed", "450"), "--speed = 450 rpm with 33."),

@@ -52,7 +52,7 @@ class BoardLog(LogTest):
         self.write_log()
         self.run_program("run", SCENARIO, "--compare", "log.csv", "--html", "over.html", "--quiet", code=0)
         page = (self.path / "over.html").read_text(encoding="utf-8")
-        for word in ("A board's log over its simulation", "recorded on a board", "Log of the board, less the simulation", "log.csv"):
+        for word in ("A board's log over its simulation", "recorded on a board", "Log of the board minus the simulation", "log.csv"):
             self.assertIn(word, page)
 
     def test_refuses_with_a_way_out(self):
@@ -139,7 +139,7 @@ class LogsOfOthers(LogTest):
                       "duty = duty_cycle\n", text)
         self.assertIn("current_in (a mean over PWM periods, where the simulation has the pulses)", text)
         text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
-        self.assertIn("its clock starts at 36000 s, so that times are counted from its first row", text)
+        self.assertIn("the log's clock starts at 36000 s, so that times are counted from its first row", text)
         self.assertIn("not used: input_voltage, temp_mos_max, current_in, d_axis_current, q_axis_current, duty_cycle, tacho_meter (not named)", text)
 
     def test_ardupilot(self):

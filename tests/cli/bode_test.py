@@ -55,7 +55,7 @@ class Bode(ProgramTest):
         (self.path / "held.toml").write_text(HELD)
         files = ("--json", "b.json", "--csv", "b.csv", "--html", "b.html")
         made = self.run_program("run", "held.toml", "--bode", *files, code=1)
-        self.assertIn("NOTHING WAS MEASURED: no line has a coherence of 0.9", made.stdout)
+        self.assertIn("NOTHING WAS MEASURED: no line reaches a coherence of 0.9", made.stdout)
         margins = re.split(r"measured +designed\n", made.stdout)[1].splitlines()[:5]
         self.assertEqual([re.split(r" {2,}", line.strip())[1] for line in margins], ["-"] * 5, made.stdout)
         # The linear loop includes the half period of samples in the middle and the crossings' delay, so that no deviation is reported.
@@ -69,7 +69,7 @@ class Bode(ProgramTest):
                      re.sub("<script.*?</script>", "", (self.path / "b.html").read_text(), flags=re.S)):
             self.assertIsNone(re.search(r"(?<![\w-])-?(nan|inf)(?!\w)", text))
         quiet = self.run_program("run", "held.toml", "--bode", "--quiet", code=1)
-        self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: NOTHING WAS MEASURED: no line has a coherence of 0.9; run without --quiet for the reason\n"))
+        self.assertEqual((quiet.stdout, quiet.stderr), ("", "held: NOTHING WAS MEASURED: no line reaches a coherence of 0.9; run without --quiet for the reason\n"))
 
     def test_refuses_a_drive_that_is_still_on_its_way(self):
         """This drive needs 20 s to reach 400 rad/s. While the speed rises along a straight line, every line of the

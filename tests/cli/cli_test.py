@@ -103,9 +103,9 @@ class CommandLine(ProgramTest):
 
     def test_two_outputs_to_one_file_are_refused_in_whatever_spelling(self):
         self.write("a.toml", 1000), self.write("index.toml", 1000)
-        for words, told in (("run a.toml --csv ./x --json x", "--json = x is what --csv writes; give each output its own file\n"),
-                            ("curve maxon-251601 --csv x --html ./x", "--html = ./x is what --csv writes; give each output its own file\n"),
-                            ("design maxon-251601 --toml x --json ./x", "--toml = x is what --json writes; give each output its own file\n"),
+        for words, told in (("run a.toml --csv ./x --json x", "--json = x is also the file of --csv; give each output its own file\n"),
+                            ("curve maxon-251601 --csv x --html ./x", "--html = ./x is also the file of --csv; give each output its own file\n"),
+                            ("design maxon-251601 --toml x --json ./x", "--toml = x is also the file of --json; give each output its own file\n"),
                             ("run a.toml index.toml --out out", "index.toml: would write index.html, which lists all reports; "
                                                                 "rename this file, or run it without --out\n")):
             self.assertEqual(self.run_program(*words.split(), code=2).stderr, told)

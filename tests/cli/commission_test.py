@@ -88,7 +88,7 @@ class Commission(Started):
     def test_a_page_shows_the_test(self):
         self.commission("maxon-251601", "--html", "c.html", "--quiet")
         page = (self.path / "c.html").read_text()
-        for word in ("Currents of the fast turn", "The rotor's way", "All values were found", "leg c"):
+        for word in ("Currents of the fast turn", "The rotor's path", "All values were found", "leg c"):
             self.assertIn(word, page.replace("&#39;", "'"))
         self.assertNotIn("nan", page.split("<body")[-1].lower().split("<pre")[0])
 

@@ -60,7 +60,7 @@ class Conditions(ProgramTest):
             self.assertTrue(any(said in line for line in told), (words, made.stderr))
             comment = made.stdout.split("#pragma once")[0]
             stated = re.findall(r"^// Note: (.*?)\.?$", comment, re.M)
-            for heading in ("Warnings of that run:", "What was overridden:"):
+            for heading in ("Warnings of that run:", "This reason overrides these findings:"):
                 if heading in comment:
                     lines = comment.split(f"// {heading}\n")[1].splitlines()
                     stated += [line[5:] for line in lines[:next(n for n, line in enumerate(lines) if not line.startswith("//   "))]]

@@ -43,10 +43,10 @@ class Curve(ProgramTest):
 
     def test_speeds_that_the_sheet_does_not_allow_are_told(self):
         told = " ".join(self.run_program("curve", "maxon-251601", "--voltage", "48", "--points", "3").stdout.split())
-        allowed, no_load = map(float, re.search(r"The sheet allows (\d+) rpm, but the no-load speed is (\d+) rpm", told).groups())
+        allowed, no_load = map(float, re.search(r"The sheet's speed limit is (\d+) rpm, but the no-load speed is (\d+) rpm", told).groups())
         self.assertEqual(allowed, 10000)
         self.assertGreater(no_load, 1.8 * 6710)  # at twice the voltage the speed is about twice as high
-        self.assertNotIn("The sheet allows", self.run_program("curve", "maxon-251601", "--points", "3").stdout)
+        self.assertNotIn("The sheet's speed limit", self.run_program("curve", "maxon-251601", "--points", "3").stdout)
 
     def test_a_linear_motors_curve_is_in_newtons(self):
         self.run_program("curve", "example-linear", "--points", "5", "--csv", "a.csv", "--json", "a.json", "--html", "a.html", "--quiet")

@@ -80,7 +80,7 @@ class DamagedStore(ProgramTest):
 
     def test_a_digest_that_was_altered(self):
         self.change("UPDATE run SET digest = '0123456789abcdef' WHERE run = 3")
-        self.assertIn("s.sqlite: is damaged: run 3 differs from the written one", self.refused())
+        self.assertIn("s.sqlite: is damaged: run 3 differs from the written row", self.refused())
         self.assertIn("--force", self.refused())
 
     def test_a_run_that_is_no_run_of_the_plan(self):
@@ -95,7 +95,7 @@ class DamagedStore(ProgramTest):
 
     def test_rows_beyond_the_plan_are_told(self):
         told = self.run_program("run", "a.toml", "--runs", "50", "--store", "s.sqlite", "--resume", code=1)
-        self.assertIn(f"s.sqlite: holds {MORE - 50} more runs than the 50 of this plan", told.stderr)
+        self.assertIn(f"s.sqlite: contains {MORE - 50} more runs than the 50 of this plan", told.stderr)
         self.assertIn("50 drives", told.stdout)
 
     def test_another_version_or_format_is_named(self):
@@ -114,7 +114,7 @@ class DamagedStore(ProgramTest):
             db.execute("DELETE FROM main.run WHERE run = 3")
             db.execute("INSERT INTO main.run SELECT * FROM b.run WHERE run = 3")
             db.commit()
-        self.assertIn("run 3 differs from the written one", self.refused())
+        self.assertIn("run 3 differs from the written row", self.refused())
 
     def test_the_checksum_has_a_second_implementation(self):
         """The second implementation is in cells.py. It computes the stored checksum of every row."""

@@ -49,7 +49,7 @@ class Design(ProgramTest):
             self.assertTrue(found, told)
             self.assertLessEqual(float(found.group(3)), float(found.group(5)))
             self.assertEqual(found.group(1) == "1", found.group(2) == "")
-            self.assertEqual({found.group(4), found.group(6)}, {"full torque stops it from top speed", "no limit acts"})
+            self.assertEqual({found.group(4), found.group(6)}, {"full torque stops the drive from top speed", "no limit acts"})
         told = self.run_program("design", "maxon-251601", "--mode", "current", "--method", "cancellation", "--quick", code=None).stdout
         self.assertRegex(told, r"overshoot +0 A +0 A +designed")
         self.assertNotRegex(told, r"e\+\d+ %|e-1\d")
@@ -150,7 +150,7 @@ class Design(ProgramTest):
         self.assertRegex(text, r"  d1 +4\.09559 +.* thesis 4\.5\n")
         self.assertRegex(text, r"  Re z +0\.869154 +.* thesis 0\.8588\n")
         self.assertIn("phase margin, one period late         59.8 deg", text)
-        self.assertIn("held up to 71.6 rad/s, (i/K_t) R", text)
+        self.assertIn("held up to 71.6 rad/s = i R_tt/K_t", text)
         self.assertEqual(self.names(), [])
 
     def test_design_writes_a_scenario_that_runs_and_is_exported_with_the_same_gains(self):

@@ -74,7 +74,7 @@ class Export(ProgramTest):
         # A range must include the scenario's own largest setpoint and its source's values.
         square = self.scenario("current-square-board")
         for stated, least in (("current_A=4.9", "5 A"), ("setpoint=4.9", "5 of its unit"), ("bus_V=23", "24 V")):
-            self.assertIn(f"is less than {least}, the largest of this scenario's", told(square, "--range", stated, "--arithmetic", "q15"))
+            self.assertIn(f"is less than {least}, the largest value that this scenario", told(square, "--range", stated, "--arithmetic", "q15"))
         for name in ("7up", "int", "left::class", "std"):
             self.assertIn(f"--namespace = {name} is not the name of a C++ namespace", told(position, "--namespace", name))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
@@ -100,7 +100,7 @@ class Gate(ProgramTest):
         result = self.run_program("export", "header", self.scenario(name), *words, "--out", "d.hpp", code=code)
         self.assertEqual((result.stdout, self.names()), ("", []))
         *lines, last = result.stderr.splitlines()
-        self.assertEqual(last, "no header was written; to write it anyway, add --despite REASON, and the header will state all of this")
+        self.assertEqual(last, "no header was written; to write it anyway, add --despite REASON, and the header states these reasons")
         return [line.removeprefix(self.scenario(name) + ": ") for line in lines]
 
     def test_a_header_that_passed_says_what_it_passed(self):
@@ -183,7 +183,7 @@ class Gate(ProgramTest):
                                 "--despite", reason).stdout
         lines = text.splitlines()
         at = lines.index("// NOT CLEARED FOR A BRIDGE. The header was written anyway, for this reason:")
-        self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// What was overridden:"])
+        self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// This reason overrides these findings:"])
         self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 7]],
                          ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
         self.assertIn("inline constexpr bool cleared = false; ", text)

@@ -58,8 +58,8 @@ class Parameters(ProgramTest):
         (self.path / "binary").write_bytes(bytes(range(256)) * 64)
         (self.path / "empty").write_bytes(b"")
         (self.path / "nan.cfg").write_text(MOTEUS.replace(repr(R), "nan"))
-        for name, said in (("cut.cfg", "ends before its last element"), ("binary", "is no parameter file that is known"),
-                           ("empty", "is no parameter file that is known"), ("nan.cfg", "nan.cfg:2: motor.resistance_ohm = nan must be a number"),
+        for name, said in (("cut.cfg", "ends before its last element"), ("binary", "is not a known parameter file"),
+                           ("empty", "is not a known parameter file"), ("nan.cfg", "nan.cfg:2: motor.resistance_ohm = nan must be a number"),
                            ("none", "none"), ("/dev/zero", "/dev/zero"), (".", ".")):
             with self.subTest(name=name):
                 made = self.run_program("motor", "new", "mine", "--from", name, code=2)

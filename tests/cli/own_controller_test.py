@@ -41,7 +41,7 @@ AT_20 = r" in step 20, at t = 0\.000570 s"
 WAYS = {"exit": r"ended the program by exit\(\)", "quick_exit": r"ended the program by exit\(\)", "_exit": r"ended the program by _exit\(\)",
         "_Exit": r"ended the program by _exit\(\)", "abort": r"ended itself by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
         "divide": r"crashed \(SIGFPE: .*\)", "illegal": r"crashed \(SIG(ILL|TRAP).*\)", "recursion": r"crashed \(SIG(SEGV|BUS): .*\)",
-        "pthread_exit": r"ended its thread, as by pthread_exit\(\)"}
+        "pthread_exit": r"ended its thread, for example by pthread_exit\(\)"}
 PLACES = {"load": " while it was loaded", "design": " in its design", "start": " in its start", "step": AT_20, "hall": r" in its hall\(\) after step \d+, after t = [\d.]+ s"}
 
 
@@ -85,7 +85,7 @@ class OwnController(Started):
                 self.is_named(f"{place}-{way}", said + where + ENDS)
 
     def test_a_thread_of_its_own_that_ends_the_program(self):
-        self.is_named("thread-exit", r"ended the program by exit\(\) in a thread of its own" + ENDS)
+        self.is_named("thread-exit", r"ended the program by exit\(\) in a thread that it had started" + ENDS)
 
     def test_what_is_written_beside_its_bytes(self):
         beside = r"(wrote beside its {0}|crashed \(SIGSEGV: .*\))"
@@ -93,8 +93,8 @@ class OwnController(Started):
             self.is_named("behind-state", beside.format("state") + AT_20 + ENDS, by=by)
             self.is_named("behind-config", beside.format("config") + " in its design" + ENDS, by=by)
             self.is_named("behind-answer", beside.format("answer") + AT_20 + ENDS, by=by)
-        self.is_named("before-state", "wrote beside its state" + AT_20 + ENDS)
-        self.is_named("before-config", "wrote beside its config in its design" + ENDS)
+        self.is_named("before-state", "wrote outside its state" + AT_20 + ENDS)
+        self.is_named("before-config", "wrote outside its config in its design" + ENDS)
         for deed in ("far-before-state", "into-config", "stack"):
             self.is_named(deed, r"(crashed|gave up).*" + AT_20 + ENDS)
         self.is_named("bad-name", r"crashed \(SIGSEGV: .*\) while it was loaded" + ENDS)

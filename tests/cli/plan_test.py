@@ -100,7 +100,7 @@ class Plan(ProgramTest):
                 self.assertEqual(sum(n in r["runs"] for r in told), len(alone[n]))
             for remark in told:
                 self.assertIn(remark["text"], alone[remark["runs"][0]])
-            self.assertIn(f"  remark, runs 1, 2 (its numbers are those of run 1): {short[1][0]}\n", table)
+            self.assertIn(f"  remark, runs 1, 2 (with the numbers of run 1): {short[1][0]}\n", table)
             self.assertIn("  remark, all runs: given without effect: ", table)
 
     def test_a_drive_of_ideal_sensors_is_given_no_seed(self):
@@ -131,7 +131,7 @@ class Plan(ProgramTest):
         file = self.held(SPREAD)
         run = ["run", file, "--runs", "30", "--store", "s.sqlite"]
         self.run_program(*run, code=1)
-        self.assertIn("holds runs already", self.run_program(*run, code=2).stderr)
+        self.assertIn("already contains runs", self.run_program(*run, code=2).stderr)
         self.run_program("run", file, "--runs", "30", "--store", "s.sqlite", "--resume", code=1)
         self.assertEqual(len(self.rows("s.sqlite")), 30)
         more = self.run_program("run", file, "--runs", "50", "--store", "s.sqlite", "--resume", code=1).stdout
@@ -417,7 +417,7 @@ class Plan(ProgramTest):
         self.assertIn("sixstep run p.toml --only 3 --html out/p.run-3.html", report)
         self.assertIn("FAIL", report)
         self.assertEqual(len(self.rows("out/p.sqlite")), 6)
-        self.assertIn("holds runs already", self.run_program("run", "p.toml", "--out", "out", code=2).stderr)
+        self.assertIn("already contains runs", self.run_program("run", "p.toml", "--out", "out", code=2).stderr)
         self.run_program("run", "p.toml", "--out", "out", "--resume", code=1)
         self.run_program("run", "p.toml", "--out", "other", "--store", "s.sqlite", code=1)
         self.assertNotIn("p.sqlite", self.names("other"))

@@ -152,7 +152,7 @@ class Tables(ProgramTest):
 
     def test_two_outputs_are_no_pair(self):
         self.write("a.toml", 1000)
-        self.assertIn("is what --csv writes", self.run_program("run", "a.toml", "--csv", "x.mat", "--mat", "x.mat", code=2).stderr)
+        self.assertIn("is also the file of --csv", self.run_program("run", "a.toml", "--csv", "x.mat", "--mat", "x.mat", code=2).stderr)
 
 
 class Waveforms(ProgramTest):

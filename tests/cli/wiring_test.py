@@ -107,7 +107,7 @@ class Wiring(Started):
                             (["maxon-251601", "--current", "1e-6"], "--current = 1e-06 makes each of the 252 runs last "),
                             (["maxon-251601", "--voltage", "-1"], "--voltage = -1 must be above 0"),
                             (["maxon-251601", "--voltage", "1e300"], "--voltage = 1e+300"),
-                            (["maxon-251601", "--svg", "a", "--html", "a"], "--html = a is what --svg writes"),
+                            (["maxon-251601", "--svg", "a", "--html", "a"], "--html = a is also the file of --svg"),
                             (["maxon-251601", "--svg", "no/a"], "no/a"),
                             ([], "sixstep motor wiring needs MOTOR")):
             with self.subTest(words):

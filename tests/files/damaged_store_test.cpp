@@ -108,7 +108,7 @@ TEST_F(DamagedStore, OfEachValueOfARowIsTold) {
   }
   write(good);
   tamper("UPDATE run SET f0 = (SELECT f0 FROM run WHERE run = 8) WHERE run = 3");
-  EXPECT_THAT(told(), HasSubstr("run 3 differs from the written one"));
+  EXPECT_THAT(told(), HasSubstr("run 3 differs from the written row"));
   write(good);
   tamper("DELETE FROM run WHERE run = 3");
   EXPECT_EQ(told(), "") << "a run that is missing is made again";

@@ -85,7 +85,7 @@ TEST_F(Files, UnwritableOutputIsToldWhenCreated) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(to_string(missing.problems().at(0)),
             "no/such/folder/a.csv: cannot be written: No such file or directory; check that the folder "
-            "exists and may be written, and that the disk has room");
+            "exists and can be written, and that the disk has free space");
   const base::Result<AtomicFile> folder = AtomicFile::create(folder_.string());
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.problems().at(0).limit, "cannot be written: Is a directory");

@@ -79,7 +79,7 @@ TEST_F(Store, IsAskedInPlainSqlByNamesWithUnits) {
 TEST_F(Store, GoesOnWithTheSamePlanAloneAndSaysWhatChanged) {
   { PlanStore::create(path(), plan(), false)->add(row(4)); }
   EXPECT_THAT(to_string(PlanStore::create(path(), plan(), false).problems().front()),
-              HasSubstr("holds runs already"));
+              HasSubstr("already contains runs"));
   {
     base::Result<PlanStore> store = PlanStore::resume(path(), plan());
     ASSERT_TRUE(store);

@@ -61,10 +61,11 @@ TEST_F(ReplacedFiles, WhatSixstepHasNotWrittenIsRefusedUnlessForced) {
        {"x", "#include \"sixstep/control/drive.hpp\"\n", "# sixstep notes\n", "{\"sixstep\": 1}",
         "# Made by hand\n", "#:schema sixstep-scenario.schema.json\n", "<!doctype html>\n<p>"}) {
     const std::string path = with("a.csv", foreign);
-    EXPECT_EQ(told_writing(path, "new"),
-              path +
-                  ": was not written by sixstep, or was changed since; name another file, or add --force to "
-                  "replace it");
+    EXPECT_EQ(
+        told_writing(path, "new"),
+        path +
+            ": was not written by sixstep, or was changed after that; name another file, or add --force to "
+            "replace it");
     EXPECT_EQ(*read_text(path), foreign);
     EXPECT_EQ(entries(), 1U);
     EXPECT_EQ(told_writing({path, true}, "new"), "");

@@ -87,7 +87,7 @@ class Columns(unittest.TestCase):
             i[0] = 1.0
 
     def test_a_missing_one_is_named_with_those_there_are(self):
-        with self.assertRaisesRegex(KeyError, "voltage is not recorded; recorded are t_s, "):
+        with self.assertRaisesRegex(KeyError, "voltage is not recorded; the recorded columns are t_s, "):
             sixstep.run(current())["voltage"]
         with self.assertRaises(AttributeError):
             sixstep.run(current()).voltage

@@ -56,7 +56,7 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
     EXPECT_EQ(of("scale") > of("moved"), inertia > 0.0);
     const std::string html = page(*outcome->energy);
     for (const char* residual : {"electrical_residual", "mechanical_residual"})
-      EXPECT_THAT(html, HasSubstr("what does not add up</small></th><td class=\"num\">" +
+      EXPECT_THAT(html, HasSubstr("difference of the two sides</small></th><td class=\"num\">" +
                                   report::computed(e[residual].get<double>() * of("scale"), "J") + "<"));
     EXPECT_THAT(html, HasSubstr(inertia > 0.0 ? "of the energy stored" : "of the energy moved"));
     EXPECT_THAT(html, Not(HasSubstr(inertia > 0.0 ? "of the energy moved" : "of the energy stored")));
@@ -108,7 +108,7 @@ TEST(Ledger, what_is_far_below_every_rounding_is_nothing) {
                          .scale = 2.0,
                          .mechanical_residual = -1.5e-24};
   const std::string nothing =
-      "Residual<small>what does not add up</small></th><td class=\"num\">0.000\u00a0J<";
+      "Residual<small>difference of the two sides</small></th><td class=\"num\">0.000\u00a0J<";
   std::string html = page(book);
   EXPECT_THAT(html, HasSubstr("closes to <b>0</b>"));
   EXPECT_THAT(html, Not(HasSubstr("·10")));

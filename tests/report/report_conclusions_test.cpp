@@ -250,7 +250,7 @@ TEST(Glance, answers_what_a_reader_asks_first) {
               HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% inside its upper limit"));
   EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement gives 4.0956, −3.694"));
-  EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
+  EXPECT_THAT(html, HasSubstr("<h2>Costs</h2>"));
   EXPECT_THAT(html, HasSubstr("chopped at <b>"));
   run.scenario.control.current.type = sixstep::study::CurrentLoopType::hysteresis;
   run.scenario.control.current.band_A = 0.25;

@@ -96,8 +96,8 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
   EXPECT_EQ(text::too_short_for_images(100e-6), "");
   EXPECT_EQ(
       text::too_short_for_images(30e-6),
-      "a control period of 30 us is shorter than the ATmega2560's image needs, 100 us, and the STM32F303's may "
-      "answer a period late below 69.6 us: watch `missed`");
+      "a control period of 30 us is shorter than the ATmega2560's image needs (100 us). Below 69.6 us the "
+      "STM32F303's image may apply a command one period late: check `missed`");
   EXPECT_EQ(text::too_short_for_images(69.6e-6),
             "a control period of 69.6 us is shorter than the ATmega2560's image needs, 100 us");
   EXPECT_EQ(

@@ -34,12 +34,12 @@ std::string told(const char* content) {
 TEST(ForeignFile, SaysWhatItIsAndWhatMakesAMotorOfIt) {
   EXPECT_EQ(
       told(vesc),
-      "m.xml:1:1: is a VESC motor configuration, and a TOML file is wanted; make a motor file of it: sixstep motor new NAME "
+      "m.xml:1:1: is a VESC motor configuration, but a TOML file is required; make a motor file of it: sixstep motor new NAME "
       "--from m.xml");
-  EXPECT_THAT(told(moteus), HasSubstr("is a moteus configuration, and a TOML file is wanted"));
-  EXPECT_THAT(told(odrive), HasSubstr("is an ODrive configuration, and a TOML file is wanted"));
-  EXPECT_THAT(told(simple_foc), HasSubstr("is a SimpleFOC sketch, and a TOML file is wanted"));
-  EXPECT_THAT(told(matlab), HasSubstr("is a MATLAB struct of a motor, and a TOML file is wanted"));
+  EXPECT_THAT(told(moteus), HasSubstr("is a moteus configuration, but a TOML file is required"));
+  EXPECT_THAT(told(odrive), HasSubstr("is an ODrive configuration, but a TOML file is required"));
+  EXPECT_THAT(told(simple_foc), HasSubstr("is a SimpleFOC sketch, but a TOML file is required"));
+  EXPECT_THAT(told(matlab), HasSubstr("is a MATLAB struct of a motor, but a TOML file is required"));
 }
 
 TEST(ForeignFile, AsAScenarioToo) {

@@ -136,11 +136,12 @@ TEST(ForeignMotor, AsksWhatAProgramLeavesOpen) {
   EXPECT_THAT(
       told(simple_foc(R, KV)),
       HasSubstr(
-          "a.file:3: R = 0.0187f is open: the constructor says phase, the library's page on testing parameters "
-          "between the phases; answer resistance=phase (R_s = 0.0187 ohm) or resistance=terminal (R_s = 0.00935 ohm)"));
+          "a.file:3: R = 0.0187f has two possible meanings: the constructor's comment states a phase, the library's page "
+          "on testing parameters states phase to phase; answer resistance=phase (R_s = 0.0187 ohm) or resistance=terminal (R_s = 0.00935 ohm)"));
   EXPECT_THAT(told(simple_foc(R, KV), {"resistance=phase"}),
               HasSubstr("answer kv=line-peak (K_e = 35.84 mV s) or kv=six-step"));
-  EXPECT_THAT(told(simple_foc(R, KV), {"resistance=both", "kv=line-peak"}), HasSubstr("is open"));
+  EXPECT_THAT(told(simple_foc(R, KV), {"resistance=both", "kv=line-peak"}),
+              HasSubstr("has two possible meanings"));
   EXPECT_THAT(told(vesc(), {"kv=six-step"}), HasSubstr("answer = kv=six-step answers no question of a.file"));
   const auto text =
       motor_of_foreign_file("a.ino", simple_foc(R, 150), "m", {"resistance=phase", "kv=six-step"});
@@ -159,7 +160,8 @@ TEST(ForeignMotor, AnEncodersRatioContradictsThePoles) {
                 "</foc_sensor_mode><foc_encoder_ratio>10</foc_encoder_ratio>\n");
   };
   EXPECT_EQ(told(with_ratio("0")), "a motor") << "no encoder is in use";
-  EXPECT_THAT(told(with_ratio("1")), HasSubstr("si_motor_poles says 7 pole pairs, foc_encoder_ratio 10"));
+  EXPECT_THAT(told(with_ratio("1")),
+              HasSubstr("si_motor_poles gives 7 pole pairs and foc_encoder_ratio gives 10"));
   EXPECT_EQ(model_of(with_ratio("1"), {"pole_pairs=10"}).machine.pole_pairs, 10);
   EXPECT_EQ(model_of(with_ratio("1"), {"pole_pairs=7"}).machine.pole_pairs, 7);
 }
@@ -199,15 +201,17 @@ TEST(ForeignMotor, HostileFilesAreNoMotor) {
               HasSubstr("must be below twice foc_motor_l"));
   // The value is in another unit: microhenries or milliohms.
   EXPECT_THAT(told(with(odrive(), "2.02e-05", "20.2")),
-              HasSubstr("a time constant L/R of 1.08e+03 s, which no motor has"));
+              HasSubstr("a time constant L/R of 1.08e+03 s, and no motor has this time constant"));
   // The file contains no value of a motor, is binary, or is the file of another program.
-  EXPECT_THAT(told("<MCConfiguration>\n<l_current_max>60</l_current_max>\n</MCConfiguration>"),
-              HasSubstr("has no value of a motor that is known: VESC Tool has si_motor_poles, foc_motor_r"));
+  EXPECT_THAT(
+      told("<MCConfiguration>\n<l_current_max>60</l_current_max>\n</MCConfiguration>"),
+      HasSubstr(
+          "contains no known value of a motor: the values of VESC Tool are si_motor_poles, foc_motor_r"));
   EXPECT_THAT(told(std::string("\x7f"
                                "ELF\0\1\2",
                                7)),
-              HasSubstr("is no parameter file that is known"));
-  EXPECT_THAT(told(""), HasSubstr("is no parameter file that is known"));
+              HasSubstr("is not a known parameter file"));
+  EXPECT_THAT(told(""), HasSubstr("is not a known parameter file"));
   EXPECT_THAT(told(std::string("<MCConfiguration>\0\xff\xfe", 20)), HasSubstr("ends before"));
 }
 

@@ -96,7 +96,7 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
       {sheet_with("stall_current_A = { value = 23.3, range = [24, 25] }"),
        "m.toml:8:43: stall_current_A.range = [24, 25] does not contain the value, 23.3; write the least and the largest value of all sources, including this value"},
       {sheet_with("stall_current_A = { value = 23.3, range = [25, 24] }"),
-       "m.toml:8:43: stall_current_A.range = [25, 24] runs downwards; write range = [low, high]"},
+       "m.toml:8:43: stall_current_A.range = [25, 24] is not in rising order; write range = [low, high]"},
       {sheet_with("inertia_gcm2 = { value = 135, kind = \"measurd\" }"),
        "m.toml:7:38: inertia_gcm2.kind = \"measurd\" must be \"sheet\", \"measured\" or \"derived\"; did you "
        "mean \"measured\"?"},

@@ -202,7 +202,7 @@ TEST(PlannedScenarios, RefuseWhatNoRunCouldHave) {
   EXPECT_THAT(told({.key = "supply.voltge_V", .values = {"1"}}), HasSubstr("voltge_V"));
   EXPECT_THAT(told({.key = "require[0].max", .values = {"1"}}), HasSubstr("is the same in all runs"));
   EXPECT_THAT(told({.key = "pwm.chopping", .values = {"soft"}, .strays = true}),
-              HasSubstr("is not a number, and only numbers can be spread"));
+              HasSubstr("is not a number, but strays = true requires numbers"));
   EXPECT_THAT(told({.key = "pwm.period_s", .values = {"3e-5"}, .strays = true}),
               HasSubstr("may not differ from drive to drive"));
   EXPECT_EQ(told({.key = "supply.voltage_V", .values = {"-1", "24"}}), "nothing")

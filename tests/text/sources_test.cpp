@@ -53,7 +53,7 @@ TEST(Sources, AScenarioOfTextsAlone) {
 
 TEST(Sources, WhatIsNotAtHandIsTold) {
   EXPECT_THAT(complaints(read("extends = \"base.toml\"\n", {})),
-              ElementsAre(HasSubstr("extends = \"base.toml\" names tried/base.toml, which is not at hand")));
+              ElementsAre(HasSubstr("extends = \"base.toml\" names tried/base.toml, which does not exist")));
   EXPECT_THAT(complaints(read(base_text, {})),
               ElementsAre(HasSubstr("motor = \"mine\" is neither tried/mine nor a built-in motor")));
   EXPECT_THAT(complaints(read_scenario_text("x.toml", base_text)),
@@ -63,7 +63,7 @@ TEST(Sources, WhatIsNotAtHandIsTold) {
 TEST(Sources, ACircleIsFoundInAnySpelling) {
   EXPECT_THAT(
       complaints(read("extends = \"../tried/./x.toml\"\n", {{"tried/x.toml", "extends = \"x.toml\"\n"}})),
-      ElementsAre(HasSubstr("itself extends this one")));
+      ElementsAre(HasSubstr("itself extends this file")));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

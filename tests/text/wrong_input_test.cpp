@@ -94,8 +94,9 @@ TEST_F(WrongInput, TextWhereANumberBelongs) {
           "x.toml:2:14: duration_s = \"20 mm\" has the unit mm, which cannot be converted to s; units that fit: s, ms, us or min"));
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage_V = \"a lot\"\n"),
-      ElementsAre("x.toml:4:13: supply.voltage_V = \"a lot\" must be a number, in V, or one with its unit in "
-                  "quotes; it means: voltage of the source, in V"));
+      ElementsAre(
+          "x.toml:4:13: supply.voltage_V = \"a lot\" must be a number, in V, or a number with its unit in "
+          "quotes; it means: voltage of the source, in V"));
 }
 
 TEST_F(WrongInput, NotANumberAndInfinityAreRefused) {

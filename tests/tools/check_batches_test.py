@@ -26,7 +26,7 @@ class Batches(unittest.TestCase):
 
     def test_a_hidden_name_is_told_with_both_places(self):
         told = self.told("std::string told(int x);", self.kept("std::string told(const char* x) {\n  return x;\n}"))
-        self.assertIn("text/b.cpp: told() in its unnamed namespace hides that of text/a.hpp", told)
+        self.assertIn("text/b.cpp: told() in its unnamed namespace hides the function of text/a.hpp", told)
 
     def test_other_names_namespaces_and_places_are_not(self):
         header = "std::string told(int x);"

@@ -41,8 +41,8 @@ std::string controller_name(const Contest& c, std::size_t row) {
   return std::string(c.entries[row].who->name);
 }
 
-/// Selects the figures of a row: the figures of the nominal drive, or the worst figures of all drives; null
-/// if the row has none.
+/// Returns the figures of a row: the figures of the nominal drive (nominal_of), or the worst figures of all
+/// drives (worst_of). Null if the row has no such figures.
 using FiguresOf = const ContestValues* (*)(const ContestRow& row);
 const ContestValues* nominal_of(const ContestRow& row) { return &row.values; }
 const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.worst : nullptr; }
@@ -61,7 +61,7 @@ std::string cell_text(double x, const ContestFigure& figure, const SharedPrefix&
   return alone ? contest_value(x, figure) : prefix.text(x, contest_digits);
 }
 
-/// The prefix of a column's numbers.
+/// The SI prefix that all numbers of a column share.
 SharedPrefix column_prefix(const Contest& c, std::size_t figure, FiguresOf figures) {
   std::vector<double> values;
   for (const ContestRow& row : c.rows)
@@ -151,7 +151,7 @@ Json figures_json(const ContestValues& values) {
   return out;
 }
 
-/// The first requirement that the nominal drive does not meet: its mean speed, and the bounds.
+/// Describes the first speed requirement that the nominal drive fails: its mean speed and the bounds.
 std::string missed_speed(const ContestRow& row) {
   const std::vector<analysis::FigureColumn>& columns = row.nominal->columns().figures;
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -224,18 +224,18 @@ std::vector<ContestTable> contest_tables(const Contest& c) {
 std::vector<std::string> contest_legend(const Contest& c) {
   return {
       fmt::format(
-          "* least of the controllers that hold the course and start with a peak of at most {}: 1.5 times the current of the torque limit, plus the PWM ripple",
+          "* least value of all controllers that hold the course and start with a current peak of at most {}. This peak is 1.5 times the current of the torque limit, plus the PWM ripple",
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)),
       fmt::format(
           "load settles: 0 s if after the load step the speed stays within {:g} % of {} rad/s, which is {} rad/s",
           100 * analysis::settled_part, base::rounded(c.bench.course.high_rad_s, 4),
           base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
-      "lowest: slowest speed held against the full load, found by halving the speed",
+      "lowest: slowest speed that the controller holds against the full load; each try halves the speed",
       fmt::format(
-          "ripple to turn-ons: at the high speed against half of the full load; slow swing, slow ripple: at {} rad/s against the full load",
+          "ripple to turn-ons: measured at the high speed against half of the full load; slow swing, slow ripple: measured at {} rad/s against the full load",
           base::rounded(c.bench.course.slow_rad_s, 4)),
       fmt::format(
-          "tick, flash: {} {}, instructions at worst and bytes; -: not counted; tools/own_cost.sh counts "
+          "tick, flash: most instructions of a tick and bytes of flash on {} in {}; -: not counted; tools/own_cost.sh counts "
           "a controller of your own",
           contest_core, arithmetic)};
 }
@@ -248,8 +248,8 @@ std::string compared_controllers(const Contest& c) {
 }
 
 std::string contest_text(const Contest& c) {
-  std::string text =
-      fmt::format("{}: {}, designed by rule for\n", visible(c.bench.scenario.motor), compared_controllers(c));
+  std::string text = fmt::format("{}: {}, each designed by its rule for\n", visible(c.bench.scenario.motor),
+                                 compared_controllers(c));
   for (const std::string& rule : c.bench.rules) text += "  - " + rule + "\n";
   for (const ContestTable& one : contest_tables(c)) {
     text += one.title.empty() ? "\n" : "\n" + one.title + "\n\n";

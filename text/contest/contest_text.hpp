@@ -10,19 +10,19 @@
 
 namespace text {
 
-/// The core whose costs the table shows, for controllers in float; docs/reference/core-costs.md has all
+/// The core whose costs the table shows, for controllers in float. docs/reference/core-costs.md lists all
 /// cores.
 inline constexpr std::string_view contest_core = "Cortex-M4F";
 
-/// A figure's value for the table, such as "8.22 mN m" or "34.6 %"; "never" if its event does not occur, "-"
-/// without a value.
+/// A figure's value for the table, such as "8.22 mN m" or "34.6 %". It is "never" if the figure's event does
+/// not occur, and "-" if the figure has no value.
 std::string contest_value(double x, const analysis::ContestFigure& figure);
 
-/// A figure's value for the nominal drive as its column of the table shows it, whose values have one prefix.
+/// Text of a value in the table of nominal drives. All values of a column have the same SI prefix.
 std::string contest_cell(const analysis::Contest& contest, std::size_t figure, double x);
 
-/// Sentences that fixed rules make from the numbers: which controller wins in which figure, and the answer to
-/// "six-step or field-oriented?". Controllers that do not follow the course are omitted.
+/// Sentences that fixed rules derive from the numbers. They say which controller is best in each figure, and
+/// answer "six-step or field-oriented?". Controllers that do not follow the course are omitted.
 std::vector<std::string> contest_words(const analysis::Contest& contest);
 
 /// One line with the reason for each controller that is impossible with this motor or board, or that does not
@@ -35,8 +35,8 @@ struct ContestTable {
   std::string title;  ///< title above the first table of a pair; it names the drives of the pair
   std::vector<std::vector<std::string>> rows;
 };
-/// Tables of the nominal drive, and of the worst drives if a series was run. Two tables each: during speed
-/// changes, and in steady state.
+/// The tables of the nominal drive. If a series was run, also the tables of the worst drives. Each of the two
+/// pairs has one table for speed changes and one for steady state.
 std::vector<ContestTable> contest_tables(const analysis::Contest& contest);
 
 /// Explains the marks and heads of the tables, one line each.
@@ -48,7 +48,8 @@ std::string compared_controllers(const analysis::Contest& contest);
 /// The whole comparison: common conditions, tables (nominal and worst) and sentences.
 std::string contest_text(const analysis::Contest& contest);
 
-/// The comparison as CSV. One line per controller and drive, "nominal" or "worst".
+/// The comparison as CSV. Each controller has one line for its nominal drive and, with a series, one for its
+/// worst.
 std::string contest_csv(const analysis::Contest& contest);
 
 /// The comparison as JSON: all results, with the keys of each controller.

@@ -22,7 +22,8 @@ using analysis::contest_figures;
 /// Relative difference below which two figures count as equal.
 constexpr double alike = 0.05;
 
-/// Returns how much larger b is than a, "3.2 times", "12 % more"; "3.2 ms against 0 s" if there is no factor.
+/// Says how much larger b is than a: "3.2 times" or "12 % more". If a is 0, the text has both values: "3.2 ms
+/// against 0 s".
 std::string larger(double a, double b, const analysis::ContestFigure& figure) {
   if (!(a > 0.0)) return fmt::format("{} against {}", contest_value(b, figure), contest_value(a, figure));
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
@@ -72,8 +73,8 @@ std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   return fmt::format("{} and {}", fmt::join(names, "; "), last);
 }
 
-/// The rows that share a figure: "a; b and c share". If more than four rows share the figure and fewer rows
-/// do not, the other rows are named: "all but d and e share".
+/// The rows that share a figure, as text: "a; b and c share". If more than four rows share the figure, and
+/// fewer rows do not share it, the text names the rows that do not: "all but d and e share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
   std::vector<std::size_t> others;
@@ -84,7 +85,8 @@ std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   return others.empty() ? all + " share" : fmt::format("{}, but for {}, share", all, names_of(c, others));
 }
 
-/// Whether only one of several rows that may win has a value of the figure, because the others never settle.
+/// Whether exactly one row that may win has a finite value of the figure, because the other rows never
+/// settle.
 bool is_alone(const Contest& c, std::size_t figure) {
   std::size_t have = 0, never = 0;
   for (std::size_t n = 0; n < c.rows.size(); ++n) {
@@ -95,12 +97,12 @@ bool is_alone(const Contest& c, std::size_t figure) {
   return have == 1 && never > 0;
 }
 
-/// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": the figures in which a controller
-/// clearly leads, and why.
+/// Sentences about the figures in which one controller clearly leads, and about the figures that several
+/// controllers share: "NAME has these least values: rms torque ripple (1.2 mN m, the next 2.3 times)."
 std::vector<std::string> winners(const Contest& c) {
   std::vector<std::vector<std::string>> wins(c.rows.size());
-  std::map<std::vector<std::size_t>, std::vector<std::string>> even;  // figures by the controllers that share
-                                                                      // them
+  std::map<std::vector<std::size_t>, std::vector<std::string>>
+      even;  // the figures that several controllers share; key: these controllers
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))
@@ -118,10 +120,11 @@ std::vector<std::string> winners(const Contest& c) {
   std::vector<std::string> out;
   for (std::size_t n = 0; n < wins.size(); ++n)
     if (!wins[n].empty())
-      out.push_back(fmt::format("{} has the least {}. It {}.", c.entries[n].who->name,
+      out.push_back(fmt::format("{} has these least values: {}. It {}.", c.entries[n].who->name,
                                 fmt::join(wins[n], ", "), c.entries[n].who->sentence));
   for (const auto& [who, figures] : even)
-    out.push_back(fmt::format("{} the least {}, within 5 %.", who_share(c, who), fmt::join(figures, ", ")));
+    out.push_back(
+        fmt::format("{} these least values within 5 %: {}.", who_share(c, who), fmt::join(figures, ", ")));
   return out;
 }
 

@@ -15,8 +15,8 @@ struct OwnCost {
   CoreCost cost;           ///< cost on the core of the comparison's table
 };
 
-/// Problems: `json` is not the text of such a file, or does not contain the comparison's core. The caller
-/// sets the Problem's `where`.
+/// Problems: `json` is not the text of a file from tools/own_cost.sh, or does not contain the comparison's
+/// core. The caller sets the Problem's `where`.
 base::Result<OwnCost> own_cost_of(std::string_view json);
 
 }  // namespace text

@@ -6,7 +6,7 @@
 
 namespace text {
 
-/// Returns visible(), with ' in front if a spreadsheet would treat the text as a formula.
+/// Returns visible(text), with ' in front if a spreadsheet would treat the text as a formula.
 std::string cell_name(std::string_view text);
 
 /// cell_name() as a cell of CSV, in quotes if needed.

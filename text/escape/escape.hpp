@@ -30,8 +30,8 @@ std::string markup_text(std::string_view text, Lines lines = Lines::shown);
 /// Returns a file's name as a relative URL, in which no colon begins a scheme and no # or ? ends the name.
 std::string url_of_name(std::string_view name);
 
-/// Returns text for a // line of C++: no character ends the line, and no backslash or trigraph at its end
-/// continues it.
+/// Returns text for a // line of C++. The text cannot end the line, and cannot continue the comment on the
+/// next line by a backslash or trigraph.
 std::string comment_text(std::string_view text);
 
 /// Returns text for a comment of a VCD file: visible(), without the word that would end the comment.

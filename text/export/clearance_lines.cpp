@@ -31,7 +31,8 @@ std::string verdict(const study::Verdict& v) {
   return fmt::format("{}: {} required, {:.6g}{} measured", v.figure, required, v.measured, unit);
 }
 
-/// An error of a sensor for the comment, such as "; offset 0.1 A"; empty for 0.
+/// Text about one sensor error or one property of the load, such as "; offset 0.1 A". Empty if the value is
+/// 0.
 std::string flaw(std::string_view name, double x, std::string_view unit) {
   return x != 0 ? fmt::format("; {} {:.6g}{}{}", name, x, unit.empty() ? "" : " ", unit) : "";
 }
@@ -97,7 +98,7 @@ std::string rotor(const study::Sensors& s) {
   if (s.rotor != RotorSensing::hall) return shaft_sensor_words(s, SensorWordsOf::header, plain);
   const std::string over = s.speed_edges > 0
                                ? fmt::format("speed over {} edges", s.speed_edges)
-                               : "speed over six edges where the loop tolerates their delay, else one";
+                               : "speed over six edges if the loop tolerates their delay, else over one edge";
   const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
                         s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
   const bool runs_on = s.hall_angle != sixstep::rig::HallAngleFrom::sectors;
@@ -148,7 +149,8 @@ std::string assumptions(const ClearanceText& t) {
           entry("rotor", rotor(s.sensors)) + entry("wires", wires(s)) + entry("load", load(s.load)) +
           entry("heat", heat(s.heat));
   if (t.other_scale)
-    text += entry("scale", "those of the scenario; the larger range below was proved, not simulated");
+    text += entry(
+        "scale", "the run used the scenario's full scales; the larger range below was proved, not simulated");
   return text;
 }
 
@@ -160,7 +162,7 @@ std::string clearance_lines(const ClearanceText& t) {
   std::string text;
   if (!c.clear()) {
     text += "// NOT CLEARED FOR A BRIDGE. The header was written anyway, for this reason:\n";
-    text += fmt::format("//   {}\n// What was overridden:\n", comment_text(t.despite));
+    text += fmt::format("//   {}\n// This reason overrides these findings:\n", comment_text(t.despite));
     for (const base::Problems* problems : {&c.unmeasured, &c.unheld})
       for (const base::Problem& p : *problems) text += fmt::format("//   {}\n", comment_text(to_string(p)));
   }

@@ -15,7 +15,7 @@ struct ClearanceText {
   const study::Scenario& scenario;    ///< scenario of the run
   const study::Clearance* clearance;  ///< null: the scenario was not run
   std::string_view despite;           ///< the reason for writing the header although the drive is not cleared
-  bool other_scale = false;           ///< fixed point: header and run have different full scales
+  bool other_scale = false;           ///< true: fixed point, and header and run have different full scales
 };
 
 /// Lines of // comment, without a date: the same run gives the same lines.

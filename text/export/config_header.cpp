@@ -20,7 +20,8 @@ namespace {
 namespace control = sixstep::control;
 
 std::string proof(const std::vector<design::Headroom>& rows) {
-  std::string text = "//\n// Fixed point: what each quantity may reach and where the format ends, in SI\n";
+  std::string text =
+      "//\n// Fixed point: largest value of each quantity, and largest value of the format, in SI\n";
   for (const design::Headroom& row : rows)
     if (row.largest != 0)
       text += fmt::format("//   {:<28}{:>12.6g} of {:.6g}\n", row.name, row.largest, row.full_scale);
@@ -54,29 +55,29 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
   if (clearance && clearance->needs_sink)
     bridge += std::string(c.product ? " whose" : ", and whose") + " supply takes current back";
   return constant("bool", "cleared", flag(cleared),
-                  cleared ? bridge + ", by its run" : "NOT for a bridge: static_assert on it") +
+                  cleared ? bridge + ", by its run" : "NOT for a bridge: refuse it by a static_assert") +
          constant("std::uint8_t", "pole_pairs",
                   std::to_string(static_cast<int>(c.believed.motor.machine.pole_pairs)),
-                  "electrical turns per mechanical one") +
+                  "electrical turns per mechanical turn") +
          sensor_offset(c) +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
                   us(static_cast<double>(m.period_ticks)) + ", and the period of the control tick") +
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
-                  "else the on-time begins with the period") +
+                  "true: centred pulse; false: pulse at the period's start") +
          constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead),
-                  dead > 0 ? us(dead) : "none: not for an image") +
+                  dead > 0 ? us(dead) : "none: an image needs a dead time") +
          (c.field ? ""
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
-                             "else in the Hall interrupt")) +
+                             "true: at the sample; false: in the Hall interrupt")) +
          constant("bool", "command_delayed", flag(c.board.delayed),
-                  "a command takes effect in the next period") +
+                  "true: a command takes effect in the next period; false: at once") +
          constant("bool", "sampled_in_middle", flag(c.board.sampled_in_middle),
-                  "in the middle of the period; else at its start");
+                  "true: sample in the middle of the period; false: at its start");
 }
 
-/// Constants for the board's own code. A drive that times edges gets the clock of its capture timer: with
-/// another clock, every speed would be scaled by the ratio of the clocks, and so would the over-speed limit.
-/// A lean drive also gets its converters and the setpoint's range.
+/// Constants for the board's own code. A drive that measures times between edges needs the frequency of its
+/// capture timer: a wrong frequency scales every speed and the over-speed limit. A lean drive also needs the
+/// bits of its converters and the setpoint's range.
 std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
   using study::RotorSensing;
   const study::Sensors& sensors = w.scenario.sensors;
@@ -94,7 +95,7 @@ std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
                   sixstep::base::six_digits(range) + " in the mode's unit, at each end of a potentiometer");
 }
 
-/// The text of a function that makes a constant, and of the constant itself.
+/// C++ text of a constant and of the function that computes it.
 std::string made(std::string_view type, std::string_view name, const std::string& lines) {
   return fmt::format(
       "constexpr sixstep::control::{0}<Scalar> make_{1}() {{\n  using namespace sixstep::control;\n"
@@ -185,8 +186,8 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
           stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
-/// Problems of a stated range that the scenario itself exceeds: the proof would then not apply to the drive
-/// of the run.
+/// Problems of a stated range that is smaller than the scenario's own range: the proof would then not apply
+/// to the drive of the run.
 base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange least = study::least_range(w.scenario, c);
   base::Problems problems;
@@ -195,7 +196,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
       problems.push_back(
           {fmt::format("--range {}", key), sixstep::base::six_digits(stated),
            fmt::format(
-               "is less than {} {}, the largest of this scenario's reference, limits, source and start",
+               "is less than {} {}, the largest value that this scenario contains in its reference, limits, supply or initial state",
                sixstep::base::six_digits(asked), unit),
            "give the largest value that the drive may measure or receive, or remove it from the range"});
   };

@@ -18,11 +18,12 @@ struct ConfigHeader {
   std::optional<study::Arithmetic> arithmetic;  ///< empty: arithmetic of the scenario
   /// Fixed point: the operating range for which the drive is proved. A member that is 0 comes from
   /// study::operating_range. If no member is given, the constants have the same bits as in the scenario's
-  /// run, including those of control.full_scale.
+  /// run, including the full scales of control.full_scale.
   design::OperatingRange range;
-  std::string name_space;      ///< C++ namespace of the declarations
-  bool single_header = false;  ///< includes sixstep_control.hpp, not sixstep/control/
-  std::string command;         ///< the command that makes this header again
+  std::string name_space;  ///< C++ namespace of the declarations
+  bool single_header =
+      false;            ///< true: includes sixstep_control.hpp; false: includes headers of sixstep/control/
+  std::string command;  ///< the command that makes this header again
   /// Results of the run, which the header's comment states; null: the comment says that there are none.
   const study::Clearance* clearance = nullptr;
   std::string despite;  ///< the reason for writing the header although the drive is not cleared

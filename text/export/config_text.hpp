@@ -30,7 +30,7 @@ inline std::string hex_float(double x) {
   return (std::signbit(x) ? "-0x" : "0x") + std::string(digits, end.ptr);
 }
 
-/// Gains, divisors and sums are plain numbers in floating point, so that this overload serves all of them.
+/// In floating point, gains, divisors and sums are plain numbers. Therefore this overload also writes them.
 inline std::string literal(double x) { return hex_float(x); }
 inline std::string literal(float x) { return hex_float(static_cast<double>(x)) + "f"; }
 template <class Storage, int FractionBits>
@@ -173,7 +173,7 @@ class ConfigText {
       : mode_(mode), b_(bases), unused_(std::move(unused)) {}
   const std::string& text() const { return text_; }
 
-  /// Fields of a loop that does not run are visited too: floating point keeps their values.
+  /// Fields of a loop that does not run are visited too, because floating point keeps their values.
   static constexpr bool when_run(bool) { return true; }
   static constexpr bool when_on(bool on) { return on; }
 

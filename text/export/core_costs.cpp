@@ -118,7 +118,7 @@ std::string too_short_for_images(double period_s) {
     return fmt::format("{} the ATmega2560's image needs, {}", period, atmega);
   if (period_s >= stm32_least_period_s)
     return fmt::format(
-        "{} the ATmega2560's image needs, {}, and the STM32F303's may answer a period late below {}: watch `missed`",
+        "{} the ATmega2560's image needs ({}). Below {} the STM32F303's image may apply a command one period late: check `missed`",
         period, atmega, stm32(stm32_sure_period_s));
   return fmt::format("{} either image needs: {} on the STM32F303, {} on the ATmega2560", period,
                      stm32(stm32_least_period_s), atmega);
@@ -146,11 +146,11 @@ std::vector<std::string> notes_for_images(const study::Scenario& s) {
 
 std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
-    return "//\n// docs/reference/block-costs.md counts the costs of its entries on a core: sensorless_drive_step, sensorless_drive_commutate and\n// sensorless_drive_hall.\n";
+    return "//\n// docs/reference/block-costs.md lists the costs of this drive's functions on a core: sensorless_drive_step, sensorless_drive_commutate and\n// sensorless_drive_hall.\n";
   const std::vector<Words> counts = rows(cores::drives_txt()), sizes = rows(cores::sizes_txt());
   std::string text = fmt::format(
-      "//\n// On a core, the {} drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a\n"
-      "// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):\n"
+      "//\n// Worst costs on a core of a control tick and a Hall interrupt, without an interrupt's entry and exit. They were counted over\n"
+      "// 80 000 recorded periods of the {} drive of tests/target/scenarios/ (docs/reference/core-costs.md):\n"
       "//   {:<12}{:<12}{:>8}{:>8}{:<16}{:>8}{:>8}\n",
       kind(c), "", "", "tick", "Hall", "", "flash", "RAM");
   for (const Words& size : sizes) {
@@ -162,7 +162,7 @@ std::string core_cost_lines(const study::Compiled& c) {
                         hall ? hall->back() : "-", size[0].starts_with("AT") ? " cycles" : " instructions",
                         size[3], size[4]);
   }
-  text += "// They are of the control code alone; a whole image also has the board's code.\n";
+  text += "// The counts cover the control code only; an image also contains the board's code.\n";
   if (const std::string more = blocks_beside(c); !more.empty())
     text += fmt::format("// These counts do not include: {}.\n", more);
   return text;

@@ -25,10 +25,10 @@ std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive,
 std::string other_than_stm32_image(const study::Scenario& scenario);
 
 /// Least control periods in s of the images (faces/firmware/example/).
-/// - STM32F303: with less than stm32_least_period_s the image does not compile; with stm32_sure_period_s or
-///   more none of its commands can be late (docs/howto/compare-a-log.md).
-/// - ATmega2560: the image keeps the 100 us of data/scenarios/thesis/avr/ and misses shorter periods, because
-///   its tick takes 80 to 104 us.
+/// - STM32F303: below stm32_least_period_s, the image does not compile. From stm32_sure_period_s on, none of
+/// its commands can be late (docs/howto/compare-a-log.md).
+/// - ATmega2560: the image uses the period of 100 us of data/scenarios/thesis/avr/ and misses shorter
+/// periods, because its tick takes 80 to 104 us.
 inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s = 5006 / 72e6,
                         atmega_least_period_s = 100e-6;
 
@@ -36,8 +36,8 @@ inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s 
 /// stop; empty if there are none.
 std::string too_short_for_images(double period_s);
 
-/// The notes of too_short_for_images() and other_than_stm32_image(), for a header's comment and the terminal:
-/// a sentence each without its full stop.
+/// The notes of too_short_for_images() and other_than_stm32_image(), for a header's comment and the terminal.
+/// Each note is a sentence without its full stop.
 std::vector<std::string> notes_for_images(const study::Scenario& scenario);
 
 /// Lines of // comment.

@@ -45,7 +45,7 @@ std::string fmi2_description(const UnitModel& model);
 std::string fmi3_description(const UnitModel& model);
 /// sources/buildDescription.xml of FMI 3.
 std::string fmi3_build(const UnitModel& model);
-/// The content of BaseUnit and of DisplayUnit, which both versions share.
+/// The XML element UnitDefinitions with these units, which is the same in both versions.
 std::string fmi_unit_lines(const std::vector<std::string>& units);
 
 }  // namespace text

@@ -54,8 +54,8 @@ class PlantVariables {
   void output(FmiKind kind, const char* name, std::string unit, std::string description) {
     add({.name = name, .kind = kind, .unit = std::move(unit), .description = std::move(description)});
   }
-  /// FMI 3: one array. FMI 2: a scalar for each of a, b, c, whose name is `one` with the letter in the place
-  /// of {}.
+  /// Adds a quantity of the three phases. FMI 3: one array. FMI 2: three scalars, with the phase's letter
+  /// instead of {} in the name `one`.
   void three(FmiRole role, FmiKind kind, const char* array, fmt::format_string<std::string_view&> one,
              const char* unit, const std::string& description) {
     const FmiVariable like{.name = {}, .kind = kind, .role = role, .unit = unit};
@@ -108,10 +108,10 @@ void add_pair(PlantVariables& plant) {
   plant.input(integer, "sink", "", "leg whose lower switch carries the current back; another leg than source",
               1.0);
   plant.input(integer, "chopping", "", "off part of the period: 0 soft, 1 hard, 2 complementary");
-  plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper one, 1 the lower one");
+  plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper switch, 1 the lower switch");
   plant.input(real, "duty", "1", "duty, 0 to 1");
   plant.input(real, "overlap", "1",
-              "-1 to 1: duty of the third leg's upper switch; below 0: of its lower one");
+              "-1 to 1: duty of the third leg's upper switch; below 0: of its lower switch");
 }
 
 void add_legs(PlantVariables& plant) {
@@ -142,7 +142,8 @@ void add_measured(const study::Scenario& s, PlantVariables& plant) {
                "the scenario's reference at the last control tick, in the unit of control.mode");
 }
 
-/// Adds the counts of the converters, which exist only without the lags that sixstep_convert() refuses.
+/// Adds the converters' counts. With a sensor's bandwidth or delay there are none: sixstep_convert() refuses
+/// these.
 void add_counts(const study::Scenario& s, PlantVariables& plant) {
   using enum FmiKind;
   if (s.sensors.current_bandwidth_Hz || s.sensors.current_delay_s > 0 || s.sensors.bus_bandwidth_Hz) return;
@@ -184,9 +185,7 @@ study::Scenario with_stand_in(study::Scenario s, FmiChip chip) {
 bool is_of_plant(ColumnId id, FmiChip chip) {
   using enum ColumnId;
   if (chip == FmiChip::of_scenario) return true;
-  if (chip == FmiChip::gates && id >= encoder_A)
-    return false;  // the encoder's peripheral belongs to the
-                   // controller
+  if (chip == FmiChip::gates && id >= encoder_A) return false;  // a part of the controller
   return !(id >= duty && id <= position_ref) && id < i_d;
 }
 

@@ -86,7 +86,7 @@ void add_outputs(const study::Scenario& s, FmiChip chip, FmiVersion version, std
   }
 }
 
-/// Whether a session accepts a change at its beginning.
+/// Whether the session accepts the change `set` at its beginning.
 template <class Set>
 bool takes(const study::Session& open, const Set& set) {
   study::Session tried = open;
@@ -122,8 +122,8 @@ void add_inputs(const study::Scenario& s, FmiChip chip, const study::Session& op
       takes(open, [&](study::At& at) { at.reference = study::Reference{.value = reference}; }))
     inputs.push_back(
         fmi_input("reference", "reference.value", std::string(unit.linear), reference * unit.factor,
-                  "reference of the controller, in the unit of control.mode; the scenario's own course "
-                  "holds until it first changes"));
+                  "reference of the controller, in the unit of control.mode; until the first change of this "
+                  "input, the scenario's own reference applies"));
   if (takes(open, [&](study::At& at) { at.load.torque_Nm = load; }))
     inputs.push_back(
         linear ? fmi_input("load_force", "load.force_N", "N", load, "load force, against the motion")
@@ -171,18 +171,19 @@ base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& give
       {.name = "time",
        .role = FmiRole::time,
        .unit = "s",
-       .description = "time of the importer, at which the run began at its start time"}};
+       .description = "time of the importer; the run begins at the importer's start time"}};
   add_outputs(scenario, chip, version, all);
   add_inputs(scenario, chip, *open, all);
   add_plant(scenario, chip, version, all);
   if (version == FmiVersion::fmi3) add_clocks(all);
-  all.push_back({.name = "digest",
-                 .reference = digest_reference,
-                 .kind = FmiKind::text,
-                 .continuous = false,
-                 .description =
-                     "16 hexadecimal digits over every event of the run, once it is terminated; equal runs "
-                     "have equal digests, here and in sixstep run"});
+  all.push_back(
+      {.name = "digest",
+       .reference = digest_reference,
+       .kind = FmiKind::text,
+       .continuous = false,
+       .description =
+           "digest of all events of the run as 16 hexadecimal digits, set when the run is terminated; equal "
+           "runs have equal digests, also with sixstep run"});
   return all;
 }
 

@@ -28,18 +28,18 @@ struct FmiVariable {
   std::string unit{}, description{};
   double start = 0.0;   ///< start value of an input
   std::string key{};    ///< input: the key of [[at]] that it sets
-  double factor = 1.0;  ///< output: from the rotary motor's unit to `unit`
+  double factor = 1.0;  ///< output: factor from the rotary motor's unit to `unit`
   int count = 1;        ///< FMI 3: number of elements of an array; their references follow `reference`
 };
 
-/// First the time, then signals, inputs and the digest. A quantity is an input if [[at]] may change it in
-/// this scenario. For a unit without the scenario's controller the list also contains the inputs of the
+/// The variables in this order: time, signals, inputs, digest. A quantity is an input if [[at]] may change it
+/// in this scenario. For a unit without the scenario's controller the list also contains the inputs of the
 /// bridge and the quantities that a controller measures. In FMI 3 phases are arrays. Problems: the scenario
 /// cannot be opened.
 base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scenario, FmiChip chip,
                                                      FmiVersion version);
 
-/// The scenario with a controller that stands in for the importer.
+/// The scenario with a dummy controller, because the importer controls the unit.
 study::Scenario with_stand_in(study::Scenario scenario, FmiChip chip);
 /// Whether the plant determines a signal, not the scenario's controller.
 bool is_of_plant(study::ColumnId id, FmiChip chip);

@@ -17,7 +17,8 @@ std::string comment(std::string_view label, std::string_view text) {
   return fmt::format("// {:<10}{}\n", label, comment_text(text));
 }
 
-/// The closed loop's poles with these gains, from z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
+/// Poles of the closed loop of controller (d1 z + d0)/(z - 1) and plant b0/(z + a0). They are the roots of
+/// z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0).
 std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
   const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
   const double square = half * half - product, root = std::sqrt(std::fabs(square));
@@ -27,7 +28,7 @@ std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant&
                            sixstep::base::six_digits(-half - root));
 }
 
-/// The same gains in the form of other tools (control.current.kp, ki_per_s).
+/// The gains as K_p and K_i, which other tools use (control.current.kp, ki_per_s).
 std::string as_kp_and_ki(const study::LoopGains& g, const char* unit, double period_s) {
   const bool current = g.loop.starts_with("current");
   return fmt::format("; K_p = d1 = {} {}, K_i = (d1 + d0)/T_s = {} {}", sixstep::base::six_digits(g.d1), unit,

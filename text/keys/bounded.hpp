@@ -8,7 +8,7 @@
 
 namespace text {
 
-/// A text longer than `most` bytes becomes its beginning and its end, cut between characters.
+/// Shortens a text longer than `most` bytes to its beginning and its end. Both cuts lie between characters.
 inline std::string bounded(std::string text, std::size_t most) {
   if (text.size() <= most) return text;
   const auto inside = [&text](std::size_t at) {
@@ -20,7 +20,7 @@ inline std::string bounded(std::string text, std::size_t most) {
   return text.substr(0, begin) + " ... " + text.substr(end);
 }
 
-/// Bounds each text of a Problem: a place contains a file name, a limit may contain words of the file.
+/// Shortens each text of a Problem, because each may contain a long name or long words of a file.
 inline base::Problem bounded(base::Problem p) {
   return {bounded(std::move(p.where), 1000), bounded(std::move(p.value), 200),
           bounded(std::move(p.limit), 1000), bounded(std::move(p.cure), 1000)};

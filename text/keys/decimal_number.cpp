@@ -24,8 +24,8 @@ struct Decimal {
   std::size_t size = 0;  ///< length of the number's text
 };
 
-/// The exponent whose letter e is at `at`, and the position after the exponent; 0 and `at` if no digit
-/// follows the e.
+/// The exponent that begins with the letter e at `at`, and the position after the exponent. 0 and `at` if no
+/// digit follows the e.
 std::pair<long, std::size_t> exponent(std::string_view text, std::size_t at) {
   constexpr long far = 1'000'000'000;
   if (at >= text.size() || (text[at] != 'e' && text[at] != 'E')) return {0, at};

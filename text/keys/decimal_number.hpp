@@ -14,10 +14,10 @@ struct DecimalNumber {
   std::size_t size = 0;  ///< number of characters read, even if the number is out of range
 };
 
-/// Reads the longest beginning of the text that is a number: an optional minus, digits with at most one
-/// point, and an optional exponent. The value is rounded once; of two equally near doubles it is the even
-/// double. A number is out of range if it would be infinite, or if it would be 0 although it has a digit
-/// other than 0.
+/// Reads the longest beginning of the text that is a number. A number has an optional minus, digits with at
+/// most one point, and an optional exponent. The value is rounded once; if two doubles are equally near, it
+/// is the even one of the two. A number is out of range if it would be infinite, or if it would be 0 although
+/// it has a digit other than 0.
 DecimalNumber decimal_number(std::string_view text);
 
 /// The number if the whole text is a number; else empty.

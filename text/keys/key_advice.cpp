@@ -87,8 +87,8 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   int best = static_cast<int>(std::max<std::size_t>(word.size() / 3, 1)) + 1;
   std::string found;
   for (const std::string& candidate : known) {
-    // The difference in length alone already exceeds the limit, so that no letter needs to be compared, for
-    // example in a word of ten million letters.
+    // A word whose length differs too much is skipped without a comparison of letters, because a word may
+    // have ten million letters.
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer - std::min(word.size(), candidate.size()) >= static_cast<std::size_t>(best)) continue;
     const int distance = edit_distance(word, candidate);

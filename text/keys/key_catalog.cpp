@@ -101,7 +101,7 @@ std::string type_text(const KeyEntry& entry) {
     case KeyType::texts:
       return "list of words";
     case KeyType::word:
-      return "one word of those below";
+      return "one of the words below";
     case KeyType::quantity:
       return "number, or { value, frame, source }";
     case KeyType::table:

@@ -24,8 +24,7 @@ struct KeyEntry {
   struct LinearChoice {
     std::string turning, word, meaning;
   };
-  std::vector<LinearChoice> linear_choices{};  ///< words that a linear motor's file has in place of some
-                                               ///< choices
+  std::vector<LinearChoice> linear_choices{};  ///< words of a linear motor's file that replace some choices
   std::string meaning{};                       ///< meaning for a linear motor; empty: about.meaning
 };
 

@@ -116,8 +116,7 @@ void shorten(std::string& digits, long& power) {
 double nearest_double(std::string digits, long power) {
   shorten(digits, power);
   if (digits.empty()) return 0.0;
-  const long size = power + static_cast<long>(digits.size());  // the number is below 10^size, by less than a
-                                                               // factor of ten
+  const long size = power + static_cast<long>(digits.size());  // 10^(size - 1) <= number < 10^size
   constexpr long largest = std::numeric_limits<double>::max_exponent10 + 1, least = -330;
   if (size > largest) return std::numeric_limits<double>::infinity();
   if (size < least) return 0.0;

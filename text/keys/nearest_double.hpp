@@ -6,8 +6,8 @@
 
 namespace text {
 
-/// The double nearest to digits * 10^power. Of two equally near doubles it is the even double. 0 or infinity
-/// outside the range of double.
+/// The double nearest to digits * 10^power. If two doubles are equally near, it is the even one of the two. 0
+/// or infinity outside the range of double.
 double nearest_double(std::string digits, long power);
 
 }  // namespace text

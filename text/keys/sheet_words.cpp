@@ -45,10 +45,10 @@ constexpr SheetWords sheet_words[] = {
     {"torqueconstant kt km kphi torquesensitivity", "torque_constant_mNm_A"},
     {"backemfconstant bemfconstant emfconstant voltageconstant backemf ke kb kbemf",
      "back_emf_constant_V_krpm",
-     "with its frame, as \"six-step\" where it is the torque constant over 9.549"},
+     "with its frame: \"six-step\" if the value is the torque constant divided by 9.549"},
     {"focmotorfluxlinkage fluxlinkage psi psif lambda magnetflux pmflux", "flux_linkage_mWb"},
     {"kv kvrating kvvalue motorkv rpmpervolt kn velocityconstant", "speed_constant_rpm_V",
-     "with frame = \"line-peak\" for a motor spun and measured, \"six-step\" for mean volts of a six-step drive"},
+     "with frame = \"line-peak\" if it is measured on the turning motor, \"six-step\" if it is rpm per mean volt of a six-step drive"},
     {"rotorinertia momentofinertia massmomentofinertia inertiaofrotor motorinertia j jm jr", "inertia_gcm2"},
     {"staticfriction frictiontorquestatic staticfrictiontorque frictiontorque dryfriction c0",
      "coulomb_friction_mNm"},
@@ -96,7 +96,7 @@ constexpr SheetWords elsewhere[] = {
      "leave it out, or write stall_torque_mNm if it is the torque of the held rotor at nominal voltage"},
     {"peakcurrent maxcurrent maximumcurrent lcurrentmax currentlim currentlimit", "",
      "write control.limits.current_A in the scenario, because this limit belongs to the drive; for a design without a "
-     "scenario give a torque limit, K_t times it"},
+     "scenario give a torque limit, K_t times this current"},
     {"ratedpower nominalpower maxpower power outputpower", "",
      "leave it out: it follows from nominal_torque_mNm and nominal_speed_rpm"},
     {"weight motorweight mass shaftdiameter statordiameter length diameter phases numberofphases insulationclass",
@@ -123,7 +123,7 @@ bool has_word(std::string_view words, std::string_view word) {
 
 template <class Rows>
 const SheetWords* find_words(const Rows& rows, std::string_view key) {
-  // The search first uses all letters, because in the name "C_V" the "_V" is no unit; then the word without
+  // The search first uses all letters, because the "_V" of "C_V" is no unit. It then uses the word without
   // the apparent unit.
   for (const std::string& word : {bare_letters(key), bare_letters(without_unit(key))})
     for (const SheetWords& row : rows)

@@ -23,8 +23,8 @@ constexpr Spelled unit_signs[] = {
     {" per ", "/"},
 };
 
-/// Names that are replaced as whole words: not if a letter precedes a letter or a digit a digit, nor if a
-/// letter, digit or power follows.
+/// Names that are replaced only as whole words. A name is no whole word if a letter precedes its first
+/// letter, if a digit precedes its first digit, or if a letter, digit or power follows it.
 constexpr Spelled unit_names[] = {
     {"1/min", "rpm"},    {"min-1", "rpm"},      {"Min-1", "rpm"},     {"rev/min", "rpm"},
     {"revs/min", "rpm"}, {"r/min", "rpm"},      {"U/min", "rpm"},     {"tr/min", "rpm"},
@@ -61,8 +61,8 @@ void replace_words(std::string& text, const Spelled& s) {
   }
 }
 
-/// A hyphen or a point between two letters joins them to one factor, as in rpm/oz-in; other points end
-/// abbreviations and are removed, as are spaces next to a division sign.
+/// Joins symbols to one factor at a hyphen or point between two letters, as in rpm/oz-in. Removes other
+/// points, which end abbreviations, and spaces next to a division sign.
 std::string with_plain_gaps(const std::string& text) {
   std::string out;
   for (std::size_t n = 0; n < text.size(); ++n) {

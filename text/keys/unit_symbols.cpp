@@ -209,7 +209,7 @@ class Product {
   static constexpr int deepest = 4;
   bool factors(int outer, int depth, Unit& product) {
     int sign = outer;
-    bool wants = true;  // whether a factor must follow
+    bool wants = true;  // true: a factor must follow
     while (!rest_.empty() && rest_.front() != ')') {
       const char c = rest_.front();
       if (c == ' ' || c == '*' || c == '/') {
@@ -272,7 +272,8 @@ bool same_kind(const Unit& a, const Unit& b) {
   Unit from = a, to = b;
   const Angle in = take_angle(from), out = take_angle(to);
   if (from.dimension != to.dimension) return false;
-  // "mV min" is used for mV/min-1, which contains a turn, so that it is 1/(2 pi) of V s/rad.
+  // Sheets write "mV min" for mV/min-1. One min-1 is 2 pi rad per minute, so that V s, which means V s/rad,
+  // differs by 2 pi.
   const bool habit = left_out({-1, 0}, from.dimension);
   if (habit && ((in == Angle{} && from.by_the_clock) || (out == Angle{} && to.by_the_clock))) return false;
   if (in == out) return true;

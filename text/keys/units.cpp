@@ -247,7 +247,7 @@ base::Result<double> in_unit(std::string_view text, const Wanted& wanted) {
   if (!w)
     return base::Problem{.limit = wanted.unit.empty()
                                       ? "must be a number without quotes"
-                                      : fmt::format("must be a number, {}, or one with its unit in "
+                                      : fmt::format("must be a number, {}, or a number with its unit in "
                                                     "quotes",
                                                     plain_number(wanted.unit))};
   if (w->unit.empty())

@@ -26,13 +26,13 @@ using Dimension = std::array<int, 11>;
 /// Standard gravity in m/s2, which defines the pound-force and the kilogram-force.
 inline constexpr double standard_gravity = 9.80665;
 
-/// A value x in this unit is x * `factor` * 10^ten in SI. The power of ten is separate, because it costs no
-/// rounding.
+/// A value x in this unit is x * `factor` * 10^ten in SI. The power of ten is a separate member, because
+/// conversion() applies it to the decimal text without a rounding error.
 struct Unit {
   Dimension dimension{};
   int ten = 0;
   double factor = 1.0;
-  bool by_the_clock = false;  ///< contains minutes or hours, apart from the minute of rpm
+  bool by_the_clock = false;  ///< true: contains minutes or hours, apart from the minute of rpm
 
   int power(Base base) const { return dimension[static_cast<std::size_t>(base)]; }
   int& power(Base base) { return dimension[static_cast<std::size_t>(base)]; }
@@ -70,9 +70,8 @@ struct Conversion {
   double back(double x) const;  ///< the inverse conversion
 };
 
-/// Converts from `unit` into the wanted unit. The Problem has limit and cure. This function also decides two
-/// cases that same_kind() does not: in oz-in and kg cm a weight stands for its force, and in V/Hz the hertz
-/// are electrical.
+/// Converts from `unit` into the wanted unit. The Problem has limit and cure. Unlike same_kind(), it accepts
+/// oz-in and kg cm as torques, in which a weight means its force. It treats the hertz of V/Hz as electrical.
 base::Result<Conversion> conversion(std::string_view unit, const Wanted& wanted);
 
 /// "rms" or "peak" if the unit says so; else empty.

@@ -6,7 +6,8 @@ namespace {
 
 constexpr double rms_of_peak = 0.70710678118654752;
 
-// R of a phase: the firmware computes with it in the rotor's frame, where u = R i holds for a phase.
+// The frame of R is "phase", because the firmware computes u = R i with the voltage u and current i of a
+// phase.
 constexpr ForeignKey vesc[] = {
     {"si_motor_poles", "poles"},
     {"foc_motor_r", "resistance_ohm", 1, "phase"},
@@ -25,10 +26,10 @@ constexpr ForeignKey moteus[] = {
 constexpr ForeignKey simple_foc[] = {
     {"pp", "pole_pairs"},
     {"R", "resistance_ohm", 1, "phase", "resistance", "terminal",
-     "the constructor says phase, the library's page on testing parameters between the phases"},
+     "the constructor's comment states a phase, the library's page on testing parameters states phase to phase"},
     {"KV", "speed_constant_rpm_V", 1, "line-peak", "kv", "six-step",
-     "the library computes with the peak between two terminals, sheets of motors often mean the other, and its page suggests "
-     "50 to 70 % more than the sheet has"},
+     "the library computes with the line-to-line peak, sheets of motors often mean the six-step constant, and the library's page suggests "
+     "50 to 70 % more than the sheet's value"},
 };
 constexpr ForeignKey matlab[] = {
     {"p", "pole_pairs"},

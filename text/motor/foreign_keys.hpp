@@ -14,11 +14,11 @@ namespace text {
 struct ForeignKey {
   std::string_view word;  ///< the other program's key
   std::string_view key;   ///< the key of a motor file
-  double factor = 1.0;    ///< value there times this factor is the value here
+  double factor = 1.0;    ///< the other program's value times this factor is the motor file's value
   std::string_view frame{};
-  std::string_view question{};  ///< word of the question if the program leaves the frame open
-  std::string_view other{};     ///< the other frame that it may be
-  std::string_view why{};       ///< why it is open
+  std::string_view question{};  ///< name of the question to the user if the program does not define the frame
+  std::string_view other{};     ///< the other possible frame
+  std::string_view why{};       ///< the reason why the frame is not certain
 };
 
 /// Keys of the inductances along and across the magnets, in henry. Some programs give a mean and a difference.
@@ -28,7 +28,7 @@ struct ForeignAxes {
 
 struct ForeignTool {
   ForeignKind kind;
-  std::string_view name;  ///< for sources: "VESC Tool"
+  std::string_view name;  ///< the program's name in sources: "VESC Tool"
   ForeignAxes axes;
   std::span<const ForeignKey> keys;
 };

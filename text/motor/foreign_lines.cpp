@@ -14,7 +14,7 @@
 namespace text {
 namespace {
 
-/// The peak of a phase's back-EMF per mechanical rad/s of a sine with this speed constant, in mV s.
+/// Peak of a phase's sinusoidal back-EMF per mechanical rad/s for the speed constant `rpm_V`, in mV s.
 double emf_of_kv(double rpm_V, bool six_step) {
   const double between = six_step ? 3.0 * std::sqrt(3.0) / base::pi : std::sqrt(3.0);
   return 1e3 * 30.0 / base::pi / rpm_V / between;

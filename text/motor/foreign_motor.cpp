@@ -61,7 +61,9 @@ class ForeignMotor {
                                      .limit = fmt::format("answers no question of {}", file_),
                                      .cure = "leave it out"}));
     if (problems_.empty() && taken_ == 0)
-      tell(0, fmt::format("has no value of a motor that is known: {} has {}", tool_.name, known_words()),
+      tell(0,
+           fmt::format("contains no known value of a motor: the values of {} are {}", tool_.name,
+                       known_words()),
            "name the file that the program saved");
     if (!problems_.empty()) return problems_;
     return head(name) + body_;
@@ -69,7 +71,7 @@ class ForeignMotor {
 
  private:
   const ForeignWord* find(std::string_view word) const {
-    // The last assignment counts, as in the other program.
+    // If a key is assigned several times, the last assignment counts, as in the other program.
     const ForeignWord* found = nullptr;
     for (const ForeignWord& w : words_)
       if (!word.empty() && w.name == word && (!part_ || w.part == *part_)) found = &w;
@@ -91,10 +93,11 @@ class ForeignMotor {
     return {};
   }
 
-  /// The motor of a file that has several.
+  /// Selects one motor of a file with several motors.
   void choose_part() {
     std::vector<std::string> parts;
-    // Poles, resistance and flux make a motor: a bridge may have a rated current too.
+    // A part is a motor if it has poles, resistance or flux. A rated current is no sign, because a bridge may
+    // have one too.
     const std::span<const ForeignKey> marks = tool_.keys.first(3);
     for (const ForeignWord& w : words_) {
       const bool of_a_motor =
@@ -111,7 +114,8 @@ class ForeignMotor {
     words_.clear();
   }
 
-  /// The number of a word; empty if the file lacks it or has 0, as a drive has before it measures.
+  /// The number of a word. Empty if the file lacks the word or has 0, the value of a drive before its
+  /// identification.
   std::optional<double> number(const ForeignWord* word) {
     if (word == nullptr) return {};
     const std::optional<double> x = foreign_number(word->value);
@@ -119,12 +123,12 @@ class ForeignMotor {
     const bool formula = !x && tool_.kind == ForeignKind::matlab;
     if (x && *x > 0.0) return x;
     if (formula && word->value.find_first_of("(*+") != std::string::npos) {
-      body_ += wrapped_comment(fmt::format("{}: {} is a formula, which is not taken over: {}", tool_.name,
+      body_ += wrapped_comment(fmt::format("{}: {} is a formula, which is not read: {}", tool_.name,
                                            word->name, bounded(visible(word->value), 100)));
       return {};
     }
     tell(word->line, fmt::format("{} = {} must be a number above 0", word->name, bounded(word->value, 100)),
-         "mend it in the file");
+         "correct it in the file");
     return {};
   }
 
@@ -160,7 +164,8 @@ class ForeignMotor {
       if (!x || !in_range(*word, row.key, *x)) continue;
       const double pairs = row.key == "poles" ? *x / 2 : *x;
       if (pairs != std::floor(pairs)) {
-        tell(word->line, fmt::format("{} = {} is odd", word->name, ten_digits(*x)), "poles come in pairs");
+        tell(word->line, fmt::format("{} = {} is odd", word->name, ten_digits(*x)),
+             "give the number of poles, which is even");
         continue;
       }
       pairs_ = checked_by_encoder(*word, pairs);
@@ -182,7 +187,7 @@ class ForeignMotor {
     tell(
         poles.line,
         fmt::format(
-            "{} says {} pole pairs, foc_encoder_ratio {}, and both count where the encoder sits on the shaft",
+            "{} gives {} pole pairs and foc_encoder_ratio gives {}, but both are equal for an encoder on the motor's shaft",
             poles.name, one, other),
         fmt::format("answer pole_pairs={} or pole_pairs={}", one, other));
     return pairs;
@@ -199,7 +204,8 @@ class ForeignMotor {
     }
     const std::string answer = answer_to(row.question).value_or("");
     if (answer != row.frame && answer != row.other) {
-      tell(word.line, fmt::format("{} = {} is open: {}", word.name, bounded(word.value, 100), row.why),
+      tell(word.line,
+           fmt::format("{} = {} has two possible meanings: {}", word.name, bounded(word.value, 100), row.why),
            answers_to(row, x));
       return;
     }
@@ -255,7 +261,7 @@ class ForeignMotor {
       return tell(difference->line,
                   fmt::format("{} = {} must be below twice {}", difference->name,
                               bounded(difference->value, 100), mean.name),
-                  "mend it in the file");
+                  "correct it in the file");
     if (half == 0.0) return add_inductance("inductance_uH", mean, L, mean.name);
     add_inductance("d_axis_inductance_uH", mean, L - half,
                    fmt::format("{} - {}/2", mean.name, difference->name));
@@ -263,17 +269,18 @@ class ForeignMotor {
                    fmt::format("{} + {}/2", mean.name, difference->name));
   }
 
-  /// Numbers in another unit, such as milliohms or microhenries, show in the winding's time constant.
+  /// Detects numbers in a wrong unit, such as milliohms or microhenries, by the winding's time constant L/R.
   void check_time_constant() {
     if (!resistance_ohm_ || !inductance_H_ || !problems_.empty()) return;
     const double tau_s = *inductance_H_ / *resistance_ohm_;
     constexpr double least_s = 1e-6, most_s = 1.0;
     if (tau_s >= least_s && tau_s <= most_s) return;
-    tell(0,
-         fmt::format("has {} ohm and {} H, and so a time constant L/R of {} s, which no motor has",
-                     base::six_digits(*resistance_ohm_), base::six_digits(*inductance_H_),
-                     base::three_digits(tau_s)),
-         "one of them is in another unit: the program's own are ohms and henries");
+    tell(
+        0,
+        fmt::format(
+            "has {} ohm and {} H, which give a time constant L/R of {} s, and no motor has this time constant",
+            base::six_digits(*resistance_ohm_), base::six_digits(*inductance_H_), base::three_digits(tau_s)),
+        "correct the unit of one value: the program uses ohms and henries");
   }
 
   std::string known_words() const {
@@ -294,7 +301,8 @@ class ForeignMotor {
           "motor_type is not 2 (field-oriented), so that foc_motor_* may be the firmware's defaults and not this motor's");
     const ForeignWord* const torque = find("torque_constant");
     if (torque && foreign_number(torque->value) == 0.04)
-      text += wrapped_comment("torque_constant = 0.04 is the firmware's default: is it this motor's?");
+      text += wrapped_comment(
+          "torque_constant = 0.04 is the firmware's default: check whether it is this motor's value");
     return text +
            wrapped_comment("shape of the back-EMF over the electrical angle, sine or trapezoid: " +
                            std::string(tool_.name) + " computes with a sine") +
@@ -324,7 +332,7 @@ base::Result<std::string> motor_of_foreign_file(const std::string& file, std::st
     return bounded(
         {.where = file,
          .value = {},
-         .limit = "is no parameter file that is known",
+         .limit = "is not a known parameter file",
          .cure = "give a VESC motor configuration (XML), an ODrive or moteus configuration, a SimpleFOC "
                  "sketch with its BLDCMotor, or MATLAB's struct of a motor"});
   base::Result<ForeignWords> words = foreign_words(kind, text);

@@ -12,10 +12,13 @@
 namespace text {
 
 /// Returns the motor file's text. Each value has the other program's key as its source, and its frame. A
-/// value that the file lacks is `nan`, which the reader of motor files refuses. `answers` are texts such as
-/// "resistance=phase" to the questions that some files leave open.
-/// Problems: no known file, a damaged one, a number outside of its key's range, an open question (its cure
-/// begins with "answer " and lists the answers), an answer that the file does not ask.
+/// value that the file lacks is `nan`, which the reader of motor files refuses. The meaning of some values is
+/// not certain. `answers` are texts such as "resistance=phase" that state it.
+/// Problems:
+/// - the file is unknown or damaged;
+/// - a number is outside its key's range;
+/// - an answer is missing; the cure begins with "answer " and lists the possible answers;
+/// - an answer belongs to no question of the file.
 base::Result<std::string> motor_of_foreign_file(const std::string& file, std::string_view text,
                                                 const std::string& name,
                                                 const std::vector<std::string>& answers = {});

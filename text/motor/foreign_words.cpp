@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// Counts lines up to a place; places must rise from call to call.
+/// Returns the line of a position in the text. Positions must increase from call to call.
 class LineCount {
  public:
   explicit LineCount(std::string_view text) : text_(text) {}
@@ -64,7 +64,7 @@ ForeignWord word_of_path(std::string_view path, std::string_view value, std::siz
   return word;
 }
 
-/// Walks through a JSON text once, with the keys of the open objects.
+/// Reads a JSON text once, and records the keys of the open objects.
 class JsonWalk {
  public:
   explicit JsonWalk(std::string_view text) : text_(text), lines_(text) {}

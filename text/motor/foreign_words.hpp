@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the parameter files of other programs as words with their texts. Each syntax is flat or nearly so,
-// and a reader of a few lines keeps the program small, where a library for XML or JSON would add a tenth of
-// a megabyte.
+// Reads the parameter files of other programs as words with their texts. Each syntax is nearly flat, so that
+// a reader of a few lines suffices. A library for XML or JSON would enlarge the program by a tenth of a
+// megabyte.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -25,8 +25,9 @@ using ForeignWords = std::vector<ForeignWord>;
 /// The elements `<key>value</key>` without elements inside. Problem: the file ends before its root does.
 base::Result<ForeignWords> words_of_xml(std::string_view text);
 
-/// The numbers of a JSON object of objects. The part of "axis0.motor.config.pole_pairs", nested or with points
-/// in one key, is "axis0". Problem: the file ends too early or is no JSON.
+/// The numbers of a JSON object of objects. The key "axis0.motor.config.pole_pairs" has the part "axis0",
+/// whether the objects are nested or the key contains the points. Problem: the file ends too early or is no
+/// JSON.
 base::Result<ForeignWords> words_of_json(std::string_view text);
 
 /// Lines "key value", also "conf set key value".
@@ -39,8 +40,8 @@ ForeignWords words_of_matlab(std::string_view text);
 /// Problem: a bracket that does not close.
 base::Result<ForeignWords> words_of_sketch(std::string_view text);
 
-/// The number of a text: numbers, pi and sqrt(number), multiplied or divided, with the f of C behind a number.
-/// Empty: any other formula.
+/// The value of a text of numbers, pi and sqrt(number) that are multiplied or divided. A number may end in
+/// C's suffix f. Empty for any other formula.
 std::optional<double> foreign_number(std::string_view text);
 
 }  // namespace text

@@ -37,7 +37,8 @@ class SheetJson final : public base::Visitor {
     const base::Quantity* const q = quantity_in(member);
     if (!q) return;
     const base::Spelling* linear = base::linear_spelling(about);
-    if (!linear || linear->key != q->key) linear = nullptr;  // set if a linear motor's value has its own name
+    if (!linear || linear->key != q->key)
+      linear = nullptr;  // not null if a linear motor's value has a different name
     const std::string_view key = linear ? linear->key : given;
     const auto told = [linear](double x) { return linear ? base::as_spelled(x, *linear) : x; };
     Json entry = {{"value", told(q->value)}, {"unit", linear ? linear->unit : about.unit}};

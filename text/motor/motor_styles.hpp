@@ -13,11 +13,11 @@ struct MotorStyle {
   std::string_view name;
   std::string_view what;
   std::string_view shape;                ///< the usual back-EMF shape of such a sheet; the user must check it
-  std::vector<std::string_view> needed;  ///< keys without which there is no model
-  std::vector<std::string_view> optional;  ///< keys that serve to check the others
+  std::vector<std::string_view> needed;  ///< keys that the model requires
+  std::vector<std::string_view> optional;  ///< keys that only serve to check the needed keys
   bool linear = false;
-  /// For some keys the word that such a sheet prints; or, if the sheet omits the value, its usual range, the
-  /// reason, and how to measure it.
+  /// Notes for some keys. A note says which word such a sheet prints. If the sheet omits the value, the note
+  /// says why, in which range the value usually lies, and how to measure it.
   std::vector<std::pair<std::string_view, std::string_view>> notes = {};
 };
 

@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// The styles of sheets that have a template: maxon, drone, servo, linear, firmware.
+/// The names of motor_styles().
 std::vector<std::string> template_styles();
 
 /// Returns the file's text. Meaning, unit and frames of every line come from the description of the keys.

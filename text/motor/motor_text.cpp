@@ -134,14 +134,14 @@ std::string friction_rows(const design::Friction& f, bool linear) {
   std::string text = model_row("B", fmt::format("{} {}", short_number(f.B_Nm_s), unit), f.from);
   if (f.coulomb_Nm > 0.0) text += model_row(dry, torque_text(f.coulomb_Nm, linear), "");
   if (f.iron.B_Nm_s > 0.0 || f.iron.coulomb_Nm > 0.0)
-    text += fmt::format("         of it the iron's: B = {} {}, {} = {}\n", short_number(f.iron.B_Nm_s), unit,
-                        dry, torque_text(f.iron.coulomb_Nm, linear));
+    text += fmt::format("         of this, in the iron: B = {} {}, {} = {}\n", short_number(f.iron.B_Nm_s),
+                        unit, dry, torque_text(f.iron.coulomb_Nm, linear));
   if (f.all_viscous_Nm_s) {
-    text += fmt::format("         no-load point at {} {}: B = {} {} if all of it is viscous,\n",
+    text += fmt::format("         no-load point at {} {}: B = {} {} if all friction is viscous,\n",
                         short_number(f.no_load_speed_rad_s), linear ? "m/s" : "rad/s",
                         short_number(*f.all_viscous_Nm_s), unit);
     text +=
-        fmt::format("         {} = {} if all of it is dry\n", dry, torque_text(*f.all_coulomb_Nm, linear));
+        fmt::format("         {} = {} if all friction is dry\n", dry, torque_text(*f.all_coulomb_Nm, linear));
   }
   if (f.split_viscous_Nm_s)
     text +=
@@ -195,8 +195,8 @@ std::string not_simulatable(const design::Sheet& sheet, const SheetCheck& check)
   return model ? "" : "; it cannot be simulated: " + base::to_string(model.problems().front());
 }
 
-/// Values that are printed with one digit: their rounding widens every relation that contains them. The
-/// voltage of a sheet counts as exact.
+/// Lists the values that the sheet prints with one digit. Their rounding widens the tolerance of every
+/// relation that contains them. The sheet's voltage counts as exact.
 std::string coarse_lines(const SheetCheck& check) {
   constexpr double wide = 0.05;
   std::string text;
@@ -221,7 +221,7 @@ std::string verdict_line(const SheetCheck& check) {
                                  : doubted > 0     ? "not contradictory"
                                                    : "consistent",
                                  holds, check.relations.size());
-  if (known > 0) text += fmt::format(", {} broken as the file says", known);
+  if (known > 0) text += fmt::format(", {} broken, as the file states", known);
   if (doubted > 0) text += fmt::format(", {} in doubt", doubted);
   if (broken > 0) text += fmt::format(", {} broken", broken);
   return text;
@@ -264,7 +264,7 @@ std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
   if (check.stall_current_A) text += model_row("I_st", short_number(*check.stall_current_A) + " A", "U / R");
   text += friction_rows(c.friction, linear);
   if (const std::string more = design::left_to_a_run(sheet); !more.empty())
-    text += trimmed("  A run has besides: " + more);
+    text += trimmed("  A run also includes: " + more);
   return text;
 }
 
@@ -280,7 +280,8 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
   if (!unused.empty()) text += "\nLines that the model does not use\n" + unused;
   if (const std::string coarse = coarse_lines(check); !coarse.empty())
-    text += "\nIntegers of one digit: the sheet's zeros, as in 4.00, make the tolerance narrow\n" + coarse;
+    text +=
+        "\nIntegers of one digit: write the sheet's zeros, as in 4.00, to narrow the tolerance\n" + coarse;
   std::string doubts;
   for (const base::Problem& doubt : check.doubts) doubts += "; in doubt: " + base::to_string(doubt);
   return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check) + doubts);

@@ -32,7 +32,8 @@ Resolve remembered(Resolve find) {
   };
 }
 
-/// Keys that determine a table's columns must be the same in all runs, and so must the names of a run.
+/// Keys with the same value in all runs: keys that determine the table's columns, and the names of the
+/// scenario.
 constexpr std::string_view same_in_all[] = {"require", "compare", "record", "spread",
                                             "title",   "notes",   "extends"};
 
@@ -50,7 +51,7 @@ std::string first_of(const analysis::Axis& axis, bool last) {
 
 }  // namespace
 
-/// The scenarios of the last few points, because several drives use the scenario of one point.
+/// The scenarios of the last few points, because all drives of a point use the same scenario.
 struct PlannedScenarios::Recent {
   static constexpr std::size_t most = 16;
   std::mutex guard;
@@ -89,8 +90,8 @@ base::Result<study::Scenario> PlannedScenarios::at(const std::vector<std::string
     const std::optional<double> x = number_alone(point[k]);
     scenario =
         x ? study::strayed_to(*scenario, plan_.axes[k].key, *x)
-          : base::Problem{plan_.axes[k].key, point[k], "is not a number, and only numbers can be spread",
-                          "write numbers, or remove strays = true"};
+          : base::Problem{plan_.axes[k].key, point[k], "is not a number, but strays = true requires numbers",
+                          "write numbers as values of this key, or remove its strays = true"};
   }
   return scenario;
 }

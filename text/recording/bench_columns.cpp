@@ -12,7 +12,7 @@ bool is_any_of(const RecordedColumn& column, const ThreeNames& names) {
   return std::any_of(names.begin(), names.end(), [&](const auto& of) { return is_called(column, of); });
 }
 
-/// The reason why a known voltage was not used although other voltages were, or although no voltage was used.
+/// The reason why a voltage with a known heading was not used.
 std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
   const bool line = meaning == Meaning::between_terminals;
   if (use.voltages_are_asked) return "other voltages are requested";

@@ -48,9 +48,9 @@ Voltages chosen(Columns lines, Columns terminals, std::optional<analysis::EmfBet
 
 /// The columns of the recording that a reading uses.
 struct BenchUse {
-  bool hall_log = false;                ///< Hall lines are read too
-  bool by_codes = false;                ///< Hall lines come from a column of codes
-  bool voltages_are_asked = false;      ///< the request names the voltages by their headings
+  bool hall_log = false;                ///< true: Hall lines are read too
+  bool by_codes = false;                ///< true: Hall lines come from a column of codes
+  bool voltages_are_asked = false;      ///< true: the request names the voltages by their headings
   Meaning voltages = Meaning::unknown;  ///< meaning of the voltages in use; `unknown` if none are in use
 };
 /// The reason why a column with numbers was not used.

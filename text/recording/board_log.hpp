@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a recording of a running drive as a trace: the log of a board, the log of another maker's drive, or
-// an oscilloscope's record. Headings are those of a trace's columns with units of the same kind ("t [us]",
-// "i_m [mA]", "speed [rad/s]"), or those of a known tool (known_logs.hpp); otherwise formulas name the columns.
+// an oscilloscope's record. Headings are the names of a trace's columns with units of the same kind ("t
+// [us]", "i_m [mA]", "speed [rad/s]"), or the headings of a known tool (known_logs.hpp). Otherwise formulas
+// name the columns.
 #pragma once
 #include <optional>
 #include <string>
@@ -21,14 +22,15 @@ struct LogColumns {
       formulas;  ///< see column_formula.hpp; if given, only their columns and the time are read
   std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
   std::optional<int> pole_pairs{};   ///< pole pairs of the motor, which convert electrical speeds
-  bool field_oriented = false;       ///< whether the simulated drive is: of known logs it takes other columns
-  std::optional<int> esc{};          ///< number of the drive whose rows or columns count, in a log of several
+  bool field_oriented =
+      false;  ///< true: the simulated drive is field-oriented, which selects other columns of known logs
+  std::optional<int> esc{};  ///< number of the drive to read in a log of several drives
 };
 
 struct BoardLog {
   study::Trace trace;
   std::string
-      recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: by its own headings or by formulas
+      recognised;  ///< "a VESC Tool log: time = ms_today/1000, .."; empty: read by its headings or by formulas
   std::vector<NotUsed> not_used;
   Notes notes;
 };

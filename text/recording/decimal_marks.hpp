@@ -33,12 +33,12 @@ class DecimalMarks {
   /// The cells of one column that contain one kind of mark.
   struct Marked {
     std::optional<Cell> first;
-    bool in_thousands = true;  ///< whether the mark may separate thousands in each of these cells
+    bool in_thousands = true;  ///< true: the mark may separate thousands in each of these cells
   };
   struct Column {
     Marked comma, point;
     std::optional<Cell> hundreds;  ///< a number from 100 to 999 without a mark
-    bool bare_thousands = false;   ///< a number of 1000 and more without a mark
+    bool bare_thousands = false;   ///< true: the column has a number of 1000 or more without a mark
   };
   const Cell* first_of(Marked Column::*mark) const;
   std::optional<base::Problem> thousands(const std::string& file, Marked Column::*mark, char c,

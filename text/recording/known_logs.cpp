@@ -246,7 +246,7 @@ base::Result<Recording> rows_of_esc(const Recording& r, const std::string& headi
     for (std::size_t n = 0; n < r.columns.size(); ++n)
       out.columns[n].values.push_back(r.columns[n].values[row]);
   }
-  // What stands in the rows of the other ESCs does not count. Only a file's first bad cells have their text.
+  // Bad cells in the rows of other ESCs do not count. Only the first bad cells of a file have their text.
   for (RecordedColumn& column : out.columns) {
     std::erase_if(column.bad, [&lines](const BadCell& cell) { return lines.count(cell.line) == 0; });
     const auto is_bad = [](double x) { return std::isnan(x); };

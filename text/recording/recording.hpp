@@ -28,11 +28,11 @@ struct RecordedColumn {
   std::string bare;            ///< bare_name() of `name`; two columns may have the same bare name
   std::string unit;            ///< unit in the spelling of units.hpp; empty: none
   std::string odd_unit;        ///< the word in the place of the unit if that word is no unit
-  bool letter = false;         ///< whether the unit may be a part of the name, see Heading
+  bool letter = false;         ///< true: the unit may be a part of the name (Heading::letter)
   std::vector<double> values;  ///< values in the unit without its power of ten: in V for mV
   std::vector<BadCell> bad;    ///< the first few bad cells; an unused column may contain anything
   std::size_t bad_cells = 0;   ///< number of bad cells
-  bool filled = false;         ///< whether some cell is not empty
+  bool filled = false;         ///< true: at least one cell is not empty
 
   bool has_numbers() const { return bad_cells < values.size(); }
 };

@@ -41,8 +41,8 @@ bool are_units(const Cells& cells) {
          });
 }
 
-/// Whether "s,foo" below "t,u_ab" are units: one is a unit below a known name, and none of them is itself a
-/// known name. The other cells must then be units.
+/// Whether cells such as "s,foo" below "t,u_ab" are units: at least one cell is a unit below a known name,
+/// and no cell is itself a known name. The other cells must then be units.
 bool are_units_below(const Cells& names, const Cells& cells) {
   const auto known = [](std::string_view cell) { return is_known_name(bare_name(heading_of(cell).name)); };
   if (std::any_of(cells.begin(), cells.end(), known)) return false;

@@ -36,7 +36,7 @@ const char* setpoint_unit(const BodeStudy& s) {
                                                    : "deg";
 }
 
-/// The designed L at a point.
+/// The designed loop gain L at the frequency of a point.
 struct Designed {
   double gain_dB = 0.0, phase_deg = 0.0;
 };
@@ -51,7 +51,8 @@ std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
 /// near_crossover_dB away from 1 are compared, because the margins depend on them.
 constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 
-/// Fraction of samples without current that commutation alone can cause.
+/// Fraction of samples without current that commutation alone can cause; a larger fraction has another
+/// reason.
 constexpr double least_without_current = 0.01;
 
 /// The first applicable reason why measured and designed loop differ.
@@ -140,7 +141,7 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
     notes.push_back(fmt::format(
-        "NOTHING WAS MEASURED: no line has a coherence of {:g}: commutation, ripple or noise exceeds the response. Give a larger --amplitude, or lock the rotor (it then has no commutation). If the drive stopped, a run without --bode shows the reason",
+        "NOTHING WAS MEASURED: no line reaches a coherence of {:g}: commutation, ripple or noise exceeds the response. Give a larger --amplitude, or lock the rotor (it then has no commutation). If the drive stopped, a run without --bode shows the reason",
         analysis::little_coherence));
   else if (few > 0)
     notes.push_back(fmt::format(

@@ -10,9 +10,9 @@
 
 namespace text {
 
-/// Sentences on the core: "on the Cortex-M4F: 1200 calls, each answered as by the host, to the bit". A chip
-/// has a sentence for each interrupt. It has another sentence if an interrupt exceeded its period, or if a
-/// fault stopped the chip. Empty if only the host ran the drive.
+/// Sentences on the core: "on the Cortex-M4F: 1200 calls, each with the same answer as on the host, in every
+/// bit". A chip has a sentence for each interrupt. It has another sentence if an interrupt exceeded its
+/// period, or if a fault stopped the chip. Empty if only the host ran the drive.
 std::vector<std::string> core_texts(const study::Outcome& outcome);
 
 /// The reasons of lines such as "# fault: over-current" on a chip's serial line, in their order, each once.

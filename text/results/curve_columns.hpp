@@ -29,8 +29,8 @@ struct CurveColumn {
 /// the same values have other names.
 std::span<const CurveColumn> curve_columns(const base::Motion& motion = {});
 
-/// The conditions of a curve's rows that no column says: "the row at speed 0 without friction; limits and temperatures at
-/// 25 degC ambient and the worse ends ..".
+/// The conditions of a curve's rows that no column contains: "the row at speed 0 without friction; limits and
+/// temperatures at 25 degC ambient and the worse ends ..".
 std::string curve_conditions(const analysis::CurveRequest& request);
 
 /// The rows of the curve's points, from standstill to no load.

@@ -64,7 +64,7 @@ std::string torque_text(double Nm, const Units& u, int digits = 4) {
   return fmt::format("{} {}", significant(Nm * u.torque.factor, digits), u.torque.name);
 }
 
-/// The winding's result if the motor stays at the point: a final temperature, or a permissible time.
+/// The thermal result of a point at which the motor stays: a final temperature, or a permissible time.
 std::string warming(const analysis::Warming& w) {
   if (!w.permissible_s) return fmt::format("{} degC", fixed(*w.winding_degC, 0));
   const double s = *w.permissible_s;
@@ -276,8 +276,8 @@ std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& cur
   };
   const double fastest = curve.no_load.point.speed_rad_s;
   if (!(fastest > allowed)) return "";
-  std::string text = fmt::format("The sheet allows {}, but the no-load speed is {}", speed_text(allowed, u),
-                                 speed_text(fastest, u));
+  std::string text = fmt::format("The sheet's speed limit is {}, but the no-load speed is {}",
+                                 speed_text(allowed, u), speed_text(fastest, u));
   if (past(curve.marks.best_efficiency))
     text += fmt::format(", and the best efficiency is at {}",
                         speed_text(curve.marks.best_efficiency->speed_rad_s, u));
@@ -291,7 +291,7 @@ std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curv
   when += fmt::format(" and the worse ends of the motor file's ranges ({})", curve.worse_ends);
   return stands(when, *curve.thermal, r, u) + lasting(curve, u) +
          "All these limits, and the columns cont. and held, are for the worse ends.\n" +
-         stands("By the motor file's values themselves", *curve.by_values, r, u);
+         stands("With the motor file's values themselves", *curve.by_values, r, u);
 }
 
 std::string certainty(const analysis::Curve& curve, const Units& u) {

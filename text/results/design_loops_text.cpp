@@ -61,14 +61,14 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
                         sixstep::base::six_digits(loop.gains.d1 + loop.gains.d0));
   if (thesis)
     text +=
-        "  (the thesis computes its gains from the poles that it prints, which give a faster loop than it requires)\n";
+        "  (the thesis computes the gains from its printed poles, which give a faster loop than the thesis requires)\n";
   return text;
 }
 
 std::string beliefs_text(const std::vector<std::string>& costs) {
   std::string text;
   for (const std::string& cost : costs) text += fmt::format("  - {}\n", visible(cost));
-  return text.empty() ? text : "\nWrong beliefs, and what each costs\n" + text;
+  return text.empty() ? text : "\nCosts of wrong beliefs\n" + text;
 }
 
 std::string figures_text(const DriveDesign& d) {
@@ -127,7 +127,7 @@ std::string figures_text(const DriveDesign& d) {
     return std::isfinite(l.step.overshoot) ? fmt::format("{:.1f} %", 100 * l.step.overshoot)
                                            : "without bound";
   });
-  return std::string("\nLoops, with the hold of the PWM and the loops within") +
+  return std::string("\nLoops, including the PWM's hold and the inner loops") +
          (sensed ? "; with an ideal speed, except in lines that name the speed's sensor\n" : "\n") +
          rows.text();
 }
@@ -153,7 +153,7 @@ std::string sensing_text(const DriveDesign& d) {
   const std::string words = sixstep::design::edges_words(d.spec.rotor);
   return (d.spec.rotor.hall ? "\nSpeed from Hall edges, " + words.substr(6) : "\nSpeed from the " + words) +
          "\n" + steps.text() +
-         "\nFastest settling time that leaves the speed loop 45 degrees of phase, for each lowest speed\n" +
+         "\nFastest settling time with 45 degrees of phase margin in the speed loop, for each lowest speed\n" +
          table.text();
 }
 
@@ -188,8 +188,8 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
       d.spec.chopping == sixstep::control::Chopping::complementary ? "the current reverses within each period"
                                                                    : "the current is discontinuous");
   const Motion motion = sixstep::design::motion_of(d.motor);
-  // Speeds of rotary motors are in the hundreds, those of linear motors around 1, and need digits after the
-  // point.
+  // The speeds of rotary motors are hundreds of rad/s. The speeds of linear motors are about 1 m/s and need
+  // digits after the point.
   const auto speed = [&](double w, int decimals) {
     return motion.linear ? fmt::format("{:.4g}", w) : fmt::format("{:.{}f}", w, decimals);
   };
@@ -200,19 +200,21 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
                         sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w), speed(w, 0));
   }
   text += motion.words(
-      fmt::format(" rad/s; none above {} rad/s, without commutation time (with it: sixstep curve)\n",
+      fmt::format(" rad/s; none above {} rad/s, without commutation time (sixstep curve includes it)\n",
                   speed(d.headroom_end_rad_s, 0)));
-  const std::string held = fmt::format("{:.3g} E + 3 R i = U with E and R of a phase",
-                                       sixstep::design::commutation_emfs(d.motor.machine));
+  const std::string held = fmt::format(
+      "from {:.3g} E + 3 R i = U (E: a phase's back-EMF, R: a phase's resistance, U: bus voltage)",
+      sixstep::design::commutation_emfs(d.motor.machine));
   text += d.commutation_limit_rad_s > 0
               ? motion.words(
                     fmt::format("  commutation         a duty step holds the torque up to {} rad/s, {}{}\n",
                                 speed(d.commutation_limit_rad_s, 1), held, nominal_above(d, sheet)))
               : motion.words(fmt::format("  commutation         no duty step holds the torque, {}\n", held));
   if (d.spec.chopping == sixstep::control::Chopping::soft)
-    text += motion.words(fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n",
-                                     speed(d.braking_limit_rad_s, 1)));
-  text += fmt::format("  control period      up to {} for 45 degrees with {} of delay\n",
+    text += motion.words(fmt::format(
+        "  braking, soft       the braking current is held up to {} rad/s = i R_tt/K_t (R_tt: terminal resistance)\n",
+        speed(d.braking_limit_rad_s, 1)));
+  text += fmt::format("  control period      up to {} for 45 degrees of phase margin with {} of delay\n",
                       quantity_text(d.longest_period_s, "s", 3),
                       sixstep::design::periods_words(d.spec.later_periods()));
   return text;

@@ -16,7 +16,7 @@ std::string gain_unit(std::string_view loop, const base::Motion& motion);
 /// A loop's derivation and gains.
 std::string loop_text(const design::LoopDesign& loop, const base::Motion& motion);
 
-/// What each wrong belief costs; empty if there is none.
+/// Text about the cost of each wrong belief. Empty if there is none.
 std::string beliefs_text(const std::vector<std::string>& costs);
 
 /// Margins and step responses of all loops, side by side.

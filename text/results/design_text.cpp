@@ -63,7 +63,8 @@ std::string simulated_text(const analysis::DesignStudy& s) {
   rows.add({"figure", "expected", "simulated", "", ""});
   for (const auto& told : s.outcome.comparisons) {
     const study::ComparisonResult c = as_shown(told, s.scenario);
-    // A value "without" limits or commutation belongs to another drive, and is only a bound.
+    // If the source of a design value contains "without" (limits, commutation), the value is only a bound for
+    // this drive.
     const bool same = c.source.find("without") == std::string::npos;
     rows.add({c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit),
               same ? deviation_text(c) : "", c.source});
@@ -111,7 +112,7 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
   // A drive with a low top speed may brake faster than its linear loop. The smaller of the two gains comes
   // first, each with its own explanation.
   const std::string braking = sixstep::base::six_digits(p.estimate * gain.factor) +
-                              " (full torque stops it from top speed)",
+                              " (full torque stops the drive from top speed)",
                     linear = sixstep::base::six_digits(p.linear * gain.factor) + " (no limit acts)";
   const bool rising = p.estimate <= p.linear;
   std::string text = motion.words(fmt::format("  found by {}; the search began between {} and {}\n",

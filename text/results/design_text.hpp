@@ -10,7 +10,7 @@ namespace text {
 
 std::string design_text(const analysis::DesignStudy& study, bool colour);
 
-/// The verdict: "usable, 2 warnings: the current loop settles to 2 % in 990 us (1 ms to 1 % asked for),
+/// The verdict: "usable, 2 warnings: the current loop settles within 2 % in 990 us (designed: 1 ms),
 /// overshoot 0.2 A".
 std::string design_verdict(const analysis::DesignStudy& study);
 

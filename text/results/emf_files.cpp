@@ -20,7 +20,7 @@ using analysis::EmfHarmonic;
 using analysis::EmfResult;
 using analysis::Interval;
 
-/// Harmonics below this limit do not matter: a drive with this shape behaves as with a sine.
+/// Relative size below which harmonics do not matter: a drive with this shape behaves as with a sine.
 constexpr double as_good_as_none = 0.01;
 constexpr std::size_t most_listed = 5;  // limit of the list harmonic_orders
 constexpr int highest_listed = 23;
@@ -35,7 +35,7 @@ std::string measured_source(const MeasuredEmf& m) {
 }
 
 /// The line with the constant. For a sine it is the voltage at a drill's speed. For any other shape it is the
-/// flux linkage: this belongs to the fundamental, and does not depend on harmonics that the lines above omit.
+/// flux linkage of the fundamental, because it does not depend on harmonics that the lines above omit.
 std::string constant_line(const MeasuredEmf& m) {
   const EmfResult& r = m.result;
   const std::string pairs = r.pole_pairs > 0 ? fmt::format("pole_pairs = {}\n", r.pole_pairs) : "";

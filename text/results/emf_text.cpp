@@ -135,7 +135,7 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
            (fitting == printed->frame ? std::string() : "; within the tolerance these fit, too: " + fitting);
   if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", to_percent * tolerance);
   if (!printed) return "names no frame; fits " + fitting;
-  return "CONTRADICTS: reads like " + fitting;
+  return "CONTRADICTS: the value fits " + fitting;
 }
 
 std::string sheet_section(const MeasuredEmf& m) {

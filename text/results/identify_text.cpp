@@ -38,10 +38,10 @@ std::string heading(const std::string& name, const HallIdentity& f) {
     out += fmt::format("  {} passed between two rows: sample faster, or turn the shaft more slowly\n",
                        count(f.skipped, "sector", "sectors"));
   if (f.left_out > 0)
-    out += fmt::format("  {} not used, more than five deviations out of place\n",
+    out += fmt::format("  {} not used, more than five standard deviations from the fit\n",
                        count(f.left_out, "edge", "edges"));
   if (f.voltages_left_out > 0)
-    out += fmt::format("  {} of the voltages not used, more than five deviations out of place\n",
+    out += fmt::format("  {} of the voltages not used, more than five standard deviations from the fit\n",
                        count(f.voltages_left_out, "reading", "readings"));
   if (f.place && f.place->at_turns > 0)
     out += fmt::format("  {} not used, because the rotor turned back after {}\n",
@@ -103,10 +103,10 @@ std::string wires_section(const HallIdentity& f) {
   }
   const IdentifiedPlace& p = *f.place;
   const std::string most = f.forward > 0 && f.backward > 0 ? " most of the log" : "";
-  rows.add({"turned",
-            p.forward ? "forward" + most + ", as a b c follow each other"
-                      : "backward" + most + ", as c b a follow each other",
-            certainty_text(p.order_probability)});
+  rows.add(
+      {"turned",
+       p.forward ? "forward" + most + ": phase order a, b, c" : "backward" + most + ": phase order c, b, a",
+       certainty_text(p.order_probability)});
   rows.add({"lines", wires_words(p.wires.front()), certainty_text(p.probability)});
   for (std::size_t n = 1; n < p.wires.size() && n < 3; ++n)
     rows.add({"", "or " + wires_words(p.wires[n]), ""});
@@ -131,7 +131,7 @@ std::string numbers_section(const HallIdentity& f) {
   add_jitter(rows, f);
   if (f.place) {
     const IdentifiedPlace& p = *f.place;
-    if (p.delay_s) add(rows, "delay", *p.delay_s, 1e6, "us", "of the lines after the voltages");
+    if (p.delay_s) add(rows, "delay", *p.delay_s, 1e6, "us", "by which the lines follow the voltages");
     add(rows, "flux linkage", p.flux_linkage_Vs, 1e3, "mWb",
         fmt::format("{:.4g} % of the voltages' power comes from the rotor", 100.0 * p.explained));
   }

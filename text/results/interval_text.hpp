@@ -14,7 +14,7 @@ std::string measured_text(const analysis::Interval& x);
 std::string bounds_text(const analysis::Interval& x);
 /// The value with `unit` and bounds: "3.21 V (3.15 .. 3.27)" for "V".
 std::string with_bounds(const analysis::Interval& x, const char* unit);
-/// A number with the digits that the interval supports, for a file.
+/// A number for a file, with as many digits as the interval supports.
 std::string as_good_as(double value, const analysis::Interval& x);
 
 /// A probability in per cent: "> 99.99 %", "97.2 %".

@@ -8,8 +8,9 @@
 
 namespace text {
 
-/// The same JSON with each name in the words of that motion: "stall_force_N" for a linear motor. Numbers stay
-/// the same. Therefore the JSON must not have names in degrees or in thousandths, whose numbers would change.
+/// Returns the JSON with the names that belong to `motion`: "stall_force_N" for a linear motor. Numbers stay
+/// the same. Therefore the JSON must not have names in degrees or in thousandths, because such numbers would
+/// have to change.
 inline nlohmann::ordered_json under_names_of(const sixstep::base::Motion& motion,
                                              const nlohmann::ordered_json& json) {
   if (!motion.linear || !json.is_structured()) return json;

@@ -15,7 +15,7 @@ namespace text {
 struct JunitCase {
   std::string name;
   std::string failure;  ///< why the case does not hold; empty: it holds
-  bool broken = false;  ///< the case could not be judged: a fault, or no run
+  bool broken = false;  ///< true: a fault, or a run that could not start, prevents a verdict
 };
 
 struct JunitSuite {
@@ -25,8 +25,8 @@ struct JunitSuite {
 
 /// The suite of one run: a case per requirement, and a case for the run itself, which fails after a fault.
 JunitSuite junit_suite(const std::string& name, const study::Outcome& outcome);
-/// The suite of many runs. A requirement passes if it holds in all of them. A further case counts the runs
-/// that a fault stopped or that could not run.
+/// The suite of many runs. A requirement passes if it holds in all runs. A further case counts the runs that
+/// a fault stopped or that could not run.
 JunitSuite junit_suite(const std::string& name, const analysis::Series& series);
 /// The suite of an experiment that could not run.
 JunitSuite junit_suite(const std::string& name, const base::Problems& problems);

@@ -12,7 +12,7 @@ namespace text {
 
 nlohmann::ordered_json steps_json(const std::vector<sixstep::design::DerivationStep>& steps);
 
-/// Gains, derivation, open loop, margins with both delays, Bode and step data.
+/// The JSON contains gains, derivation, open loop, margins with both delays, Bode data and step data.
 nlohmann::ordered_json loop_json(const sixstep::design::LoopDesign& loop,
                                  const sixstep::design::DriveDesign& design);
 

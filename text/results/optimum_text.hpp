@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the result of the search for the best point of a plan's ranges.
+// Prints the result of the search for the best point in a plan's ranges.
 #pragma once
 #include <string>
 #include <vector>

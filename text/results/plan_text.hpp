@@ -20,8 +20,8 @@ struct DriveSpread {
 
 /// The spreads of the columns' keys.
 std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario, const analysis::PlanColumns& columns);
-/// "each drive: KEY +-10 %, .." and what is not drawn, each with its reason; empty where drives do not
-/// differ.
+/// The text "each drive: KEY +-10 %, ..", and the tolerances that are not drawn, each with its reason. Empty
+/// if the drives do not differ.
 std::string drawn_text(const std::vector<DriveSpread>& spread, const std::string& not_drawn);
 
 inline constexpr const char* too_few_points =
@@ -34,8 +34,8 @@ struct PlanStory {
   const analysis::PlanColumns& columns;
   const analysis::Series& series;
   std::function<void(const std::function<void(const analysis::RunRecord&)>&)> each;
-  std::vector<DriveSpread> spread = {};  ///< none where the plan has no drives
-  std::string not_drawn = {};            ///< tolerances that drives do not have, with reasons
+  std::vector<DriveSpread> spread = {};  ///< empty if the plan has no drives
+  std::string not_drawn = {};            ///< tolerances that are not drawn, with reasons
 };
 
 /// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them

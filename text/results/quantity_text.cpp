@@ -15,7 +15,7 @@ constexpr int few_digits = 5, all_digits = 17;
 
 struct Prefix {
   std::string_view letter;
-  double times;  ///< x is multiplied by this: 1000 for milli
+  double times;  ///< factor on x: 1000 for milli
 };
 constexpr Prefix no_prefix{"", 1.0};
 

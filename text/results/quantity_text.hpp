@@ -15,9 +15,10 @@ namespace text {
 /// default.
 std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
-/// The prefix of numbers that stand below or beside each other in a table, so that the largest looks largest: that of the
-/// largest number, or that of the smallest but 0 where this one would be below 0.1 and the largest stays below 10000.
-/// Numbers whose sizes differ by more than a factor of 10000 keep their own prefixes.
+/// The common prefix of numbers that are below or beside each other in a table, so that the largest number
+/// looks largest. It is the largest number's prefix. It is the prefix of the smallest nonzero number if this
+/// number would otherwise be below 0.1 and the largest number stays below 10000. If sizes differ by more than
+/// a factor of 10000, each number has its own prefix.
 class SharedPrefix {
  public:
   SharedPrefix(std::span<const double> values, const std::string& unit);
@@ -25,7 +26,7 @@ class SharedPrefix {
 
  private:
   std::string unit_;
-  double like_ = 0.0;  ///< has the prefix of all; 0: each has its own
+  double like_ = 0.0;  ///< a number with the common prefix; 0: each number has its own prefix
 };
 
 /// A number with `digits` digits after the point; "-" if it is not finite.

@@ -38,7 +38,7 @@ std::string margin_text(const analysis::SpreadFigure& f) {
                      f.least_margin < 0.0 ? "beyond" : "within", f.column.min && f.column.max ? "s" : "");
 }
 
-/// The number of digits of a value with which the standard deviation still has two digits.
+/// The number of digits of a value at which its standard deviation has two digits.
 int digits_of(const analysis::Statistics& s) {
   const std::optional<double> deviation = s.standard_deviation();
   if (!deviation || !(*deviation > 0.0)) return spread_digits;
@@ -93,7 +93,7 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
 
 constexpr std::size_t most_numbers = 8;
 
-/// The runs in words: "run 4", "runs 0, 1, 2", "all runs", or how many and the first.
+/// The runs in words: "run 4", "runs 0, 1, 2", "all runs", or "12 runs, the first of them 4".
 std::string those(const std::vector<std::size_t>& numbers, const analysis::Series& series,
                   const analysis::Plan& plan) {
   const char* one = one_of(plan);
@@ -109,7 +109,7 @@ bool stopped(std::size_t number, const analysis::Series& series) {
                      [number](const analysis::Casualty& c) { return c.number == number; });
 }
 
-/// The requirement with the least margin if all hold. The margin counts as a fraction of the limit, or of
+/// The requirement with the least margin if all requirements hold. The margin is relative to the limit, or to
 /// half the distance between two limits. A temperature's limit counts from the ambient temperature on.
 const analysis::SpreadFigure* closest_of(const analysis::Series& series) {
   const analysis::SpreadFigure* closest = nullptr;
@@ -166,7 +166,7 @@ std::string remarks_text(const analysis::Series& series, const analysis::Plan& p
   for (const analysis::SeriesRemark& r : series.remarks)
     text += fmt::format(
         "  remark, {}{}: {}\n", those(r.numbers, series, plan),
-        r.differs ? fmt::format(" (its numbers are those of {} {})", one_of(plan), r.numbers.front()) : "",
+        r.differs ? fmt::format(" (with the numbers of {} {})", one_of(plan), r.numbers.front()) : "",
         visible(r.text));
   return text;
 }

@@ -12,9 +12,8 @@ namespace text {
 /// failures, and the command that repeats one run. An interrupted plan also shows the planned number of runs.
 std::string series_table(const std::string& name, const analysis::Series& series, const analysis::Plan& plan);
 
-// Parts of the table, for callers that print the figures otherwise.
-/// One line each: the number of stopped runs, the number of refused runs, and for each requirement the first
-/// run that misses it.
+// Parts of the table, for callers that print the figures in another form. One line each: the number of
+// stopped runs, the number of refused runs, and for each requirement the first run that misses it.
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan);
 /// The first part of casualties_text(): the number of stopped or refused runs, and the reason of the first.
 std::string stopped_text(const analysis::Series& series, const analysis::Plan& plan);

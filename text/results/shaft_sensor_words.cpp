@@ -8,9 +8,9 @@ namespace {
 
 using Given = std::string (*)(double, std::string_view);
 
-/// Mounting of a sensor whose zero is not the rotor's.
+/// Text about the offset between the sensor's zero and the rotor's zero.
 std::string mounting(double offset_deg, Given given) {
-  return offset_deg == 0.0 ? "" : ", mounted " + given(offset_deg, "deg") + " off (electrical)";
+  return offset_deg == 0.0 ? "" : ", mounted with an offset of " + given(offset_deg, "deg") + " (electrical)";
 }
 
 std::string encoder(const study::Sensors& s, bool page, Given given) {

@@ -23,10 +23,10 @@ std::string trace_comparison_text(const std::string& name,
     const auto said = [&unit](double x) { return quantity_text(x, unit, 3); };
     rows.add({one.column.name, fmt::format("{} rows", one.rows), "rms " + said(one.rms),
               fmt::format("at most {} at {}", said(one.greatest), quantity_text(one.at_s, "s", 4)),
-              fmt::format("of {} simulated from lowest to highest", said(one.span))});
+              fmt::format("of a simulated range of {}", said(one.span))});
   }
   std::string out =
-      fmt::format("{} less the simulation{}:\n{}", name,
+      fmt::format("{} minus the simulation{}:\n{}", name,
                   shift_s == 0.0 ? "" : ", moved by " + quantity_text(shift_s, "s", 3), rows.text());
   for (const std::string& note : notes) out += fmt::format("  {}\n", visible(note));
   return out;

@@ -92,8 +92,8 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
 std::string deviation_text(const study::ComparisonResult& c) {
   if (!std::isfinite(c.measured)) return "not comparable";
   if (c.value == 0.0) return "";
-  // The percentage is relative to the expected magnitude. For opposite signs, a temperature in degC and an expected
-  // value next to nothing it has no meaning, and the difference is printed.
+  // The percentage is relative to the magnitude of the expected value. It has no meaning for opposite signs,
+  // for a temperature in degC, or for an expected value near zero; the difference is then printed.
   constexpr double most_times = 1000.0, most_percent = 1000.0;
   if ((c.measured < 0.0) != (c.value < 0.0) || c.unit == "degC" ||
       std::abs(c.measured) > most_times * std::abs(c.value))

@@ -17,14 +17,15 @@ struct TableEntry {
 /// expected value, measured value, ok or deviation, source.
 std::string verdict_table(std::span<const TableEntry> entries, bool colour);
 
-/// The last line: "22 experiments: all 43 requirements hold", or which of them fail.
+/// The last line: "22 experiments: all 43 requirements hold", or the number of requirements that fail.
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 
 /// One line for each experiment that a fault stopped, for callers that print no table.
 std::string faults_text(std::span<const TableEntry> entries);
 
-/// The deviation in per cent: "-0.25 %". Empty if the source's value is zero, because then the measured value
-/// is itself the difference.
+/// The deviation: "-0.25 %", "x 12", or the difference if a percentage has no meaning. "not comparable" if
+/// the measured value is not finite. Empty if the expected value is zero, because the measured value is then
+/// itself the difference.
 std::string deviation_text(const study::ComparisonResult& comparison);
 
 }  // namespace text

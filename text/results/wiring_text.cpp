@@ -97,7 +97,7 @@ std::string broken(std::string_view text) {
 }
 
 std::string recipe() {
-  std::string text = "Without knowing which wire is which\n";
+  std::string text = "If the wires are not labelled\n";
   Rows rows;
   for (const auto& [seen, step] : recipe_steps()) rows.add({std::string(seen), std::string(step)});
   return text + rows.text() + broken(recipe_note());
@@ -114,7 +114,7 @@ std::string agreement(const WiringStudy& s) {
                           hall_lines_word(c.wiring), does_text(c.theory.does), does_text(c.measured.does));
   return text +
          fmt::format(
-             "{} of {} move in simulation as theory predicts; friction or cogging holds the others. Give a larger --current.\n",
+             "{} of {} move in simulation as theory predicts; friction or cogging stops the rotor in the other wirings. Give a larger --current.\n",
              s.agreeing(), s.cases.size());
 }
 
@@ -124,11 +124,11 @@ std::string wiring_text(const WiringStudy& s) {
   const base::Motion motion = design::motion_of(s.subject.sheet);
   const std::string columns = " at legs a b c (rows), probes at pins H1 H2 H3 (columns)\n";
   std::string text = visible(s.subject.sheet.name) + "\n\n" + commutation_text() +
-                     "\nThe 36 ways to connect it: phases" + columns;
+                     "\nThe 36 ways to connect the motor: phases" + columns;
   text += grid(s, [](const WiringCase& c) { return std::string(does_text(c.measured.does)); });
   text += agreement(s) + "\n";
   text += "At the bench: " + bench_text(s) + "\n" + symptoms(s, motion);
-  text += "\nThe fewest wires to move until it runs FORWARD: phases" + columns;
+  text += "\nThe fewest wires to move until the motor runs FORWARD: phases" + columns;
   text += grid(s, [](const WiringCase& c) { return cure_mark(c.cures.front()); });
   text +=
       "b-c: swap the wires at legs b and c; a>b>c: move the wire at a to b, the wire at b to c, the wire at c to a.\n";

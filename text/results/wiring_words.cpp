@@ -105,7 +105,7 @@ std::string_view does_name(WiringDoes does) {
 
 std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
   const analysis::Symptom here = s.symptom(does), well = s.straight();
-  if (does == WiringDoes::forward) return "runs as it should";
+  if (does == WiringDoes::forward) return "runs correctly";
   if (does == WiringDoes::backward) return "runs as well as forward";
   const auto times = [](double x) { return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0); };
   // A correct wiring draws almost no current if the sheet has no friction. Any other wiring then draws some
@@ -138,7 +138,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
   static constexpr std::pair<std::string_view, std::string_view> steps[] = {
       {"it jerks and hums", "swap any two phase wires; then the motor runs"},
       {"it runs rough",
-       "move all three phase wires by one leg, if still rough once more; then it runs well, the other way"},
+       "move all three phase wires by one leg, and once more if the motor is still rough; it then runs well in the opposite direction"},
       {"it runs well, but backward",
        "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or invert the reference"},
   };
@@ -146,7 +146,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
 }
 
 std::string_view recipe_note() {
-  return "With three of the six orders of the phase wires the motor hums, with two it runs rough in one direction, and with one it runs well in the other. If two Hall lines are swapped, this one runs backward, and moving phase wires alone cannot correct it.";
+  return "With three of the six orders of the phase wires the motor hums. With two orders it runs rough in one direction, and with one order it runs well in the other direction. If two Hall lines are swapped, the motor runs backward with this last order, and moving phase wires alone cannot correct the direction.";
 }
 
 std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {

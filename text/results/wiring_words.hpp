@@ -32,8 +32,8 @@ std::string_view does_name(analysis::WiringDoes does);
 /// The symptom at the bench: "runs rough; 17 times the current".
 std::string symptom_text(const analysis::WiringStudy& study, analysis::WiringDoes does);
 
-/// The cure in words: "swap the phase wires at legs b and c"; "move the Hall lines on: H1 to H2, H2 to H3, H3
-/// to H1"; "nothing".
+/// The cure in words: "swap the phase wires at legs b and c"; "move the Hall lines: H1 to H2, H2 to H3, H3 to
+/// H1"; "nothing".
 std::string cure_text(const analysis::Cure& cure);
 /// The cure in the length of a table cell: "b-c", "H1>H2>H3", "a-b H2-H3", "-".
 std::string cure_mark(const analysis::Cure& cure);
@@ -51,8 +51,8 @@ std::string_view recipe_note();
 std::string way_text(const analysis::WiringStudy& study, double electrical_deg);
 /// A speed with its unit: "766 rpm", "0.25 m/s".
 std::string wiring_speed_text(const analysis::WiringStudy& study, double rad_s);
-/// The bench in words: "24 V, duty 0.1, nothing on the shaft; stalled it draws 2.33 A, its nominal current,
-/// at full duty 23.3 A".
+/// The bench in words: "24 V, duty 0.1, no load; the stalled motor draws 2.33 A, its nominal current, at full
+/// duty 23.3 A".
 std::string bench_text(const analysis::WiringStudy& study);
 
 /// The comment above the bench's scenario: its purpose, and how a user crosses wires in it.

@@ -63,7 +63,7 @@ Json one_of(const std::vector<std::pair<std::string, std::string>>& words) {
 Json words_of(const std::vector<std::string>& words) { return {{"enum", words}}; }
 
 /// Schema of a quantity: a number, or a table that also gives its frame and source. A motor file must name
-/// the frame if the key allows several.
+/// the frame if the key allows several frames.
 Json quantity(const KeyEntry& entry, const Place& place) {
   const std::vector<std::string> frames = frames_of(entry.about.frame);
   std::vector<std::string> trusts;

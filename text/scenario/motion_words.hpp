@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles keys that only a rotary motor has, or only a linear motor (base/linear.hpp).
+// Handles keys that only rotary motors or only linear motors have (base/linear.hpp).
 #pragma once
 #include <vector>
 
@@ -17,9 +17,9 @@ void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complain
 /// library's names and units. Reports keys of the other kind of motor.
 void read_spread_keys(study::Scenario& scenario, Complaints& complaints);
 
-/// Converts the numbers whose unit follows from a mode or a figure to a linear motor's units: position in mm,
-/// not deg. A rotary motor's scenario is unchanged. Reading converts back to the same number, to the bit if a
-/// double allows it.
+/// Converts the numbers whose unit follows from a mode or a figure to a linear motor's units: a position to
+/// mm, not to deg. A rotary motor's scenario is unchanged. Reading converts back to the same number, to the
+/// bit if such a double exists.
 void in_units_of_its_motor(study::Scenario& scenario);
 
 }  // namespace text

@@ -22,7 +22,7 @@ constexpr std::size_t most_told = 5;
 /// The first column: its unit, and its names in messages.
 struct FirstColumn {
   const char *unit, *word, *row;
-  bool selects;  ///< a key selects one of several columns of values
+  bool selects;  ///< true: a key selects one of several columns of values
 };
 constexpr FirstColumn first_is_time{"s", "time", "a time in s and a value", true},
     angle_column{"deg", "angle", "an angle in degrees and a value", false};
@@ -42,8 +42,8 @@ class RowsOf {
                                             y = converted(r_, *picked, unit_);
     if (!t) return t.problems();
     if (!y) return y.problems();
-    // Stops at the first cell that is not a number, because a time before this cell does not bound the times
-    // after it.
+    // Stops at the first cell that is not a number, because the order of the times cannot be checked across
+    // this cell.
     for (std::size_t row = 0; bad_ == 0 && row < t->size(); ++row) take(row, (*t)[row], (*y)[row]);
     if (told_.empty()) return std::move(rows_);
     std::stable_sort(told_.begin(), told_.end(),
@@ -114,7 +114,7 @@ class RowsOf {
     return false;
   }
 
-  /// A recorded trace decays exponentially, without end: values near zero become 0.
+  /// A recorded trace decays exponentially and never reaches 0: values near zero become 0.
   static double not_nearly(double x) { return std::fabs(x) < base::nearly_nothing ? 0.0 : x; }
 
   base::Problem at_line(std::size_t line, std::string limit, std::string cure) const {

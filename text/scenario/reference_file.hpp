@@ -15,11 +15,11 @@ struct ReferenceRows {
   std::vector<double> times_s, values;
 };
 
-/// Reads the rows. `text` is the file's content, `name` its name in messages; it is read like every recording
-/// (text/recording/). The first column is the time, rising from 0 on. `column` is the heading of the values;
-/// without it the table has two columns. A heading may contain a unit, "time [ms]" or "speed_rpm". The unit
-/// of the first column is a unit of time. The unit of the values is of the same kind as `unit`, to which the
-/// values are converted.
+/// Reads the rows. `text` is the file's content, `name` its name in messages. The file is read like every
+/// recording (text/recording/). The first column is the time, rising from 0 on. `column` is the heading of
+/// the values. If it is empty, the table must have two columns. A heading may contain a unit, "time [ms]" or
+/// "speed_rpm". The unit of the first column is a unit of time. The values are converted to `unit`; their own
+/// unit must be of the same kind.
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column, const std::string& unit);
 

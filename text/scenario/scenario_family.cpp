@@ -64,7 +64,7 @@ class Family {
       return base::Problems{};
     };
     if (std::find(chain_.begin(), chain_.end(), beside(from, base.file)) != chain_.end())
-      return refuse("names a file that itself extends this one", "put the common keys into a third file");
+      return refuse("names a file that itself extends this file", "put the common keys into a third file");
     if (++files_ > most_files)
       return refuse(fmt::format("extends more than {} files", most_files), "join some of the files");
     base::Result<NamedText> found = find_text(resolve_, {Naming::Kind::scenario, base.file, from});

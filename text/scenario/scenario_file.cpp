@@ -119,7 +119,7 @@ void load_controller(const Document& document, const Resolve& resolve, study::Ow
     return;
   }
   base::Problem problem =
-      file ? base::Problem{.limit = "is a compiled controller, which is not loaded here",
+      file ? base::Problem{.limit = "is a compiled controller, which this program does not load",
                            .cure = "run the scenario with the sixstep program on this machine"}
            : file.problems().front();
   problem.where = key;

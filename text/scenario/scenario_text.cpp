@@ -30,8 +30,7 @@ std::string toml(const std::vector<T>& list) {
   return out + "]";
 }
 
-/// A number with as many digits after the point as in its file, because the digits define the number's
-/// tolerance.
+/// A number with as many digits after the point as in its file, because these digits define the tolerance.
 std::string with_last_digit(const sixstep::base::Quantity& q) {
   std::string text = toml(q.value);
   if (!q.last_digit || text.find_first_not_of("-.0123456789") != std::string::npos) return text;
@@ -55,7 +54,8 @@ std::string toml(const sixstep::base::Quantity& q) {
   return out + " }";
 }
 
-/// A number for another spelling. Reading converts it back to the same double, if such a number exists.
+/// Converts a number to the unit of another spelling. If possible, reading the result gives the same double
+/// again.
 double spelled_as(double own, const sixstep::base::Spelling& spelling) {
   using sixstep::base::in_own_unit;
   double x = sixstep::base::as_spelled(own, spelling);

@@ -25,7 +25,7 @@ struct WrittenValue {
   bool usual;        ///< true: the value is the same if the key is left out
 };
 
-/// Every key that has a value; of the motor's sheet only the keys whose values differ from the motor's file.
+/// Every key that has a value. Of the motor's sheet, only the keys whose values differ from the motor's file.
 std::vector<WrittenValue> scenario_values(const study::Scenario& scenario);
 
 }  // namespace text

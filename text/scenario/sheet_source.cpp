@@ -19,7 +19,8 @@
 namespace text {
 namespace {
 
-/// Whether the table has a key that no sheet has. It may be a misspelt key, so that a known key is missing.
+/// Whether the table has a key that no sheet has. Such a key may be misspelt, and the correct key is then
+/// missing.
 bool has_unknown_key(const std::string& table, const Document& document) {
   const std::vector<KeyEntry>& keys = sheet_keys();
   const toml::node* node =

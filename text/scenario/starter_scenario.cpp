@@ -25,7 +25,7 @@ using sixstep::control::Mode;
 
 struct Wanted {
   std::string path;
-  bool open = false;  ///< whether the line is active even if it only repeats the default
+  bool open = false;  ///< true: the line is active even if it only repeats the default
 };
 
 /// Keys that a first scenario shows in addition to the keys that it sets.
@@ -58,7 +58,7 @@ std::vector<Wanted> wanted_keys(Mode mode) {
   return keys;
 }
 
-/// The value of a line for which the scenario has none: it is refused until the user gives a number.
+/// The value of a line for which the scenario has no value. Reading refuses it until the user gives a number.
 std::string placeholder(const KeyEntry& entry) {
   if (!entry.default_value.empty()) return entry.default_value;
   switch (entry.type) {
@@ -219,7 +219,8 @@ class Starter {
     const bool given = value != values_.end();
     const bool open = given && (!value->usual || (wanted != wanted_.end() && wanted->open));
     if (!open && !full_ && wanted == wanted_.end()) return "";
-    // Lists repeat their keys, and loops their gains. Each key is explained only once.
+    // The same keys occur in every item of a list, and the same gains in every loop. Each key is explained
+    // only once.
     const bool limit = path == "control.speed.torque_limit_Nm" || path == "control.speed.force_limit_N";
     const std::string why = limit && open && !origin_.empty() ? wrapped_comment(origin_) : "";
     return why + template_line(entry, {.key = name_of(entry),

@@ -10,8 +10,8 @@
 namespace text {
 
 struct StarterOptions {
-  std::string file;   ///< the future file's name, for the commands in its head
-  bool full = false;  ///< all keys, not only the keys of a first scenario
+  std::string file;   ///< name of the file to be written, for the commands at its beginning
+  bool full = false;  ///< true: all keys; false: only the keys of a first scenario
 };
 
 /// The scenario's file with explanations. Lines with the scenario's own values are active. Other keys useful
@@ -19,7 +19,7 @@ struct StarterOptions {
 /// reads back as the same scenario, to the bit.
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options);
 
-/// A note on the source of the file's numbers; empty if no note is required.
+/// A note on the source of the file's numbers; empty if the numbers need no note.
 std::string starter_note(const study::Scenario& scenario);
 
 }  // namespace text

@@ -32,8 +32,8 @@ class Complaints {
   void key(const toml::key& key, const toml::node& node, std::string_view path, base::Problem problem);
   /// Reports a missing key at the place of its table.
   void missing(std::string_view path, base::Problem problem);
-  /// Reports the problem of a later check, whose `where` is a path. Its place is the place of the value; if
-  /// the file has no such value, the place of the nearest table.
+  /// Reports the problem of a later check; its `where` is a path. The reported place is the place of the
+  /// value. If the file has no such value, it is the place of the nearest table.
   void later(base::Problem problem);
 
   /// Reports a key or a word at `path` that only the other kind of motor has.

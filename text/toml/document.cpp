@@ -19,7 +19,7 @@ bool is_number(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// The child has the constness of the node.
+/// The child is const if the node is const.
 template <class Node>
 Node* child(Node& node, const std::string& word) {
   if (auto* table = node.as_table()) return table->get(word);
@@ -83,8 +83,9 @@ void join(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   if (base.is_inline()) over.is_inline(true);
 }
 
-/// Moves the keys that `over` does not have from `base` to `over`; they keep their place in their file. A
-/// dropped table stays as a mark until all bases are processed, because a weaker base may have it too.
+/// Moves the keys that `over` does not have from `base` to `over`; each key keeps its place in its file. A
+/// dropped table stays as a mark until all bases are processed, because a weaker base may contain the same
+/// table.
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   for (auto&& [key, node] : base) {
     toml::node* mine = over.get(key.str());

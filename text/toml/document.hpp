@@ -46,8 +46,8 @@ class Document {
   /// The value's text as written; empty for a table or a text of more than one line.
   std::string quote(const toml::node& node, std::string_view path) const;
 
-  /// How to write the value as a text: unit = "1" in a file; for a value of the command line with the quotes
-  /// that a shell needs, --set 'reference.unit="1"'.
+  /// The value in the form of a text that the user can write: unit = "1" in a file. A value of the command
+  /// line has the quotes that a shell needs: --set 'reference.unit="1"'.
   std::string written_as_text(const toml::node& node, std::string_view path) const;
 
   /// "file:line:column" of a region, or "--set path" for a value from the command line.

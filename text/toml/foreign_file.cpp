@@ -44,7 +44,7 @@ std::optional<base::Problem> foreign_file(const std::string& name, std::string_v
   return base::Problem{
       .where = name + ":1:1:",
       .value = "",
-      .limit = fmt::format("is {}, and a TOML file is wanted", foreign_name(kind)),
+      .limit = fmt::format("is {}, but a TOML file is required", foreign_name(kind)),
       .cure = fmt::format("make a motor file of it: sixstep motor new NAME --from {}", name)};
 }
 

@@ -13,7 +13,7 @@ namespace text {
 
 enum class ForeignKind : std::uint8_t { none, vesc, odrive, moteus, simple_foc, matlab };
 
-/// The program whose file the text is, by words that no other program's file has.
+/// The program that wrote the text, found by words that occur only in this program's files.
 ForeignKind foreign_kind(std::string_view text);
 
 /// The kind in words: "a VESC motor configuration".

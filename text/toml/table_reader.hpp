@@ -81,7 +81,7 @@ class TableReader final : public base::Visitor {
   std::string_view of_other_motion(const base::WordMember& words, const base::WordMember::Word& word) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
-  /// A number in the allowed range, which replaces a refused number.
+  /// A number in the allowed range. It replaces a refused number, so that later checks can continue.
   static double within(const base::About& about);
   /// The unit in which a key's number is written, and the factor between this unit and the key's unit. Both
   /// units differ for a linear motor and for another spelling.
@@ -105,10 +105,10 @@ class TableReader final : public base::Visitor {
   std::string_view advice_;
   std::vector<std::string> known_;
   std::vector<std::string>
-      other_motion_;        ///< words of the other kind of motor among `known_`; they are never suggested
-  bool refused_ = false;    ///< whether a number was out of its range
-  bool lost_word_ = false;  ///< whether a choice could not be read, so that the unit that it determines is
-                            ///< unknown
+      other_motion_;      ///< words of the other kind of motor among `known_`; they are never suggested
+  bool refused_ = false;  ///< true: a number was out of its range
+  bool lost_word_ =
+      false;  ///< true: a choice could not be read, so that the unit that it determines is unknown
 };
 
 /// Fills the struct from the whole file.

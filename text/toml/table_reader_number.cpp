@@ -115,7 +115,7 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
   return base::Problem{.limit = "must be a number"};
 }
 
-/// A limit is printed in the unit in which the value was written.
+/// Converts a limit to the unit in which the user has written the value.
 std::string TableReader::limit_as_written(const toml::node& node, const base::About& about, double x) const {
   const base::Range allowed = base::allowed(about);
   const toml::value<std::string>* text = node.as_string();

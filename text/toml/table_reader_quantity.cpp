@@ -77,7 +77,8 @@ void TableReader::interval(const toml::node& node, const std::string& path, cons
   if (!number(*ends->get(0), path + "[0]", end, low) || !number(*ends->get(1), path + "[1]", end, high))
     return;
   if (low > high)
-    return complaints_.value(node, path, {.limit = "runs downwards", .cure = "write range = [low, high]"});
+    return complaints_.value(node, path,
+                             {.limit = "is not in rising order", .cure = "write range = [low, high]"});
   if (!(low <= out.value && out.value <= high))
     return complaints_.value(
         node, path,

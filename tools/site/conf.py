@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# How tools/site.sh makes one searchable site of README.md and docs/. Sphinx, because its search works from a file without a
-# server; MyST, because it reads the pages as they stand; Furo, because it is readable on a phone, in light and dark.
+# Settings with which tools/site.sh makes a searchable site of README.md and docs/. Reasons for the parts: the search of Sphinx
+# works without a server, MyST reads the pages without changes, and Furo is readable on a phone, in light and dark.
 project = "sixstep"
 html_title = "sixstep"
 extensions = ["myst_parser"]
@@ -21,14 +21,14 @@ CONTENTS = {"Get started": ["docs/README", "docs/start/tour", "docs/start/*", "d
 
 
 def with_contents(_, name, source):
-    """The first page gets the lists of the others, for the bar at the side."""
+    """Adds the lists of the other pages to the first page, for the sidebar."""
     if name == root_doc:
         for caption, pages in CONTENTS.items():
             source[0] += "\n".join(["", "```{toctree}", ":hidden:", ":glob:", f":caption: {caption}", "", *pages, "```", ""])
 
 
 def without_layers(_, name, source):
-    """The block of the layers is for tools/check_layers.py; no highlighter has its language."""
+    """Marks the block of the layers as plain text, because the highlighter does not know the language "layers"."""
     source[0] = source[0].replace("```layers\n", "```text\n")
 
 

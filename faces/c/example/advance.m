@@ -1,6 +1,6 @@
 % SPDX-License-Identifier: Apache-2.0
 % Runs a scenario and prints speed and current at each millisecond: octave-cli advance.m SCENARIO
-% sixstep_advance.cc must be compiled before, its first lines say how.
+% Compile sixstep_advance.cc before; its first lines contain the command.
 scenario = argv(){1};
 t = 1e-3 * (1:20)';
 [values, outcome] = sixstep_advance(scenario, t, {"t_s", "speed_rad_s", "i_m_A"});

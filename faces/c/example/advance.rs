@@ -19,7 +19,7 @@ extern "C" {
     fn sixstep_outcome(session: Handle) -> *const c_char;
 }
 
-/// A session that frees itself. It may move to another thread, but two threads may not use it at once.
+/// A session that is freed at the end of its scope. It may move to another thread, but two threads may not use it at once.
 struct Drive(Handle);
 unsafe impl Send for Drive {}
 impl Drop for Drive {

@@ -16,7 +16,7 @@ _sixstep() {
   compadd -S '' -a open
   compadd -l -d shown -a done
 }
-# Installed, zsh reads this file at the first Tab, as the body of the function: it is to answer at once.
+# If the file is installed, zsh reads it at the first Tab as the body of the function, which must then answer.
 if [[ ${funcstack[1]} == _sixstep ]]; then
   _sixstep "$@"
 else

@@ -88,12 +88,12 @@ class Chip {
   Pins pins_;
   std::FILE* serial_;
 
-  bool stop_ = false;  ///< a register was written, or an interrupt was entered: the core must stop before the
-                       ///< next instruction
+  bool stop_ =
+      false;  ///< true: a register was written or an interrupt was entered; the core must stop before the next instruction
   bool has_write_ = false;
   Write write_{};  ///< write that the last instruction made
   bool ended_ = false, slept_ = false;
-  bool was_reset_ = false;      ///< the watchdog reset the chip
+  bool was_reset_ = false;      ///< true: the watchdog reset the chip
   std::uint64_t response_ = 0;  ///< cycles of entering interrupts that the core has not counted yet
 
   Timer1 timer_;
@@ -105,7 +105,7 @@ class Chip {
 
   std::uint32_t gates_ = 0, told_gates_ = 0;
   std::deque<sixstep::rig::ChipAnswer> told_;  ///< answers to the plant in the order of their cycles
-  bool asked_for_count_ = false;               ///< the last answer was a sample
+  bool asked_for_count_ = false;               ///< true: the last answer was a sample
   std::uint64_t reached_ = 0;                  ///< cycle of the last answer
 
   Stopwatch control_{32}, hall_{32};  // longer for Hall interrupts, which may wait for a control interrupt

@@ -32,7 +32,8 @@ void listen(avr_t*, int level, const char*, va_list) {
   if (level == LOG_ERROR) told_of_error = true;
 }
 
-/// Checked here, because simavr reads any file, and hangs on some files.
+/// Whether the file is an ELF file for AVR. This check is needed because simavr reads any file and hangs on
+/// some files.
 bool is_for_avr(const char* elf) {
   constexpr unsigned char machine_AVR[2] = {83, 0};
   unsigned char head[20]{};
@@ -71,7 +72,7 @@ avr_int_vector_t* Chip::vector(unsigned number) const {
   return nullptr;
 }
 
-/// Replaces simavr's timer 1 and converter. Writes no longer reach them.
+/// Replaces simavr's timer 1 and converter. Writes no longer reach simavr's own models of them.
 void Chip::take_over() {
   const auto mine = [&](Address at, bool reads) {
     auto& io = avr_->io[AVR_DATA_TO_IO(at)];
@@ -94,8 +95,8 @@ void Chip::take_over() {
   for (const Pin& pin : pins_.lower) of_gates.insert(pin.port);
   for (const char port : of_gates)
     for (const Address at : {Pin{port, 0}.PIN(), Pin{port, 0}.DDR(), Pin{port, 0}.PORT()}) take_over_port(at);
-  // If simavr starts one of its timers during a run (for the watchdog or the serial line), it continues until
-  // that timer is due. With this setting it returns at once: only run_core() computes the right end.
+  // If simavr starts one of its timers during a run (for the watchdog or the serial line), simavr continues
+  // until that timer is due. With this setting it returns at once: only run_core() computes the right end.
   avr_->run_cycle_limit = 1;
   // simavr advances its cycle counter by its own estimate of the idle time. This function subtracts the
   // estimate, because sleep_core() computes the right time.

@@ -80,7 +80,7 @@ class Timer1 {
  private:
   struct Channel {
     std::uint16_t buffer = 0, compare = 0;
-    bool latch = false;  ///< level of OC1x before inversion
+    bool latch = false;  ///< true: OC1x is high before inversion
     int com_shift = 0;
   };
   struct Count {
@@ -157,8 +157,8 @@ class Timer1 {
   std::uint8_t tccr_a_ = 0, tccr_b_ = 0, temp_ = 0;
   std::uint16_t icr_ = 0;
   Channel channel_[channels] = {{.com_shift = 6}, {.com_shift = 4}, {.com_shift = 2}};
-  bool counted_ = false;  ///< whether the timer counts; place() computes this and the following members from
-                          ///< the registers
+  bool counted_ =
+      false;  ///< true: the timer counts; place() computes this and the following members from the registers
   std::int64_t top_ = 0, prescaler_ = 0;
   std::int64_t base_ = 0;                     ///< cycle of phase 0
   std::int64_t passed_ = 0, next_phase_ = 0;  ///< in ticks

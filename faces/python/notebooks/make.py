@@ -52,7 +52,7 @@ def executed(source, names):
 
 
 def notebook(text):
-    """The notebook as a dict, executed in an empty folder beside which data/ lies."""
+    """The notebook as a dict. It is executed in an empty folder that is next to a folder data/."""
     os.environ["MPLBACKEND"] = "Agg"
     import matplotlib
 

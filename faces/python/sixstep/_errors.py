@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 
 class Problem(NamedTuple):
-    """One error in an input: where it is, what is wrong and how to correct it.
+    """One error in an input: its place, the broken rule, and the correction.
 
     >>> import sixstep
     >>> try:
@@ -28,7 +28,7 @@ class Problem(NamedTuple):
 
 
 class ScenarioError(ValueError):
-    """An input was refused. `problems` has all its errors, each a `Problem`.
+    """An input was refused. `problems` contains all errors of the input as `Problem` objects.
 
     >>> import sixstep
     >>> try:
@@ -51,7 +51,7 @@ class ProgramError(RuntimeError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C ended a run or a sweep early. `result` has the part that was finished; None if there is none."""
+    """Ctrl-C ended a run or a sweep early. `result` contains the finished part; None if nothing was finished."""
 
     def __init__(self, result: Any, message: str = "") -> None:
         super().__init__(message or f"interrupted at {result.simulated_s:.6g} s; .result has the finished part")

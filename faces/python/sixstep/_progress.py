@@ -9,7 +9,7 @@ from typing import Any
 
 
 def notebook_display() -> Any:
-    """IPython's module of displays inside a notebook, else None."""
+    """IPython's display module inside a notebook, else None."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     if shell is None or not hasattr(shell, "kernel"):
@@ -21,7 +21,7 @@ def notebook_display() -> Any:
 
 @contextlib.contextmanager
 def shown(progress: bool | Callable[[float], None], duration_s: float) -> Iterator[Callable[[float], None] | None]:
-    """Function that the run calls with its simulated time in s: none, the given one, or one that draws a bar."""
+    """The function that the run calls with its simulated time in s: None, the given function, or a function that draws a bar."""
     if not isinstance(progress, bool):
         yield progress
     elif not progress:

@@ -34,7 +34,7 @@ def setting_text(value: Any) -> str:
 
 
 def file_text(tables: Mapping[str, Any]) -> str:
-    """A whole file. Numbers may be texts with a unit: {"pwm": {"period_s": "40us"}}."""
+    """A complete file. Numbers may be texts with a unit: {"pwm": {"period_s": "40us"}}."""
     lines = [f"{key} = {value_text(value)}" for key, value in tables.items() if not _is_table(value)]
     for key, value in tables.items():
         if isinstance(value, Mapping):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Controllers of your own: in Python, or in C or C++ compiled by one call."""
+"""A user's own controllers: in Python, or compiled from C or C++ by one call."""
 from __future__ import annotations
 
 import hashlib
@@ -15,7 +15,7 @@ Measured = _core.Measured
 
 
 def as_controller(controller: Any) -> Any:
-    """The object that the library calls once per control period. `controller.legs = True` makes it a controller of three legs."""
+    """The object that the library calls once per control period. With `controller.legs = True` it controls three legs."""
     return controller if isinstance(controller, _core.Controller) else _core.Controller(controller, bool(getattr(controller, "legs", False)))
 
 

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 class Box:
-    """Bounds of an array; gymnasium.spaces.Box takes its place where gymnasium is installed."""
+    """Bounds of an array. If gymnasium is installed, gymnasium.spaces.Box is used instead."""
 
     def __init__(self, low: Array, high: Array) -> None:
         self.low, self.high, self.shape = low, high, low.shape
@@ -35,20 +35,20 @@ def _box(low: Array, high: Array) -> Any:
 
 
 class Env:
-    """Drives of one scenario side by side, each commanded once per step.
+    """Drives of one scenario. Each drive receives one action per step.
 
-    scenario   its reference, load, sensors and [[at]] changes are the task; its controller is replaced by the actions
-    drives     how many; arrays have one row per drive
+    scenario   defines the task: reference, load, sensors and [[at]] changes. The actions replace its controller
+    drives     number of drives; arrays have one row per drive
     action     "duty": the duty of the driven pair, -1..1, commutated by the Hall code; "legs": duties of the three legs, 0..1;
-               "current": setpoint of the library's current loop in A, with the gains that the scenario designs
+               "current": setpoint of the library's current loop in A, with the gains of the scenario
     hold       control periods per step
-    spread     True: each drive is another one of the scenario's [[spread]]; False: all are as written
-    reward     function of (observation, action) with one row per drive; without it minus the distance of `target` from the setpoint
+    spread     True: each drive is a different drive of the scenario's [[spread]]. False: all drives have the scenario's values
+    reward     function of (observation, action) with one row per drive. Default: minus the distance between `target` and the setpoint
     target     the observed value that follows the setpoint: "speed_rad_s", "motor_current_A" or another of `Env.observed`
-    workers    threads; without it one per core. Results do not depend on it
+    workers    number of threads. Default: one per core. Results do not depend on this number
 
-    An observation is what the board measures at a control tick (`Env.observed`); the action of a step acts from the next tick on,
-    as the output of a firmware that needs one period to compute.
+    An observation contains the board's measurements at a control tick (`Env.observed`). The action of a step acts from the next tick
+    on, like the output of a firmware that needs one period to compute.
 
     >>> import numpy as np, sixstep
     >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=0.01, control={"mode": "speed"}, reference={"value": 100, "unit": "rad/s"})
@@ -90,7 +90,7 @@ class Env:
         self.single_observation_space = _box(-bound[0], bound[0])
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
-        """Starts all drives anew. `seed` chooses the series of drives that `spread` draws from."""
+        """Restarts all drives. `seed` is the seed of the drives of `spread`."""
         if seed is not None:
             if operator.index(seed) < 0:
                 raise ValueError(f"seed = {seed} must be at least 0")
@@ -100,8 +100,8 @@ class Env:
         return self._core.observations(), {}
 
     def step(self, actions: Any) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """One step of all drives: observations, rewards, terminated, truncated, info. A fault terminates a drive's run, its duration
-        truncates it; then it stays where it is until `reset_where`."""
+        """One step of all drives: observations, rewards, terminated, truncated, info. A fault terminates a drive's run, and the end of
+        the duration truncates it. An ended run does not change until `reset_where`."""
         given = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, self._columns)
         if not (np.isfinite(given).all() and (given >= self._least).all() and (given <= self._most).all()):
             raise ValueError(f"each action must lie in {self._least:g} to {self._most:g}, the bounds of action_space")
@@ -112,7 +112,7 @@ class Env:
         return seen, self.rewarded(seen, given), failed, over & ~failed, {}
 
     def reset_where(self, which: Any) -> Array:
-        """Starts the drives of this mask anew, each as the next one of the series; returns all observations."""
+        """Restarts the drives of this mask. Each becomes the next drive of the series. Returns all observations."""
         mask = np.asarray(which)
         if mask.dtype != np.bool_ or mask.shape != (self.num_envs,):
             raise ValueError(f"reset_where needs one True or False for each of the {self.num_envs} drives")
@@ -144,4 +144,4 @@ class Env:
         return column
 
     def close(self) -> None:
-        """Nothing to do: memory is freed with the object."""
+        """Does nothing. The memory is freed with the object."""

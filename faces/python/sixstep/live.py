@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A chart that grows while a session runs."""
+"""A chart that is updated while a session advances."""
 from __future__ import annotations
 
 from typing import Any
@@ -11,10 +11,10 @@ from .session import Session, place_of
 
 
 def watch(session: Session, *names: str, to_s: float, step_s: float, window_s: float | None = None) -> Any:
-    """Advances the session to the instant `to_s` and draws the named signals after each `step_s`: in a notebook in place, in a script
-    in matplotlib's window. Ctrl-C stops in between, and the session can go on. Returns the figure.
+    """Advances the session to the instant `to_s` and draws the named signals after each `step_s`. A notebook updates the chart, a script
+    draws it in matplotlib's window. After Ctrl-C the session can be continued. Returns the figure.
 
-    window_s  shows only so much before the present instant; without it the whole time
+    window_s  duration of the shown signals before the present instant. Default: all
 
     >>> import matplotlib; matplotlib.use("Agg")
     >>> import sixstep, sixstep.live

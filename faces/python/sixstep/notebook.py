@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How results look in a notebook: the verdict as a table, and charts that can be read and zoomed, with no script from a network."""
+"""Shows results in a notebook: the verdict as a table, and charts with values at the pointer and zoom. No script comes from a network."""
 from __future__ import annotations
 
 import html
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .result import Result
 
 WIDTH, HEIGHT, BINS = 720, 150, 300
-SHOWN_RUNS = 20  # of a sweep
+SHOWN_RUNS = 20  # largest number of a sweep's runs that are shown
 USUAL = ("speed_rad_s", "speed_m_s", "i_a_A", "torque_Nm", "force_N")
 
 
@@ -50,7 +50,7 @@ def _limits(low: float | None, high: float | None) -> str:
 
 
 def _charts(result: Result) -> str:
-    """All charts over the same rows, and the script that shows the values at the pointer."""
+    """All charts of the same rows, and the script that shows the values at the pointer."""
     names = [name for name in USUAL if name in result.units]
     t = result.time
     keep = _kept([result[name] for name in names], len(t))
@@ -63,7 +63,7 @@ def _charts(result: Result) -> str:
 
 
 def _kept(columns: list[Any], rows: int) -> Any:
-    """Few rows that have the least and the greatest value of each column in each part of the run."""
+    """A few rows with the least and the greatest value of each column in each part of the run."""
     if rows <= 6 * BINS:
         return np.arange(rows)
     kept = {0, rows - 1}

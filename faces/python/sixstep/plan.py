@@ -24,7 +24,7 @@ from .scenario import Source, as_scenario
 
 
 class Sweep:
-    """Results of many runs, a row each. `s["run"]` and `s["settling time of motor current"]` are numpy arrays.
+    """Results of many runs, one row per run. `s["run"]` and `s["settling time of motor current"]` are numpy arrays.
 
     >>> import sixstep
     >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "duty"}, reference={"value": 0.2},
@@ -47,7 +47,7 @@ class Sweep:
 
     @property
     def passed(self) -> int:
-        """Runs in which every requirement holds."""
+        """Number of runs in which every requirement holds."""
         return int(self.summary["passed"])
 
     @property
@@ -57,7 +57,7 @@ class Sweep:
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self._values:
-            raise KeyError(f"{name} is no column; there are {', '.join(self.columns)}")
+            raise KeyError(f"{name} is not a column; the columns are {', '.join(self.columns)}")
         return self._values[name]
 
     def keys(self) -> list[str]:
@@ -74,7 +74,7 @@ class Sweep:
         return len(self._values["run"])
 
     def frame(self) -> Any:
-        """A pandas DataFrame; `attrs["units"]` has the units."""
+        """A pandas DataFrame; `attrs["units"]` contains the units."""
         import pandas
 
         frame = pandas.DataFrame(self._values).set_index("run")
@@ -93,19 +93,19 @@ class Sweep:
 def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: int = 0, seed: int = 1, sampling: str = "grid",
           points: int | None = None, store: str | os.PathLike[str] | None = None, resume: bool = False, jobs: int | None = None,
           tolerances: bool = False) -> Sweep:
-    """Runs the scenario at each point of `vary`, and each point with `drives` drives of its [[spread]].
+    """Runs the scenario at each point of `vary`. At each point it runs `drives` drives of the scenario's [[spread]].
 
     vary    {"control.current.settle_s": [1e-3, 2e-3]}: any list of values, as np.linspace(1e-3, 5e-3, 9); or the text "1e-3:5e-3:9", nine
             values from 1e-3 to 5e-3
-    drives  of the scenario's [[spread]] at each point; their gains stay those of the nominal motor
-    seed    of the drives and of drawn points
+    drives  number of drives of the scenario's [[spread]] at each point. All drives have the gains of the nominal motor
+    seed    seed of the drives and of drawn points
     sampling  "grid": each combination; "latin-hypercube", "sobol", "monte-carlo", "saltelli": `points` points in the ranges of vary
-    tolerances  True: drives also differ by the data sheet's tolerances and the places of Hall edges
-    store   keeps each finished run in this SQLite file; with resume=True only what is missing is run
-    jobs    runs side by side; without it one per core
+    tolerances  True: drives also differ within the data sheet's tolerances and in the positions of Hall edges
+    store   SQLite file for the finished runs. With resume=True only the missing runs are made
+    jobs    number of runs in parallel. Default: one per core
 
-    A point that the scenario's checks refuse has its message in the column "problem", and no figures. Ctrl-C raises `Interrupted`, whose
-    `.result` has the finished runs.
+    If the scenario's checks refuse a point, the column "problem" has the message, and the point has no figures. Ctrl-C raises
+    `Interrupted`, whose `.result` contains the finished runs.
 
     >>> import sixstep
     >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "duty"}, reference={"value": 0.2},
@@ -116,7 +116,7 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
     if not vary and not drives:
         raise ValueError("nothing varies: give vary, drives or both")
     if points is not None and sampling == "grid":
-        raise ValueError('points needs sampling = "latin-hypercube", "sobol", "monte-carlo" or "saltelli"; a grid has those of vary')
+        raise ValueError('points needs sampling = "latin-hypercube", "sobol", "monte-carlo" or "saltelli"; a grid has the points of vary')
     scenario = as_scenario(scenario)
     words = ["--sampling", sampling] if sampling != "grid" else []
     for key, values in (vary or {}).items():
@@ -132,7 +132,7 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
         told = _ended([program(), "run", *file, *words, "--quiet", "--json", str(out)])
         partial = out.with_name("plan.partial.json")
         if told is None:
-            kept = f"; the finished runs are in {os.fspath(store)}: the same call with resume=True goes on" if store is not None else ""
+            kept = f"; the finished runs are in {os.fspath(store)}; call again with resume=True to continue" if store is not None else ""
             raise Interrupted(Sweep(json.loads(partial.read_text())) if partial.exists() else None, f"interrupted{kept}")
         if not out.exists():
             _raise(told)
@@ -146,9 +146,9 @@ def _ended(words: list[str]) -> str | None:
             return made.communicate()[1]
         except KeyboardInterrupt:
             try:
-                made.wait(0.5)  # on a terminal it has heard the same
+                made.wait(0.5)  # on a terminal, Ctrl-C also reaches the program
             except subprocess.TimeoutExpired:
-                made.send_signal(signal.SIGINT)  # a notebook's stop reaches this process alone
+                made.send_signal(signal.SIGINT)  # a notebook's stop reaches only this process
             made.communicate()
             return None
 
@@ -168,7 +168,7 @@ def _name_and_unit(heading: str) -> tuple[str, str]:
 
 
 def _array(values: list[Any]) -> NDArray[Any]:
-    """Numbers with "never" as infinity and missing ones as NaN; texts as they are."""
+    """Numbers: "never" becomes infinity, a missing number NaN. Texts are unchanged."""
     if all(v is None or isinstance(v, (int, float)) or v == "never" for v in values):
         if values and all(isinstance(v, bool) for v in values):
             return np.array(values)

@@ -32,7 +32,7 @@ def _styled(axes: Any, label: str) -> None:
 
 
 def run_chart(result: Result, *names: str, from_s: float | None = None, to_s: float | None = None) -> Any:
-    """A chart over time for each of `names`; without names the usual ones that were recorded. Returns the figure.
+    """A chart over time for each of `names`. Default: the usual signals that were recorded. Returns the figure.
 
     >>> import matplotlib; matplotlib.use("Agg")
     >>> import sixstep, sixstep.plots
@@ -72,7 +72,7 @@ def empty_charts(names: list[tuple[str, str]]) -> tuple[Any, list[Any]]:
 
 
 def closed(figure: Any) -> None:
-    """Releases a figure that a notebook has shown already, so that it is not shown again."""
+    """Releases a figure that the notebook has shown, so that the notebook does not show it again."""
     _pyplot().close(figure)
 
 
@@ -118,7 +118,7 @@ def conducting(upper: float, lower: float, current_A: float) -> str:
 
 
 def bridge(result: Result, at_s: float) -> Any:
-    """The bridge at an instant of the run: gates that are on, what conducts, and the current of each phase. Returns the figure.
+    """The bridge at an instant of the run: gates that are on, devices that conduct, and the current of each phase. Returns the figure.
 
     >>> import matplotlib; matplotlib.use("Agg")
     >>> import sixstep, sixstep.plots

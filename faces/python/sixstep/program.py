@@ -46,7 +46,7 @@ class Study(Mapping[str, Any]):
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self.__dict__.get("_figures", {}):
-            raise AttributeError(f"no figure {name}; there are {', '.join(self.__dict__.get('_figures', {}))}")
+            raise AttributeError(f"no figure {name}; the figures are {', '.join(self.__dict__.get('_figures', {}))}")
         return self[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -70,7 +70,7 @@ class Study(Mapping[str, Any]):
 
 
 def _short(value: Any) -> str:
-    """Tables and long lists by their size."""
+    """Text of a value; a table or a long list is described by its size."""
     if isinstance(value, dict):
         return f"figures {', '.join(value)}"
     return f"{len(value)} values" if isinstance(value, list) and len(value) > 6 else f"{value:.6g}" if isinstance(value, float) else str(value)
@@ -102,12 +102,12 @@ def _asked(words: list[str], json_words: list[str], options: Mapping[str, Any]) 
 def _raise(message: str) -> None:
     lines = [line for line in message.strip().splitlines() if line]
     problems = [Problem("", "", limit, cure) for limit, _, cure in (line.partition("; ") for line in lines)]
-    raise ScenarioError(problems) if problems else ProgramError("the program said nothing")
+    raise ScenarioError(problems) if problems else ProgramError("the program failed without a message")
 
 
 @contextlib.contextmanager
 def scenario_file(scenario: Scenario, but: Collection[str] = ()) -> Iterator[list[str]]:
-    """Words by which the program reads the scenario: its own file with settings but those, or a temporary one."""
+    """The program's words for the scenario: the scenario's file with its settings except `but`, or a temporary file."""
     if scenario.path and _unchanged(scenario):
         words = [scenario.path]
         for key, value in scenario._settings.items():
@@ -121,7 +121,7 @@ def scenario_file(scenario: Scenario, but: Collection[str] = ()) -> Iterator[lis
 
 
 def _unchanged(scenario: Scenario) -> bool:
-    """Whether the scenario's file still has the text that was read."""
+    """True if the scenario's file still contains the text that was read."""
     try:
         return pathlib.Path(str(scenario.path)).read_text(encoding="utf-8", errors="surrogateescape") == scenario._source
     except OSError:
@@ -129,7 +129,7 @@ def _unchanged(scenario: Scenario) -> bool:
 
 
 def design(motor: str | os.PathLike[str] | Scenario, **options: Any) -> Study:
-    """Gains for a motor, simulated and put through the sheet's tolerances. Options are those of `sixstep design`:
+    """Gains for a motor, simulated over the sheet's tolerances. The options are the options of `sixstep design`:
     design("maxon-251601", mode="speed", settle=0.02). `ok` says whether the drive is usable.
 
     >>> import sixstep
@@ -145,7 +145,7 @@ def design(motor: str | os.PathLike[str] | Scenario, **options: Any) -> Study:
 
 
 def curve(motor: str | os.PathLike[str], **options: Any) -> Study:
-    """Torque-speed curve. Options are those of `sixstep curve`: curve("maxon-251601", voltage=18).
+    """Torque-speed curve. The options are the options of `sixstep curve`: curve("maxon-251601", voltage=18).
 
     >>> import sixstep
     >>> len(sixstep.curve("maxon-251601", points=5).points)
@@ -167,17 +167,17 @@ def check(motor: str | os.PathLike[str]) -> Study:
 
 
 def wiring(motor: str | os.PathLike[str], **options: Any) -> Study:
-    """The motor's behaviour with each of the 36 orders of its phase and Hall wires."""
+    """The motor's behaviour in each of the 36 ways to connect its phases and Hall lines."""
     return _asked(["motor", "wiring", os.fspath(motor)], ["--json"], options)
 
 
 def compare(motor: str | os.PathLike[str], **options: Any) -> Study:
-    """All controllers on one motor. Options are those of `sixstep compare`: compare("maxon-251601", drives=10)."""
+    """All controllers on one motor. The options are the options of `sixstep compare`: compare("maxon-251601", drives=10)."""
     return _asked(["compare", os.fspath(motor)], ["--json", "FILE"], options)
 
 
 def bode(scenario: Source, **options: Any) -> Study:
-    """The measured frequency response of the outermost loop where the scenario ends, beside the designed one.
+    """The measured and the designed frequency response of the outermost loop at the end of the scenario.
 
     >>> import sixstep
     >>> figures = sixstep.bode(sixstep.shipped("thesis/7.3.1-locked-exact-design"))
@@ -189,5 +189,5 @@ def bode(scenario: Source, **options: Any) -> Study:
 
 
 def main(words: list[str] | None = None) -> int:
-    """Runs the program as `python -m sixstep` does."""
+    """Runs the program, like `python -m sixstep`."""
     return subprocess.run([program(), *(sys.argv[1:] if words is None else words)], check=False).returncode

@@ -73,7 +73,7 @@ class Result:
 
     @property
     def passed(self) -> bool:
-        """Whether the run came to its end and every requirement holds."""
+        """True if the run reached its end and every requirement holds."""
         return bool(self._outcome.passed) and self.complete
 
     @property
@@ -104,7 +104,7 @@ class Result:
 
     @property
     def figures(self) -> dict[str, float]:
-        """Measured figures by name, required or compared. A repeated name ends with " (2)" the second time."""
+        """Measured figures of requirements and comparisons, by name. The second figure of the same name has " (2)" after its name."""
         rows = [*self.summary["require"], *self.summary["compare"]]
         return dict(zip(distinct(row["figure"] for row in rows), (_number(row["measured"]) for row in rows)))
 
@@ -124,7 +124,7 @@ class Result:
         found = [n for full, n in self._index.items() if without_unit(full) == name]
         if len(found) == 1:
             return found[0]
-        raise KeyError(f"{name} is not recorded; recorded are {', '.join(self._index)}")
+        raise KeyError(f"{name} is not recorded; the recorded columns are {', '.join(self._index)}")
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A column, with or without its unit's suffix."""
@@ -139,7 +139,7 @@ class Result:
             raise AttributeError(error.args[0]) from None
 
     def __reduce__(self) -> Any:
-        raise TypeError("a result holds arrays of the run's memory and cannot be pickled; send result.summary or result.frame()")
+        raise TypeError("a result refers to the run's memory and cannot be pickled; send result.summary or result.frame()")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._index]
@@ -167,12 +167,12 @@ class Result:
 
     @property
     def events(self) -> dict[str, NDArray[np.float64]]:
-        """All columns at every event, both sides of each jump; only with run(..., events=True)."""
+        """All columns at every event, with the values before and after each jump. Only with run(..., events=True)."""
         names = [Column(*c).name for c in self._outcome.event_columns]
         return {name: self._outcome.event_column(n) for n, name in enumerate(names)}
 
     def frame(self) -> Any:
-        """A pandas DataFrame of the recorded columns; `attrs["units"]` has the units."""
+        """A pandas DataFrame of the recorded columns; `attrs["units"]` contains the units."""
         import pandas  # only here: the rest works without
 
         frame = pandas.DataFrame({c.name: self[c.name] for c in self.columns})
@@ -186,7 +186,7 @@ class Result:
         return run_chart(self, *names, **options)
 
     def to_dict(self) -> dict[str, Any]:
-        """All results but the recorded columns."""
+        """All results except the recorded columns."""
         return dict(self.summary)
 
     def __repr__(self) -> str:
@@ -218,7 +218,7 @@ def without_unit(name: str) -> str:
 
 
 def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> list[str]:
-    """The names, each once: " (2)" behind the second of two that are alike."""
+    """The names, made unique: the second of two equal names gets " (2)" at its end."""
     seen, out = {name: 1 for name in taken}, []
     for name in names:
         seen[name] = seen.get(name, 0) + 1
@@ -240,12 +240,12 @@ def _short(x: float) -> str:
 
 def run(scenario: Source, controller: Any = None, *, books: bool = True, events: bool = False,
         progress: bool | Callable[[float], None] = False) -> Result:
-    """Simulates the scenario. Other Python threads go on meanwhile.
+    """Simulates the scenario. Other Python threads can run at the same time.
 
-    controller  a function f(m, setpoint) or an object with step(m, setpoint): takes the place of the drive
+    controller  a function f(m, setpoint) or an object with step(m, setpoint), which replaces the drive
                 (`sixstep.Measured` lists what m has); its exception stops the run and is raised here
-    books       energy balance and standing laws: about a third of the time more
-    events      keep all columns at every event, in `result.events`
+    books       True: checks the energy balance and the physical laws; the run takes about a third longer
+    events      True: `result.events` contains all columns at every event
     progress    True: a bar on the terminal or in the notebook; or a function of the simulated time in s, called now and then and
                 at the end
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenarios: what is simulated. Keys, units and checks are those of the scenario file."""
+"""Scenarios. Keys, units and checks are the same as in a scenario file."""
 from __future__ import annotations
 
 import difflib
@@ -107,7 +107,7 @@ class Scenario:
         return None if os.path.basename(self._name) == _TEXT else self._name
 
     def portable_text(self) -> str:
-        """The scenario as a file that can lie in any folder: a motor's file is named by its whole path."""
+        """The scenario as a file that can be in any folder: it names the motor's file by its absolute path."""
         file = os.path.join(os.path.dirname(self._name), self.motor)
         found = next((path for path in (file, f"{file}.toml") if os.path.isfile(path)), None)
         return self.to_toml() if found is None else re.sub(r"(?m)^motor = .*$", lambda _: f"motor = {_toml.value_text(found)}", self.to_toml(), count=1)
@@ -138,7 +138,7 @@ class Scenario:
         return None
 
     def get(self, key: str, default: Any = None) -> Any:
-        """The value of a key, or `default` where the key has none. An unknown key raises KeyError, as `s[key]` does."""
+        """The value of a key, or `default` if the key has no value. An unknown key raises KeyError, as `s[key]` does."""
         value = self[key]
         return default if value is None else value
 
@@ -146,7 +146,7 @@ class Scenario:
         self.update({key: value})
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Sets several keys at once: for values that are only valid together."""
+        """Sets several keys at once, for values that are valid only together."""
         settings = {**self._settings, **{key: _toml.setting_text(value) for key, value in values.items()}}
         self._core = self._checked(settings)  # raises before anything has changed
         self._settings = settings
@@ -225,7 +225,7 @@ def scenarios() -> list[str]:
 
 
 def shipped(name: str) -> Scenario:
-    """A scenario that ships with sixstep. Raises `ValueError` with similar names for one that does not.
+    """A scenario that ships with sixstep. Raises `ValueError` with similar names if sixstep does not contain the scenario.
 
     >>> import sixstep
     >>> sixstep.shipped("current-square").motor
@@ -234,7 +234,7 @@ def shipped(name: str) -> Scenario:
     names = scenarios()
     if name not in names:
         near = difflib.get_close_matches(name, names, 3) or [other for other in names if name in other][:3]
-        raise ValueError(f"{name} does not ship with sixstep; {'take ' + ', '.join(near) if near else 'sixstep.scenarios() lists those that do'}")
+        raise ValueError(f"{name} does not ship with sixstep; {'take ' + ', '.join(near) if near else 'sixstep.scenarios() lists the scenarios'}")
     return Scenario(_SHIPPED / f"{name}.toml")
 
 
@@ -243,7 +243,7 @@ Source = Scenario | str | os.PathLike[str] | Mapping[str, Any]
 
 
 def as_scenario(source: Source) -> Scenario:
-    """The scenario, or one made from a path, a text or a dict."""
+    """The scenario itself, or a scenario made from a path, a text or a dict."""
     return source if isinstance(source, Scenario) else Scenario(source)
 
 
@@ -255,7 +255,7 @@ def _restored(name: str, source: str, settings: dict[str, str], data_dir: str) -
 
 
 def _read(source: Any, tables: Mapping[str, Any]) -> tuple[str, str]:
-    """Name in messages, and text."""
+    """The scenario's name in messages, and its text."""
     here = os.path.join(os.getcwd(), _TEXT)  # names in a text are relative to the folder in which it was read
     if source is None:
         return here, _toml.file_text(tables)

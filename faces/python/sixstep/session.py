@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A run in slices: advance, read, change, copy, save."""
+"""A run that is advanced in steps: advance, read, change, copy, save."""
 from __future__ import annotations
 
 import json
@@ -17,7 +17,7 @@ _PLACE = {c.name: n for n, c in enumerate(_SIGNALS)}
 
 
 def place_of(name: str) -> int:
-    """Place of a signal, with or without its unit's suffix."""
+    """Index of a signal by its name, with or without the unit's suffix."""
     if name in _PLACE:
         return _PLACE[name]
     found = [n for n, c in enumerate(_SIGNALS) if without_unit(c.name) == name]
@@ -27,7 +27,7 @@ def place_of(name: str) -> int:
 
 
 class Session:
-    """A run that is advanced step by step. Steps and reads do not change a bit of it.
+    """A run that is advanced step by step. Steps and reads do not change a bit of the run.
 
     >>> import sixstep
     >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=4e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"})
@@ -80,7 +80,7 @@ class Session:
         return bool(self._core.over)
 
     def __getitem__(self, name: str) -> float:
-        """The present value of a signal, by its column's name, as "i_a_A", or without its unit."""
+        """The present value of a signal. `name` is the column's name with its unit ("i_a_A") or without."""
         return float(self._core.signals()[place_of(name)])
 
     @staticmethod
@@ -93,7 +93,7 @@ class Session:
         return dict(zip(_PLACE, self._core.signals().tolist()))
 
     def change(self, change: Mapping[str, Any] | str) -> float:
-        """Changes values at the next control tick, as an [[at]] table of a scenario does; returns that instant in s.
+        """Changes values at the next control tick, as an [[at]] table of a scenario does. Returns the instant of this tick in s.
 
         `change` is a dict, as {"reference": {"value": 3}}, or the lines of such a table. Raises `ScenarioError`
         if it is not valid, and then nothing has changed.
@@ -105,7 +105,7 @@ class Session:
         return at
 
     def copy(self) -> Session:
-        """An independent copy, which goes on from the same state."""
+        """An independent copy in the same state."""
         new = object.__new__(Session)
         new.__dict__.update(self.__dict__)
         new._core = self._core.copy()
@@ -124,7 +124,7 @@ class Session:
 
     @staticmethod
     def restore(saved: bytes) -> Session:
-        """The session that `save` wrote, to the bit, also in another process."""
+        """Restores the session that `save` wrote, to the bit, also in another process."""
         from .scenario import _restored
 
         try:
@@ -143,11 +143,11 @@ class Session:
 
     @property
     def scenario_text(self) -> str:
-        """The scenario with all changes so far; a run of it has the bits of this session."""
+        """The scenario with all changes so far. A run of this scenario has the same bits as this session."""
         return str(self._core.text())
 
     def close(self) -> Result:
-        """Ends the session at the next control tick and returns its results. They are incomplete if the run was not over."""
+        """Ends the session at the next control tick and returns its results. The results are incomplete if the run was not over."""
         early = not self.over
         return Result(self._core.close(), self._scenario, ended_early=early)
 
@@ -155,7 +155,7 @@ class Session:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """The session is freed with its last reference; results are those of close()."""
+        """Does nothing. The session is freed with its last reference, and close() returns the results."""
 
     def __deepcopy__(self, _: Any) -> Session:
         return self.copy()

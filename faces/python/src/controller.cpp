@@ -50,7 +50,7 @@ py::dict as_dict(const sixstep_given& g) {
 /// Raises an exception for an answer of another type, or for a number out of its range.
 [[noreturn]] void throw_wrong(const py::object& out, const char* wanted) {
   PyErr_Format(PyErr_Occurred() ? PyExc_TypeError : PyExc_ValueError,
-               "the controller's step() returned %.60R; it returns %s", out.ptr(), wanted);
+               "the controller's step() returned %.60R; it must return %s", out.ptr(), wanted);
   throw py::error_already_set();
 }
 

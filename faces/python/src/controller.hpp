@@ -22,7 +22,7 @@ namespace python {
 
 class Controller {
  public:
-  /// `legs`: whether the output commands three legs; otherwise it commands the driven pair.
+  /// `legs`: true: the output commands three legs; false: it commands the driven pair.
   Controller(pybind11::object controller, bool legs);
 
   const sixstep_controller* functions() const { return &functions_; }

@@ -84,7 +84,7 @@ class Environment {
     if (!crew_.has_threads())
       throw py::value_error("the environment was made in another process; make one in each process");
     for (const Drive& drive : drives_)
-      if (!drive.session) throw py::value_error("reset() comes before the first step()");
+      if (!drive.session) throw py::value_error("call reset() before the first step()");
     for (std::size_t n = 0; n < drives_.size(); ++n)
       for (std::size_t k = 0; k < actions_; ++k) drives_[n].exchange->action[k] = actions.at(n, k);
     for (; periods > 0; periods -= std::min(periods, between_looks)) {

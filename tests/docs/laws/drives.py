@@ -168,7 +168,7 @@ def starts(test, spot):
 
 def braking(test, spot):
     told = float(re.search(r"held up to ([\d.]+) rad/s", spot.text).group(1))
-    curve.same(test, spot, "(i/K_t) R", told, I_N / K_T * R, 2e-3)
+    curve.same(test, spot, "i R_tt/K_t", told, I_N / K_T * R, 2e-3)
 
 
 def exported(test, spot):

@@ -210,7 +210,7 @@ BY_TEXT = [
     ("docs/howto/use-a-cluster.md", "| ranks |", tables.cluster_measured), ("docs/howto/use-a-cluster.md", "| a run |", tables.cluster_limits),
     ("docs/reference/core-bits.md", "| digests |", tables.digests), ("docs/reference/block-costs.md", "| function |", tables.block_costs),
     ("docs/reference/core-costs.md", "| core | arithmetic |", tables.drive_costs), ("docs/howto/write-a-controller.md", "core        step", tables.own_cost),
-    ("docs/howto/compare-a-log.md", "less the simulation", drives.laid_over), ("docs/howto/model-a-load.md", "grep remark", drives.lifted), ("docs/howto/steer-a-run-from-cpp.md", "the same bits again", session),
+    ("docs/howto/compare-a-log.md", "minus the simulation", drives.laid_over), ("docs/howto/model-a-load.md", "grep remark", drives.lifted), ("docs/howto/steer-a-run-from-cpp.md", "the same bits again", session),
     ("docs/howto/choose-a-rotor-sensor.md", "known by", tables.position), ("docs/reference/motor-sheets.md", "$ sixstep motor list", tables.motor_list),
     ("docs/reference/motor-sheets.md", "  Relation ", motor_check), ("docs/start/tour.md", "  Relation ", motor_check),
     ("docs/start/sheet-questions.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/start/sheet-questions.md", "torque_constant_Nm_A = 0.42", drives.frames),

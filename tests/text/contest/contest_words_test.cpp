@@ -40,8 +40,9 @@ std::string name(std::size_t who) { return std::string(analysis::contestants()[w
 
 TEST(ContestWords, WhoSharesAFigureIsNamed) {
   const auto told = words({{0, 1.0, 5.0}, {1, 2.0, 3.0}, {2, 3.0, 3.01}});
-  EXPECT_THAT(told, Contains(name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
-  EXPECT_THAT(told, Contains(HasSubstr(name(0) + " has the least ")));
+  EXPECT_THAT(told,
+              Contains(name(1) + " and " + name(2) + " share these least values within 5 %: total loss."));
+  EXPECT_THAT(told, Contains(HasSubstr(name(0) + " has these least values: ")));
   EXPECT_THAT(told, Not(Contains(HasSubstr("first two"))));
 }
 
@@ -49,18 +50,19 @@ TEST(ContestWords, WhoSharesAFigureIsNamed) {
 /// four controllers are within 5 %, the sentence names the other controllers instead, provided that these are
 /// fewer.
 TEST(ContestWords, AllWhoShareAFigureAreNamed) {
-  EXPECT_THAT(
-      words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
-      Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
-  // Percentages refer to the smallest value, as on the whole page. A value of 3.155 is 5.2 % above 3.
+  EXPECT_THAT(words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
+              Contains(name(0) + "; " + name(1) + " and " + name(2) +
+                       " share these least values within 5 %: total loss."));
+  // Percentages refer to the smallest value, as on the whole page: 3.155 is 5.2 % more than 3.
   EXPECT_THAT(words({{0, 1.0, 3.155}, {1, 2.0, 3.0}, {2, 3.0, 3.01}}),
-              Contains(name(1) + " and " + name(2) + " share the least total loss, within 5 %."));
+              Contains(name(1) + " and " + name(2) + " share these least values within 5 %: total loss."));
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}, {5, 6.0, 9.0}}),
       Contains("All controllers that hold the course, but for " + name(5) +
-               ", share the least total loss, within 5 %."));
-  EXPECT_THAT(words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}}),
-              Contains("All controllers that hold the course share the least total loss, within 5 %."));
+               ", share these least values within 5 %: total loss."));
+  EXPECT_THAT(
+      words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}}),
+      Contains("All controllers that hold the course share these least values within 5 %: total loss."));
 }
 
 /// If a controller exceeds 1.5 times the limit's current at the start, it has an unfair advantage. It must
@@ -94,8 +96,9 @@ TEST(ContestWords, AgainstNothingStandsAValue) {
   EXPECT_THAT(words({{0, 0.0, 1.0}, {1, 0.005, 2.0}}),
               Contains(HasSubstr(phrase + " (0 ms, the next 5 ms)")));
   const double never = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(words({{0, never, 1.0}, {1, 0.005, 2.0}}),
-              Contains(HasSubstr(name(1) + " has the least " + phrase + " (5 ms, the others never)")));
+  EXPECT_THAT(
+      words({{0, never, 1.0}, {1, 0.005, 2.0}}),
+      Contains(HasSubstr(name(1) + " has these least values: " + phrase + " (5 ms, the others never)")));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -23,12 +23,12 @@
 //   timing    sampled in the middle of a period, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 1e+06 Hz, speed over six edges if the loop tolerates their delay, else over one edge
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets constant at 25 degC
 //
-// Fixed point: what each quantity may reach and where the format ends, in SI
+// Fixed point: largest value of each quantity, and largest value of the format, in SI
 //   current                               10 of 19.9994
 //   current reference with band            5 of 19.9994
 //   current error                         15 of 19.9994
@@ -39,8 +39,8 @@
 //   current.limit                         24 of 24
 //   current integral increment        5.6967 of 336
 //
-// On a core, the current drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
-// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):
+// Worst costs on a core of a control tick and a Hall interrupt, without an interrupt's entry and exit. They were counted over
+// 80 000 recorded periods of the current drive of tests/target/scenarios/ (docs/reference/core-costs.md):
 //                               tick    Hall                   flash     RAM
 //   Cortex-M0   q15              139      62 instructions       1162     124 bytes
 //   Cortex-M3   q15              111      29 instructions        966     124 bytes
@@ -52,7 +52,7 @@
 //   ATmega2560  q15              996      42 cycles             2434     129 bytes
 //   ATmega2560  q31             2606      42 cycles             4020     197 bytes
 //   ATmega2560  float           2176      42 cycles             2046     193 bytes
-// They are of the control code alone; a whole image also has the board's code.
+// The counts cover the control code only; an image also contains the board's code.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
@@ -75,13 +75,13 @@ inline constexpr sixstep::control::Units<Scalar> units{
 };
 
 inline constexpr bool cleared = true;                                     // for a bridge that your firmware protects, and whose supply takes current back, by its run
-inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
+inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical turn
 inline constexpr std::uint64_t pwm_period_ps = 100000000;                 // 100 us, and the period of the control tick
-inline constexpr bool pwm_centre_aligned = true;                          // else the on-time begins with the period
+inline constexpr bool pwm_centre_aligned = true;                          // true: centred pulse; false: pulse at the period's start
 inline constexpr std::uint64_t dead_time_ps = 1000000;                    // 1 us
-inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = true;                             // a command takes effect in the next period
-inline constexpr bool sampled_in_middle = true;                           // in the middle of the period; else at its start
+inline constexpr bool commutate_at_sample = false;                        // true: at the sample; false: in the Hall interrupt
+inline constexpr bool command_delayed = true;                             // true: a command takes effect in the next period; false: at once
+inline constexpr bool sampled_in_middle = true;                           // true: sample in the middle of the period; false: at its start
 inline constexpr int adc_bits = 10;                                       // bits of each current converter
 inline constexpr double adc_amperes_per_count = 0x1.4p-6;                 // 0.0195312 A
 inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit, at each end of a potentiometer

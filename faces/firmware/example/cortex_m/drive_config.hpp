@@ -29,13 +29,13 @@
 //   timing    sampled at a period's start, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 12 bits over +-33 A
 //   bus       12 bits over 52.8 V
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sector edges (real probes are not; sheet_tolerances of a plan moves each edge by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges if the loop tolerates their delay, else over one edge
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
 //   heat      winding and magnets constant at 25 degC
 //
-// On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
-// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):
+// Worst costs on a core of a control tick and a Hall interrupt, without an interrupt's entry and exit. They were counted over
+// 80 000 recorded periods of the product drive of tests/target/scenarios/ (docs/reference/core-costs.md):
 //                               tick    Hall                   flash     RAM
 //   Cortex-M0   q15             1971     312 instructions      25748     276 bytes
 //   Cortex-M3   q15             1135     172 instructions      22842     276 bytes
@@ -47,8 +47,8 @@
 //   ATmega2560  q15             5365     976 cycles            14594     229 bytes
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
-// They are of the control code alone; a whole image also has the board's code.
-// Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us, and the STM32F303's may answer a period late below 69.6 us: watch `missed`.
+// The counts cover the control code only; an image also contains the board's code.
+// Note: a control period of 30 us is shorter than the ATmega2560's image needs (100 us). Below 69.6 us the STM32F303's image may apply a command one period late: check `missed`.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
@@ -71,13 +71,13 @@ inline constexpr sixstep::control::Units<Scalar> units{
 };
 
 inline constexpr bool cleared = true;                                     // for a bridge, by its run
-inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
+inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical turn
 inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 us, and the period of the control tick
-inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period
+inline constexpr bool pwm_centre_aligned = false;                         // true: centred pulse; false: pulse at the period's start
 inline constexpr std::uint64_t dead_time_ps = 500000;                     // 0.5 us
-inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = true;                             // a command takes effect in the next period
-inline constexpr bool sampled_in_middle = false;                          // in the middle of the period; else at its start
+inline constexpr bool commutate_at_sample = false;                        // true: at the sample; false: in the Hall interrupt
+inline constexpr bool command_delayed = true;                             // true: a command takes effect in the next period; false: at once
+inline constexpr bool sampled_in_middle = false;                          // true: sample in the middle of the period; false: at its start
 inline constexpr double timer_Hz = 0x1.12a88p+26;                         // 7.2e+07 Hz, counts up and wraps at 2^32
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
