@@ -136,7 +136,7 @@ def fitted(model, sheet):
 
     def points(L, dry, over):
         return model.points(dry_part(sheet.scaled("inductance_mH", L).scaled("no_load_current_mA", over), dry))
-    for _ in range(4):
+    for _ in range(5):
         over *= sheet.value("no_load_current_mA") / points(L, dry, over)["no_load_current_mA"]
         if speeds:
             L = solved(lambda x: points(x, dry, over)["nominal_speed_rpm"], speeds, L - 0.05, L + 0.05, 3)
@@ -217,9 +217,12 @@ TABLES = {"points": print_points, "currents": print_currents, "power": print_pow
 def main(words):
     if not words or words[0] not in TABLES:
         sys.exit(__doc__)
+    program = pathlib.Path(words[1] if len(words) > 1 else ROOT / "build/release/sixstep").resolve()
+    if not program.is_file():
+        sys.exit(f"{program} is no program; ./run builds build/release/sixstep, or name another one")
     compared, left_out = sheets()
     with tempfile.TemporaryDirectory() as folder:
-        model = Model(pathlib.Path(words[1] if len(words) > 1 else ROOT / "build/release/sixstep").resolve(), folder)
+        model = Model(program, folder)
         TABLES[words[0]](model, compared, *([left_out] if words[0] == "points" else []))
 
 

@@ -116,7 +116,7 @@ class Reasons(unittest.TestCase):
             factors.append(L)
             self.assertTrue(0 < dry < 1 and 1 < over < 1.02, f"{sheet.name}: {dry}, {over}")
             for point in {"no_load_current_mA", "nominal_speed_rpm", "nominal_current_A"} & set(sheet.points()):
-                self.assertLess(abs(found[point] / sheet.value(point) - 1), 3e-4, f"{sheet.name}, {point}")
+                self.assertLess(abs(found[point] / sheet.value(point) - 1), 1e-4, f"{sheet.name}, {point}")
             rounding = tool.deviations(MODEL, sheet)["no_load_speed_rpm"][3]
             self.assertLess(abs(found["no_load_speed_rpm"] / sheet.value("no_load_speed_rpm") - 1), rounding, sheet.name)
         low, high = map(int, re.search(r"\*\*at a\s+commutation (\d+) to (\d+) % of the printed", PAGE).groups())
