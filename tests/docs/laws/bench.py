@@ -127,3 +127,54 @@ def hall_places(test, spot):
         # The rest angle of a rotor with trapezoidal back-EMF differs by up to 1.12 degrees from the angle of a sinusoidal field.
         test.assertLessEqual(abs(float(found) - float(offset)), 1.12, str(spot))
         test.assertLessEqual(float(worst), 1.12, str(spot))
+
+
+TRUTH = {"resistance_ohm": 1.03, "flux_linkage_mWb": 0.0335 / 2 / 8 * 12 / pi**2 * 1e3, "inductance_mH": 0.572, "viscous_friction_Nm_s": 7.3e-6,
+         "coulomb_friction_mNm": 0.0, "inertia_gcm2": 135.0}
+
+
+def guide_emf(test, spot):
+    """The recording is of the 251601: its flux linkage and torque constant lie in the intervals."""
+    flux, low, high = map(float, re.search(r"flux linkage, mWb +([\d.]+) +([\d.]+) \.\. ([\d.]+)", spot.text).groups())
+    test.assertTrue(low <= flux <= high and low <= TRUTH["flux_linkage_mWb"] <= high, str(spot))
+    K_t, low, high = map(float, re.search(r"K_t, six-step, mNm/A +([\d.]+) +([\d.]+) \.\. ([\d.]+)", spot.text).groups())
+    test.assertTrue(low <= K_t <= high and low <= 33.5 <= high, str(spot))
+    rows, span, periods, hertz, least, most = map(float, re.search(
+        r"(\d+) rows in ([\d.]+) s, ([\d.]+) periods of ([\d.]+) Hz \(([\d.]+) \.\. ([\d.]+)\)", spot.text).groups())
+    near(test, spot, "105 rad/s", hertz, 8 * 105 / (2 * pi), 1e-4)
+    near(test, spot, "periods", periods, hertz * span, 5e-3)
+    test.assertTrue(rows > 10 * periods and least < hertz < most, str(spot))
+    near(test, spot, "rpm", float(re.search(r"8 pole pairs: ([\d.]+) rpm", spot.text).group(1)), 60 * hertz / 8, 1e-4)
+
+
+def guide_coast(test, spot):
+    """B w/J of the 251601 in the middle of the recording."""
+    hertz, change = map(float, re.search(r"periods of ([\d.]+) Hz .* changing by (-[\d.]+) Hz/s", spot.text).groups())
+    near(test, spot, "B w/J", change, -TRUTH["viscous_friction_Nm_s"] / (TRUTH["inertia_gcm2"] * 1e-7) * hertz, 2e-3)
+    near(test, spot, "rpm", float(re.search(r"pole pairs: ([\d.]+) rpm", spot.text).group(1)), 60 * hertz / 8, 1e-4)
+
+
+def guide_parameters(test, spot):
+    """The truth lies within the bounds; percent and range are those of value and half width."""
+    rows = re.findall(r"(?m)^(\w+) +([\d.e-]+) \+- +([\d.e-]+) \S.*?(?: +([\d.]+) %)? +(\d+) % of the variance", spot.text)
+    test.assertEqual([row[0] for row in rows], list(TRUTH), str(spot))
+    for key, value, half, percent, share in rows:
+        x, half = float(value), float(half)
+        test.assertLessEqual(abs(x - TRUTH[key]), half, f"{spot}: {key}")
+        test.assertTrue(0 < float(share) <= 100, f"{spot}: {key}")
+        if percent:
+            test.assertLess(abs(100 * half / x - float(percent)), 0.06 + 0.03 * float(percent), f"{spot}: {key}")
+        low, high = map(float, re.search(rf"(?m)^{key} = .*range = \[([\d.e-]+), ([\d.e-]+)\]", spot.text).groups())
+        test.assertLess(abs(low - max(0.0, x - half)) + abs(high - x - half), 0.11 * half, f"{spot}: {key}")
+
+
+def guide_table(test, spot):
+    """Minutes make half an hour, and the uncertainties are those that the page computes."""
+    from page import Page
+    computed = Page(spot.page).texts("output")[-1]
+    test.assertEqual(30, sum(int(cells[2]) for cells in spot.rows()), str(spot))
+    for at, key in enumerate(("resistance_ohm", "flux_linkage_mWb", "inductance_mH", "viscous_friction_Nm_s", "inertia_gcm2")):
+        told = re.search(r"[\d.]+ %", spot.rows()[at][4]).group(0)
+        test.assertRegex(computed, rf"(?m)^{key} .* {re.escape(told)} ", str(spot))
+    dry = re.search(r"coulomb_friction_mNm +[\d.]+ \+- +([\d.]+) mNm", computed).group(1)
+    test.assertIn(f"{dry} mNm", spot.rows()[3][4], str(spot))

@@ -2,7 +2,7 @@
 """The law of each block. A block is found by its page and a part of its text or heading."""
 import re
 
-from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, tables
+from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, sheets, tables
 from page import REPOSITORY
 
 # Blocks with a reader's input contain no results.
@@ -182,7 +182,13 @@ def rows_at_the_leader(test, spot):
     test.assertLess(abs(promised * letters * 1e-6 - float(re.search(r"are (\d+) MB/s", page).group(1))), 1, str(spot))
 
 
+GUIDE = "docs/howto/measure-a-motor.md"
+SHEETS = "docs/explanation/sheets-against-the-model.md"
 BY_TEXT = [
+    (GUIDE, "K_t, six-step", bench.guide_emf), (GUIDE, "coast.csv: ", bench.guide_coast), (GUIDE, "% of the variance", bench.guide_parameters),
+    (GUIDE, "| recording |", bench.guide_table),
+    *((SHEETS, f"sheet_points.py {law.__name__}\n", law) for law in (sheets.points, sheets.currents, sheets.power, sheets.fit, sheets.offset,
+                                                                     sheets.alternatives, sheets.stall)),
     ("docs/howto/use-the-c-library.md", "read a value", costs_of_calls), ("docs/howto/use-the-c-library.md", "i_b_A = ", signals_at_2_ms),
     ("docs/howto/use-the-c-library.md", "| language |", definition), ("docs/howto/use-the-c-library.md", " rad/s  ", first_lines), ("docs/howto/use-the-c-library.md", "725 A\n", held_by_the_supply),
     ("docs/howto/size-a-capacitor.md", "| worst duty |", capacitor.worst_duty), ("docs/howto/size-a-capacitor.md", "--vary", capacitor.capacitor_current),
@@ -230,7 +236,7 @@ MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tou
 # Pages and tables with definitions: names, formulas, commands, exit codes, and pages with code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
-DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
+DEFINING = [(GUIDE, "| mistake |"), (SHEETS, "| column |"), (SHEETS, "| you need |"), ("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
             ("docs/howto/use-from-octave-and-simulink.md", ""), ("docs/howto/run-a-firmware", "sixstep_status hal_run"), ("docs/howto/run-a-firmware", "static void advance"),
             ("docs/howto/run-a-firmware", "| file in "), ("docs/howto/run-a-firmware", "| function or macro |"), ("docs/reference/glossary.md", "| term |"),
             ("docs/howto/record-a-motor.md", "| column |"), ("docs/howto/measure-a-frequency-response.md", "| what stands there |"), ("docs/howto/commission-a-drive.md", "| phase |"),
