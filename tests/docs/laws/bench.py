@@ -178,3 +178,31 @@ def guide_table(test, spot):
         test.assertRegex(computed, rf"(?m)^{key} .* {re.escape(told)} ", str(spot))
     dry = re.search(r"coulomb_friction_mNm +[\d.]+ \+- +([\d.]+) mNm", computed).group(1)
     test.assertIn(f"{dry} mNm", spot.rows()[3][4], str(spot))
+
+
+# Constants of the simulated bench in docs/howto/fit-a-motor.md.
+FIT_TRUTH = {"resistance_ohm": 1.2, "inductance_mH": 0.5, "torque_constant_mNm_A": 31, "inertia_gcm2": 110,
+             "viscous_friction_Nm_s": 9e-6, "coulomb_friction_mNm": 4}
+
+
+def fit_rows(spot):
+    """Key: fitted value and bounds."""
+    number = r"(-?[\d.]+(?:e-?\d+)?)"
+    rows = re.findall(rf"^  (\w[\w. ]*?(?: in \S+| of \S+)?) +{number} \S[^\d]*? +{number} \S.*? +{number} \.\. {number}", spot.text, re.M)
+    return {key: tuple(map(float, (x, low, high))) for key, _, x, low, high in rows}
+
+
+def fit(test, spot):
+    """The bounds of a simulated bench contain its true constants; those of a real recording agree with `motor emf`."""
+    rows = fit_rows(spot)
+    for key, (x, low, high) in rows.items():
+        between(test, spot, key, x, low, high)
+    if "inertia_gcm2" in rows:
+        for key, truth in FIT_TRUTH.items():
+            between(test, spot, key, truth, *rows[key][1:])
+            test.assertLess(rows[key][2] - rows[key][1], 0.05 * truth, f"{spot}: {key}")
+        return
+    x, low, high = rows["torque_constant_mNm_A"]
+    test.assertTrue(35.3 < x < 37.9 and low < 36.6 < high, f"{spot}: motor emf finds 36.6, 35.3 to 37.9")
+    # The recording of motor emf has 501.11 rpm, 493.6 to 506.
+    near(test, spot, "speed", rows["initial.speed_rad_s"][0], 501.11 * pi / 30, 5e-3)

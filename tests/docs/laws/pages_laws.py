@@ -201,6 +201,7 @@ BY_TEXT = [
     ("docs/", "drives, seed", series.judge_drives),
     ("docs/howto/run-many.md", "verdict", series.judge_plan), ("docs/reference/plan-file.md", "verdict", series.judge_plan), ("docs/howto/find-the-best-point.md", "limited by", series.judge_best_pwm),
     ("docs/howto/run-many.md", "least_W", capacitor_store), ("docs/howto/controllers-on-a-", "$ sixstep compare", contest.judge),
+    ("docs/howto/fit-a-motor.md", "  fitted  ", bench.fit),
     ("docs/howto/measure-the-back-emf.md", "Constant  ", bench.emf), ("docs/howto/measure-the-back-emf.md", "CONTRADICTS", bench.held_against),
     ("docs/howto/measure-the-back-emf.md", "cut off, 1 - c", bench.clipped),
     ("docs/howto/find-the-hall-order.md", "hysteresis  ", bench.identify), ("docs/howto/commission-a-drive.md", "off by     bound", bench.commission_sheet),
