@@ -68,9 +68,35 @@ class Fitting {
     return improve(most_trials, least_noise);
   }
 
-  /// Searches, then takes the derivatives and the covariance at the solution.
+  /// Searches, then takes the derivatives and the covariance at the solution. In a rough model a search ends at one of many
+  /// small minima; the mean of estimates from points around it is the smooth model's.
   base::Problems settle() {
-    if (base::Problems problems = search(); !problems.empty()) return problems;
+    base::Problems problems = search();
+    if (problems.empty()) problems = take_covariance();
+    for (int round = 0; round < 4 && problems.empty(); ++round) {
+      std::vector<bool> determined = free_;
+      for (std::size_t k = 0; k < free_.size(); ++k)
+        determined[k] = free_[k] && is_determined(covariance_, k);
+      const base::Result<Estimates> around =
+          estimates_around(problem_, solution_, derivatives_, covariance_, determined);
+      if (!around) return around.problems();
+      double farthest = 0.0;
+      for (std::size_t k = 0; k < free_.size(); ++k) {
+        const auto at = static_cast<Index>(k);
+        if (!determined[k]) continue;
+        const double move = around->mean[at] - solution_.u[at];
+        farthest = std::max(farthest, std::fabs(move) / std::sqrt(covariance_.covariance(at, at)));
+        solution_.u[at] = within_range(k, around->mean[at]);
+      }
+      problems = take_covariance();
+      covariance_.roughness = around->spread;
+      covariance_.covariance += around->spread;
+      if (farthest < 0.3) break;
+    }
+    return problems;
+  }
+
+  base::Problems take_covariance() {
     base::Result<Eigen::VectorXd> residuals = problem_.residuals(solution_.u);  // in the latest noise
     if (!residuals) return residuals.problems();
     solution_.residuals = std::move(*residuals);
@@ -81,15 +107,18 @@ class Fitting {
     return {};
   }
 
+  /// Below 0 a friction has no effect, and no derivative.
+  double within_range(std::size_t k, double u) const {
+    const FitParameter& p = problem_.parameters()[k];
+    return p.positive ? std::max(u, -p.start / p.scale) : u;
+  }
+
   base::Problems improve(int trials, double least) {
     base::Result<FitSolution> found = solve(problem_, solution_.u, free_, trials);
     if (!found) return found.problems();
     solution_ = std::move(*found);
-    for (std::size_t k = 0; k < free_.size(); ++k) {  // below 0 a friction has no effect, and no derivative
-      const FitParameter& p = problem_.parameters()[k];
-      double& u = solution_.u[static_cast<Index>(k)];
-      if (p.positive) u = std::max(u, -p.start / p.scale);
-    }
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      solution_.u[static_cast<Index>(k)] = within_range(k, solution_.u[static_cast<Index>(k)]);
     change_ = problem_.take_noise(solution_.residuals, count(), least);
     return {};
   }

@@ -2,8 +2,11 @@
 #include "batch/fit/fit_bounds.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include "sixstep/analysis/identification/distributions.hpp"
@@ -17,6 +20,12 @@ using Index = Eigen::Index;
 
 /// Growth of the sum of squares at the parabola's bound, relative to the parabola's, from which on the profile is searched.
 constexpr double most_curved = 4.0;
+
+/// Pairs of points around a solution.
+constexpr int pairs_of_points = 16;
+
+/// Part of the variance by roughness from which on the profile is not searched.
+constexpr double most_rough = 0.05;
 
 /// Rows of one column of one bench, in the order of time.
 std::vector<Index> rows_of(const FitProblem& problem, std::size_t group) {
@@ -62,6 +71,9 @@ Eigen::MatrixXd scores_of(const Eigen::MatrixXd& j, const Eigen::VectorXd& r, co
   return sum;
 }
 
+/// Parts of a converter's step in which all rows have one error, also if they repeat from period to period.
+constexpr double parts_of_a_step = 4.0;
+
 /// Covariance of J' r that the steps of a converter cause. If the noise is below a step, rows within one step
 /// have the same error, which no residual shows. Its variance is step^2/12 without noise. Noise reduces the
 /// variance like the first harmonic of the steps' sawtooth.
@@ -73,18 +85,14 @@ Eigen::MatrixXd steps_of(const FitProblem& problem, const Eigen::MatrixXd& j, co
   const double noise = std::max(0.0, 1.0 - steady);  // variance of the noise before the converter
   const double variance = steady * std::exp(-4.0 * base::pi * base::pi * noise / (step * step));
   if (variance < 1e-6) return sum;
-  Eigen::VectorXd together = Eigen::VectorXd::Zero(j.cols());
-  double last = NAN;
+  std::map<long long, Eigen::VectorXd> together;
   for (const Index row : rows) {
-    const double level = std::round((problem.recorded(static_cast<std::size_t>(row)) - r[row]) / step);
-    if (level != last) {
-      sum += variance * together * together.transpose();
-      together.setZero();
-    }
-    together += j.row(row).transpose();
-    last = level;
+    const double model = problem.recorded(static_cast<std::size_t>(row)) - r[row];
+    auto [at, first] = together.try_emplace(std::llround(parts_of_a_step * model / step));
+    if (first) at->second = Eigen::VectorXd::Zero(j.cols());
+    at->second += j.row(row).transpose();
   }
-  sum += variance * together * together.transpose();
+  for (const auto& [part, scores] : together) sum += variance * scores * scores.transpose();
   return sum;
 }
 
@@ -153,8 +161,48 @@ FitCovariance covariance_of(const FitProblem& problem, const Eigen::MatrixXd& de
   out.growth_without_start = spread_out(inverse_of(without_start), free)
                                  .diagonal()
                                  .cwiseQuotient(out.of_white_noise.diagonal().cwiseMax(1e-300));
+  out.roughness = Eigen::MatrixXd::Zero(out.of_white_noise.rows(), out.of_white_noise.cols());
   out.covariance = white ? out.of_white_noise : spread_out(inverse * scores * inverse, free);
   out.degrees_of_freedom = std::max(1.0, independent - static_cast<double>(j.cols()));
+  return out;
+}
+
+base::Result<Estimates> estimates_around(FitProblem& problem, const FitSolution& solution,
+                                         const Eigen::MatrixXd& derivatives, const FitCovariance& covariance,
+                                         const std::vector<bool>& determined) {
+  const Index count = solution.u.size();
+  Eigen::MatrixXd moved = covariance.covariance;
+  for (Index k = 0; k < count; ++k)
+    if (!determined[static_cast<std::size_t>(k)]) {
+      moved.row(k).setZero();
+      moved.col(k).setZero();
+    }
+  // Each pair of points is opposite, and moves along all axes of the ellipsoid of one standard deviation at once: a move along
+  // one axis may leave every sampling instant of the firmware on the same side of its event.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(moved);
+  const Eigen::MatrixXd root =
+      axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  Estimates out{Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count)};
+  std::uint64_t bits = 1;
+  for (int pair = 0; pair < pairs_of_points; ++pair) {
+    Eigen::VectorXd direction(count);
+    for (Index k = 0; k < count; ++k) {
+      bits = bits * 6364136223846793005ULL +
+             1442695040888963407ULL;  // Knuth, The Art of Computer Programming 3.3.4
+      direction[k] = (bits >> 63) != 0 ? 1.0 : -1.0;
+    }
+    const Eigen::VectorXd step = root * direction;
+    Eigen::VectorXd estimate[2];
+    for (const int side : {0, 1}) {
+      const Eigen::VectorXd u = solution.u + (side == 0 ? 1.0 : -1.0) * step;
+      const base::Result<Eigen::VectorXd> r = problem.residuals(u);
+      if (!r) return r.problems();
+      estimate[side] = u - covariance.of_white_noise * (derivatives.transpose() * *r);
+    }
+    const Eigen::VectorXd odd = (estimate[0] - estimate[1]) / 2.0;
+    out.mean += (estimate[0] + estimate[1]) / (2.0 * pairs_of_points);
+    out.spread += 2.0 * odd * odd.transpose() / pairs_of_points;
+  }
   return out;
 }
 
@@ -167,6 +215,8 @@ base::Result<UnknownBounds> bounds_of(FitProblem& problem, const FitSolution& so
   // Increase of the sum of squares at the bounds, relative to the variance of one residual.
   const double growth = width * width / white;
   UnknownBounds out{solution.u[at] - width, solution.u[at] + width, false};
+  if (covariance.roughness(at, at) > most_rough * variance)
+    return out;  // no parabola fits a rough sum of squares
   const double least = solution.square();
   const Eigen::VectorXd along =
       covariance.of_white_noise.col(at) / white;  // best change of the other unknowns per change of k

@@ -112,7 +112,8 @@ void place_in_time(batch::FitBench& bench, std::optional<double> given, text::No
   else if (!inside) {
     notes.push_back(fmt::format("its clock starts at {:.10g} s, so that times are counted from its first row",
                                 t_s.front()));
-    for (double& t : t_s) t -= t_s.front();
+    const double start_s = t_s.front();
+    for (double& t : t_s) t -= start_s;
   }
 }
 
