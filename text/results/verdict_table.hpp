@@ -23,7 +23,10 @@ std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 /// One line for each experiment that a fault stopped, for callers that print no table.
 std::string faults_text(std::span<const TableEntry> entries);
 
-/// The deviation in per cent: "-0.25 %". Empty if the source's value is zero, because then the measured value
+/// Of a recording: "within +- 1.2 us", or "beyond by 0.2 A (+- 0.1 A)" with the deviation in per cent.
+std::string recorded_verdict(const study::ComparisonResult& comparison);
+
+/// The deviation in per cent: "-0.25 %", of a recording with its verdict. Empty if the source's value is zero, because then the measured value
 /// is itself the difference.
 std::string deviation_text(const study::ComparisonResult& comparison);
 

@@ -30,7 +30,23 @@ struct ComparisonResult {
   double measured = 0.0;
   double value = 0.0;  // value of the source to compare with
   std::string source;
-  double zero = 0.0;  // figure_zero()
+  double zero = 0.0;                       // figure_zero()
+  std::optional<double> uncertainty = {};  // of a recording: 95 % bound of measured - value; infinite if a
+                                           // single pulse or period shows no spread
+  bool fails = false;                      // beyond the recording's tolerance
+
+  /// How far measured and value are apart beyond the uncertainty.
+  double beyond() const {
+    const double apart = measured > value ? measured - value : value - measured;
+    return apart > *uncertainty ? apart - *uncertainty : 0.0;
+  }
+};
+
+/// A recording as it was laid over a signal, for a picture: every n-th row.
+struct LaidRecording {
+  std::string name, unit;  // of the signal
+  std::string file;
+  std::vector<double> t_s, recorded, simulated;
 };
 
 using plant::EnergyBook;
@@ -80,7 +96,8 @@ struct ChipReport {
 
 struct Outcome {
   std::vector<Verdict> verdicts;
-  std::vector<ComparisonResult> comparisons;
+  std::vector<ComparisonResult> comparisons;  // those with recordings last
+  std::vector<LaidRecording> laid;
   std::optional<plant::EnergyBook> energy;  // empty without Listeners::keep_books
   std::optional<plant::Laws> laws;
   std::vector<DeviceLoss> devices;  // empty if the bridge lacks values (tells_losses)
@@ -109,6 +126,8 @@ struct Outcome {
   bool passed() const {
     for (const Verdict& v : verdicts)
       if (!v.ok) return false;
+    for (const ComparisonResult& c : comparisons)
+      if (c.fails) return false;
     return !fault;
   }
 };

@@ -16,6 +16,7 @@
 #include "sixstep/study/scenario/load.hpp"
 #include "sixstep/study/scenario/measure.hpp"
 #include "sixstep/study/scenario/protection.hpp"
+#include "sixstep/study/scenario/recording.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
 
 namespace sixstep::study {
@@ -110,6 +111,7 @@ struct Comparison {
   Measure measure;
   double value = 0.0;
   std::string source;
+  Recording recording = {};  // instead of value and source
 };
 
 enum class Distribution : std::uint8_t { uniform, normal };
@@ -157,6 +159,7 @@ struct Scenario {
   Record record;
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
+  std::vector<LaidOver> recordings;     // those of [[compare]] that name a file (moved by text)
   std::vector<Spread> spread;           // applies to a series of runs; a single run uses the values as
                                         // written
   std::optional<Nominal> designed_for;  // design basis, set by study::varied; not given: sheet, supply and
