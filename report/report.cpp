@@ -86,7 +86,7 @@ std::string recordings(const sixstep::study::Outcome& outcome) {
     for (std::size_t n = 0; n < apart.size(); ++n) apart[n] -= laid.simulated[n];
     chart(laid.file + " over " + laid.name,
           {{"recorded", "b", ms, laid.recorded}, {"simulated", "a", ms, laid.simulated}});
-    chart("Recorded less simulated", {{"", "b", ms, apart}});
+    chart("Difference", {{"recorded less simulated", "b", ms, apart}});
   }
   return html.empty() ? html : "<div id=\"recordings\">" + html + "</div>\n";
 }

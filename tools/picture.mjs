@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // node tools/picture.mjs [PROGRAM]: photographs the top of the pages that the documents show, as a reader sees them, into
-// docs/images: report.png, of the README's scenario, curve.png, the torque-speed curve, bench.png, a measured back-EMF, and plan.png,
-// from the middle of a plan's page. Needs what tools/install.sh test installs (playwright-core and Chromium).
+// docs/images: report.png, of the README's scenario, curve.png, the torque-speed curve, bench.png, a measured back-EMF, plan.png,
+// from the middle of a plan's page, and recording.png, a real recording over its simulation. Needs what tools/install.sh test installs (playwright-core and Chromium).
 import {execFileSync, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -42,5 +42,7 @@ await photograph('curve', '#chart-efficiency', ['curve', 'maxon-251601']);
 await photograph('bench', '.columns.wide',
   ['motor', 'emf', 'data/recordings/trampa6340-emf.csv', '--between', 'lines', '--speed', '1000']);
 await photograph('plan', '#front', ['run', 'data/plans/which-pwm.toml'], 'h2:has(+ #heat)');
+await photograph('recording', '#recordings figure:nth-of-type(2)', ['run', 'data/measured/bly172s-3135rpm.toml'],
+  '#recordings figure:nth-of-type(1)');
 await browser.close();
 fs.rmSync(folder, {recursive: true});

@@ -18,7 +18,7 @@ value = 0.5
 dynamometer_times_s = [0]
 dynamometer_rad_s = [150]
 [record]
-grid_s = 5e-6
+grid_s = 1e-6
 columns = ["u_a_V", "i_a_A"]
 """
 COMPARE = """[[compare]]
@@ -38,7 +38,7 @@ class Recorded(ProgramTest):
         (self.path / "plain.toml").write_text(SCENARIO)
         self.run_program("run", "plain.toml", "--csv", "plain.csv", "--quiet")
         rows = [line.split(",")[1] for line in (self.path / "plain.csv").read_text().splitlines() if line[0] in "-0123456789"]
-        self.recording = "# Sample interval: 5e-6 s\nu_a [V]\n" + "\n".join(rows) + "\n"
+        self.recording = "# Sample interval: 1e-6 s\nu_a [V]\n" + "\n".join(rows) + "\n"
         (self.path / "r.csv").write_text(self.recording)
         (self.path / "r.csv.gz").write_bytes(gzip.compress(self.recording.encode()))
 
@@ -56,7 +56,7 @@ class Recorded(ProgramTest):
             self.assertEqual([c["verdict"] for c in told["compare"]], ["within"] * 3, told)
             self.assertTrue(told["passed"])
             high, period, apart = told["compare"]
-            self.assertAlmostEqual(high["measured"], 15e-6, delta=high["uncertainty"] + 5e-6)
+            self.assertAlmostEqual(high["measured"], 15e-6, delta=high["uncertainty"] + 1e-6)
             self.assertAlmostEqual(period["measured"], 30e-6, delta=1e-7)
             self.assertLess(apart["measured"], 1e-9)
 
@@ -68,19 +68,19 @@ class Recorded(ProgramTest):
         told = self.run_program("run", self.scenario("r.csv", "tolerance_percent = 5"), "--set", "reference.value=0.6", code=1).stdout
         self.assertIn("FAILED", told)
         self.assertFalse(self.compared("s.toml", "--set", "reference.value=0.6")["passed"])
-        self.run_program("run", self.scenario("r.csv", "tolerance_percent = 50"), "--set", "reference.value=0.6", "--quiet", code=1)  # 100 % of the distance
+        self.run_program("run", self.scenario("r.csv", "tolerance_percent = 50"), "--set", "reference.value=0.6", code=0)  # 28 % at most
         self.run_program("run", self.scenario("r.csv", "tolerance_percent = 5"), code=0)
 
     def test_a_page_draws_both_and_the_difference(self):
         self.run_program("run", self.scenario("r.csv"), "--html", "p.html", "--quiet", code=0)
         page = (self.path / "p.html").read_text(encoding="utf-8")
-        for word in ("r.csv over u_a_V", "Recorded less simulated", "within"):
+        for word in ("r.csv over u_a_V", "recorded less simulated", "within"):
             self.assertIn(word, page)
 
     def test_a_plan_has_its_figures_as_columns(self):
         told = self.run_program("run", self.scenario("r.csv"), "--vary", "reference.value=0.4,0.5,0.6", code=0).stdout
         self.assertIn("time above the level, voltage of terminal a", told)
-        self.assertRegex(told, r"(?m)^ +1 +0\.5 +15\.\d* us")
+        self.assertRegex(told, r"(?m)^ +1 +0\.5 +1[45]\.\d* us")
 
     def test_shipped_scenarios_of_real_motors_run(self):
         names = sorted((SOURCE / "data/measured").glob("*.toml"))

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <optional>
 
 #include "sixstep/base/written.hpp"
@@ -39,10 +40,10 @@ Json comparisons(const study::Outcome& outcome) {
                                        {"source", c.source}});
     if (!c.uncertainty) continue;
     row["uncertainty"] = *c.uncertainty;
-    row["verdict"] = c.fails                ? "fails"
-                     : !(c.beyond() >= 0.0) ? "none"
-                     : c.beyond() > 0.0     ? "beyond"
-                                            : "within";
+    row["verdict"] = c.fails                                                  ? "fails"
+                     : !(c.beyond() >= 0.0) || !std::isfinite(*c.uncertainty) ? "none"
+                     : c.beyond() > 0.0                                       ? "beyond"
+                                                                              : "within";
   }
   return list;
 }

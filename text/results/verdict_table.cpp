@@ -170,7 +170,10 @@ std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
     }
     for (const study::ComparisonResult& c : entry.outcome->comparisons) {
       recorded += c.uncertainty ? 1 : 0;
-      within += c.uncertainty && c.beyond() == 0.0 && std::isfinite(c.measured - c.value) ? 1 : 0;
+      within += c.uncertainty && std::isfinite(*c.uncertainty) && c.beyond() == 0.0 &&
+                        std::isfinite(c.measured - c.value)
+                    ? 1
+                    : 0;
       if (!c.fails) continue;
       ++off;
       tell(entry.experiment + ": " + c.figure);

@@ -290,13 +290,16 @@ void Laying::judge_one(std::size_t index, Outcome& outcome) const {
   take_moving_mean(pair.simulated, c.mean_s);
   take_moving_mean(pair.recorded, c.mean_s);
   pair.placing = placed(c, pair.recorded, pair.simulated, laid.measure.from_s.value_or(0.0), pair.period_s);
-  outcome.notes.push_back(note_of(laid, pair.placing));
   LaidRecording picture = picture_of(laid, pair);
-  if (pair.placing.rows < fewest_rows)
-    pair.recorded.values.clear();
-  else
-    outcome.laid.push_back(std::move(picture));
-  for (const std::string& word : c.asked())
+  // Where only pulses are measured, the two need not lie over each other.
+  const std::vector<std::string> figures = c.asked();
+  const bool placed_rows = !c.free.empty() ||
+                           std::find(figures.begin(), figures.end(), "difference_rms") != figures.end(),
+             enough = pair.placing.rows >= fewest_rows;
+  if (placed_rows || !enough) outcome.notes.push_back(note_of(laid, pair.placing));
+  if (placed_rows && enough) outcome.laid.push_back(std::move(picture));
+  if (!enough) pair.recorded.values.clear();
+  for (const std::string& word : figures)
     if (const std::optional<NamedFigure> figure = recorded_figure(word))
       outcome.comparisons.push_back(compared(laid, *figure, pair));
 }
