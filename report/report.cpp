@@ -73,7 +73,8 @@ std::string comparisons(const sixstep::study::Outcome& outcome) {
 /// Each recording over its signal, and the difference below.
 std::string recordings(const sixstep::study::Outcome& outcome) {
   std::string html;
-  for (const sixstep::study::LaidRecording& laid : outcome.laid) {
+  if (!outcome.laid) return html;
+  for (const sixstep::study::LaidRecording& laid : *outcome.laid) {
     const auto chart = [&](std::string title, std::vector<SvgCurve> curves) {
       html += svg_chart({.title = text::visible(title),
                          .x_label = "ms",
@@ -88,7 +89,7 @@ std::string recordings(const sixstep::study::Outcome& outcome) {
           {{"recorded", "b", ms, laid.recorded}, {"simulated", "a", ms, laid.simulated}});
     chart("Difference", {{"recorded less simulated", "b", ms, apart}});
   }
-  return html.empty() ? html : "<div id=\"recordings\">" + html + "</div>\n";
+  return "<div id=\"recordings\">" + html + "</div>\n";
 }
 
 BookOf book_of(const sixstep::study::Scenario& s) {

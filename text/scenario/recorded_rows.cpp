@@ -89,7 +89,7 @@ void refuse_unused(const study::Comparison& c, const std::string& table, const D
     const std::string path = table + "." + key;
     if (document.find(path)) complaints.later({.where = path, .limit = limit, .cure = cure});
   };
-  if (c.recording.file.empty())
+  if (c.recording->file.empty())
     for (const char* key : with_file) refuse(key, "has no effect without file", "name a recording with file");
   else
     for (const char* key : without) refuse(key, "has no effect with file", "remove it");
@@ -99,16 +99,21 @@ void refuse_unused(const study::Comparison& c, const std::string& table, const D
 
 void read_recordings(const Document& document, const Resolve& resolve, study::Scenario& scenario,
                      Complaints& complaints, base::Problems& of_other_files) {
+  std::vector<study::LaidOver> found;
   for (std::size_t n = 0; n < scenario.compare.size(); ++n) {
     study::Comparison& c = scenario.compare[n];
+    if (!c.recording) continue;
     refuse_unused(c, fmt::format("compare[{}]", n), document, complaints);
-    if (c.recording.file.empty()) continue;
-    study::LaidOver& laid =
-        scenario.recordings.emplace_back(study::LaidOver{c.measure, std::move(c.recording), n});
-    c.recording.file = laid.recording.file;
-    read_one(document, resolve, laid, complaints, of_other_files);
+    if (c.recording->file.empty()) {
+      c.recording.reset();
+      continue;
+    }
+    read_one(document, resolve, found.emplace_back(study::LaidOver{c.measure, *c.recording, n}), complaints,
+             of_other_files);
   }
-  std::erase_if(scenario.compare, [](const study::Comparison& c) { return !c.recording.file.empty(); });
+  std::erase_if(scenario.compare, [](const study::Comparison& c) { return c.recording != nullptr; });
+  if (!found.empty())
+    scenario.laid_over = std::make_shared<const std::vector<study::LaidOver>>(std::move(found));
 }
 
 }  // namespace text

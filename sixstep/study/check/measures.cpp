@@ -223,7 +223,7 @@ std::string table_at(std::size_t n) { return std::string("compare[").append(std:
 
 /// The place of the n-th comparison with a value; those with recordings stand between.
 std::string place_of(const Scenario& s, std::size_t n) {
-  for (const LaidOver& laid : s.recordings) n += laid.place <= n ? 1 : 0;
+  for (const LaidOver& laid : s.recordings()) n += laid.place <= n ? 1 : 0;
   return table_at(n);
 }
 
@@ -241,7 +241,7 @@ void check_measures(const Scenario& s, bool sound_references, base::Problems& ou
   }
   for (std::size_t n = 0; n < s.compare.size(); ++n)
     check_measure(s.compare[n].measure, place_of(s, n), s, sound_references, out);
-  for (const LaidOver& laid : s.recordings) {
+  for (const LaidOver& laid : s.recordings()) {
     const std::string where = table_at(laid.place);
     const std::size_t before = out.size();
     check_window({laid.measure, where, s, out});

@@ -166,11 +166,11 @@ Placing placed(const Recording& c, const Samples& recorded, const Samples& simul
   return out;
 }
 
-Laying::Laying(const Scenario& scenario) : scenario_(scenario), watched_(scenario.recordings.size()) {}
+Laying::Laying(const Scenario& scenario) : scenario_(scenario), watched_(scenario.recordings().size()) {}
 
-void Laying::watch(Observers& observers) {
+void Laying::watch(std::vector<GridRecorder>& grids) {
   for (std::size_t n = 0; n < watched_.size(); ++n) {
-    const LaidOver& laid = scenario_.recordings[n];
+    const LaidOver& laid = scenario_.recordings()[n];
     const std::optional<std::size_t> column = column_of(laid.measure.signal);
     if (!column || !laid.recording.rows) continue;
     Watched& to = watched_[n];
@@ -179,23 +179,26 @@ void Laying::watch(Observers& observers) {
                  to_s = laid.measure.to_s.value_or(scenario_.duration_s),
                  factor = all_columns(scenario_.sheet.kind)[*column].per_turning;
     to.signal.interval_s = grid.seconds();
-    observers.grids.emplace_back(
-        grid.ticks, sim::to_instant(scenario_.duration_s),
-        std::vector{std::size_t{0}, *column, static_cast<std::size_t>(ColumnId::angle)},
-        [&to, from_s, to_s, factor](std::span<const double> row) {
-          if (row[0] < from_s || row[0] > to_s) return;
-          if (to.signal.values.empty()) {
-            to.signal.start_s = row[0];
-            to.first_angle = row[2];
-          }
-          to.last_angle = row[2];
-          to.signal.values.push_back(row[1] * factor);
-        });
+    grids.push_back(
+        GridRecorder(grid.ticks, sim::to_instant(scenario_.duration_s),
+                     std::vector{std::size_t{0}, *column, static_cast<std::size_t>(ColumnId::angle)},
+                     [&to, from_s, to_s, factor](std::span<const double> row) {
+                       if (row[0] < from_s || row[0] > to_s) return;
+                       if (to.signal.values.empty()) {
+                         to.signal.start_s = row[0];
+                         to.first_angle = row[2];
+                       }
+                       to.last_angle = row[2];
+                       to.signal.values.push_back(row[1] * factor);
+                     }));
   }
 }
 
 void Laying::judge(Outcome& outcome) const {
-  for (std::size_t n = 0; n < watched_.size(); ++n) judge_one(n, outcome);
+  std::vector<LaidRecording> pictures;
+  for (std::size_t n = 0; n < watched_.size(); ++n) judge_one(n, outcome, pictures);
+  if (!pictures.empty())
+    outcome.laid = std::make_shared<const std::vector<LaidRecording>>(std::move(pictures));
 }
 
 namespace {
@@ -277,8 +280,8 @@ ComparisonResult compared(const LaidOver& laid, const NamedFigure& figure, const
 
 }  // namespace
 
-void Laying::judge_one(std::size_t index, Outcome& outcome) const {
-  const LaidOver& laid = scenario_.recordings[index];
+void Laying::judge_one(std::size_t index, Outcome& outcome, std::vector<LaidRecording>& pictures) const {
+  const LaidOver& laid = scenario_.recordings()[index];
   const Recording& c = laid.recording;
   const Watched& watched = watched_[index];
   if (!c.rows) return;
@@ -297,7 +300,7 @@ void Laying::judge_one(std::size_t index, Outcome& outcome) const {
                            std::find(figures.begin(), figures.end(), "difference_rms") != figures.end(),
              enough = pair.placing.rows >= fewest_rows;
   if (placed_rows || !enough) outcome.notes.push_back(note_of(laid, pair.placing));
-  if (placed_rows && enough) outcome.laid.push_back(std::move(picture));
+  if (placed_rows && enough) pictures.push_back(std::move(picture));
   if (!enough) pair.recorded.values.clear();
   for (const std::string& word : figures)
     if (const std::optional<NamedFigure> figure = recorded_figure(word))

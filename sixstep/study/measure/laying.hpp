@@ -4,9 +4,9 @@
 #pragma once
 #include <vector>
 
-#include "sixstep/study/measure/observers.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/recorded_figures.hpp"
+#include "sixstep/study/measure/recorder.hpp"
 
 namespace sixstep::study {
 
@@ -31,13 +31,13 @@ class Laying {
   explicit Laying(const Scenario& scenario);
   Laying(const Laying&) = delete;
   Laying& operator=(const Laying&) = delete;
-  /// Adds what samples the signals. The observers must not outlive this object.
-  void watch(Observers& observers);
+  /// Adds what samples the signals. The recorders must not outlive this object.
+  void watch(std::vector<GridRecorder>& grids);
   /// Adds the comparisons to the outcome.
   void judge(Outcome& outcome) const;
 
  private:
-  void judge_one(std::size_t n, Outcome& outcome) const;
+  void judge_one(std::size_t n, Outcome& outcome, std::vector<LaidRecording>& pictures) const;
 
   const Scenario& scenario_;
   struct Watched {

@@ -2,6 +2,7 @@
 // The results of a run: numbers and verdicts.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -96,9 +97,9 @@ struct ChipReport {
 
 struct Outcome {
   std::vector<Verdict> verdicts;
-  std::vector<ComparisonResult> comparisons;  // those with recordings last
-  std::vector<LaidRecording> laid;
-  std::optional<plant::EnergyBook> energy;  // empty without Listeners::keep_books
+  std::vector<ComparisonResult> comparisons;               // those with recordings last
+  std::shared_ptr<const std::vector<LaidRecording>> laid;  // null: none
+  std::optional<plant::EnergyBook> energy;                 // empty without Listeners::keep_books
   std::optional<plant::Laws> laws;
   std::vector<DeviceLoss> devices;  // empty if the bridge lacks values (tells_losses)
   std::vector<EventCount> events;

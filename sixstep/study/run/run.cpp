@@ -44,7 +44,7 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners, 
   Outcome out = outcome_of(*compiled);
   Laying laying(scenario);
   Observers w = observers_of(scenario, listeners, *indices);
-  laying.watch(w);
+  laying.watch(w.grids);
   const base::Problems problems = run_on_board(scenario, *compiled, w, out);
   if (!problems.empty()) return problems;
   conclude(scenario, *compiled, w, out);

@@ -80,31 +80,33 @@ inline void describe(base::Visitor& v, Recording& s, Signal signal) {
           {.meaning = "high_s, low_s, period_s: shortest pulse that counts", .unit = "s", .range = from(0)});
   v.value("longest_s", s.longest_s,
           {.meaning = "high_s, low_s, period_s: longest pulse that counts", .unit = "s", .range = above(0)});
-  v.value(
-      "conditions_percent", s.conditions_percent,
-      {.meaning = "with file: 95 % uncertainty of the simulated figures, in per cent, because speed, duty "
-                  "or supply of the recorded drive are not known exactly",
-       .range = from(0)});
+  v.value("conditions_percent", s.conditions_percent,
+          {.meaning = "with file: 95 % uncertainty of the simulated figures, because speed, duty "
+                      "or supply of the recorded drive are not known exactly",
+           .unit = "percent",
+           .range = from(0)});
   v.value(
       "tolerance_percent", s.tolerance_percent,
       {.meaning = "with file: a figure that is farther off, beyond the uncertainty, fails the run. Without "
                   "it no comparison does",
+       .unit = "percent",
        .range = from(0)});
 }
 
 inline void describe(base::Visitor& v, Comparison& s) {
+  if (!s.recording) s.recording = std::make_shared<Recording>();
   v.value(
-      "file", s.recording.file,
+      "file", s.recording->file,
       {.meaning = "recording of a real drive, laid over the signal: a CSV file beside this one, also packed "
                   "by gzip; instead of metric, value and source"});
-  const bool by_value = s.recording.file.empty();
+  const bool by_value = s.recording->file.empty();
   describe(v, s.measure, by_value);
   v.value("value", s.value,
           {.meaning = "value that the source gives, in the figure's unit",
            .required = by_value,
            .unit_here = figure_unit(s.measure)});
   v.value("source", s.source, {.meaning = "source of the value", .required = by_value});
-  describe(v, s.recording, s.measure.signal);
+  describe(v, *s.recording, s.measure.signal);
 }
 
 }  // namespace sixstep::study

@@ -3,7 +3,9 @@
 // scenario_description.hpp says what each key means, with unit, range and default.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -111,7 +113,7 @@ struct Comparison {
   Measure measure;
   double value = 0.0;
   std::string source;
-  Recording recording = {};  // instead of value and source
+  std::shared_ptr<Recording> recording = {};  // instead of value and source; only while a file is read
 };
 
 enum class Distribution : std::uint8_t { uniform, normal };
@@ -159,9 +161,12 @@ struct Scenario {
   Record record;
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
-  std::vector<LaidOver> recordings;     // those of [[compare]] that name a file (moved by text)
-  std::vector<Spread> spread;           // applies to a series of runs; a single run uses the values as
-                                        // written
+  std::shared_ptr<const std::vector<LaidOver>> laid_over;  // comparisons with a file (moved by text)
+  std::vector<Spread> spread;  // applies to a series of runs; a single run uses the values as
+                               // written
+  std::span<const LaidOver> recordings() const {
+    return laid_over ? std::span<const LaidOver>(*laid_over) : std::span<const LaidOver>();
+  }
   std::optional<Nominal> designed_for;  // design basis, set by study::varied; not given: sheet, supply and
                                         // load of this scenario
 };
