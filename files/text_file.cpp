@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/text_file.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -42,6 +44,37 @@ base::Problem unreadable(const std::string& path, int reason) {
 
 constexpr std::size_t most_bytes = std::size_t{128} << 20;  // largest size of a file; a file such as
                                                             // /dev/zero never ends
+
+base::Problem too_large(const std::string& path) {
+  return {.where = path + ":",
+          .limit = "cannot be read: it is larger than 128 MiB",
+          .cure = "name a smaller file"};
+}
+
+/// The content of a text packed by gzip; a few packed bytes may become gigabytes.
+base::Result<std::string> unpacked(const std::string& path, const std::string& packed) {
+  z_stream stream{};
+  constexpr int gzip = 15 + 16;
+  if (inflateInit2(&stream, gzip) != Z_OK) return too_large(path);
+  // zlib's interface lacks const.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string text;
+  char block[1 << 14];
+  int state = Z_OK;
+  while (state == Z_OK && text.size() <= most_bytes) {
+    stream.next_out = reinterpret_cast<Bytef*>(block);
+    stream.avail_out = sizeof block;
+    state = inflate(&stream, Z_NO_FLUSH);
+    text.append(block, sizeof block - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  if (text.size() > most_bytes) return too_large(path);
+  if (state == Z_STREAM_END) return text;
+  return base::Problem{.where = path + ":",
+                       .limit = "cannot be read: it is packed by gzip, and damaged or incomplete",
+                       .cure = "pack it again"};
+}
 
 thread_local ReadLog* log_in_use = nullptr;
 
@@ -92,12 +125,14 @@ base::Result<std::string> read_text(const std::string& path) {
   char block[1 << 14];
   while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) {
     text.append(block, got);
-    if (text.size() > most_bytes)
-      return base::Problem{.where = path + ":",
-                           .limit = "cannot be read: it is larger than 128 MiB",
-                           .cure = "name a smaller file"};
+    if (text.size() > most_bytes) return too_large(path);
   }
   if (std::ferror(file.get())) return unreadable(path, errno);
+  if (text.starts_with("\x1f\x8b")) {
+    base::Result<std::string> content = unpacked(path, text);
+    if (!content) return content.problems();
+    text = std::move(*content);
+  }
   if (log_in_use) log_in_use->note(path, text);
   return text;
 }

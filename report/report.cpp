@@ -16,9 +16,11 @@
 #include "report/shell.hpp"
 #include "report/spectra.hpp"
 #include "report/summary.hpp"
+#include "report/svg_chart.hpp"
 #include "report/verdicts.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/escape/escape.hpp"
 #include "text/results/core_text.hpp"
 
 namespace report {
@@ -68,6 +70,28 @@ std::string comparisons(const sixstep::study::Outcome& outcome) {
          comparison_rows(outcome) + "</tbody></table>\n";
 }
 
+/// Each recording over its signal, and the difference below.
+std::string recordings(const sixstep::study::Outcome& outcome) {
+  std::string html;
+  if (!outcome.laid) return html;
+  for (const sixstep::study::LaidRecording& laid : *outcome.laid) {
+    const auto chart = [&](std::string title, std::vector<SvgCurve> curves) {
+      html += svg_chart({.title = text::visible(title),
+                         .x_label = "ms",
+                         .y_label = laid.unit,
+                         .curves = std::move(curves),
+                         .levels = {0.0}});
+    };
+    std::vector<double> ms = laid.t_s, apart = laid.recorded;
+    for (double& t : ms) t *= 1e3;
+    for (std::size_t n = 0; n < apart.size(); ++n) apart[n] -= laid.simulated[n];
+    chart(laid.file + " over " + laid.name,
+          {{"recorded", "b", ms, laid.recorded}, {"simulated", "a", ms, laid.simulated}});
+    chart("Difference", {{"recorded less simulated", "b", ms, apart}});
+  }
+  return "<div id=\"recordings\">" + html + "</div>\n";
+}
+
 BookOf book_of(const sixstep::study::Scenario& s) {
   return {.twist = s.load.stiffness_Nm_rad > 0.0,
           .cogging = !s.sheet.cogging_orders.empty(),
@@ -101,7 +125,7 @@ std::string render(const ReportInput& in) {
               {"alerts", alerts(in)},
               {"glance", glance_section(in.scenario, in.outcome, in.trace)},
               {"requirements", requirements(in.outcome)},
-              {"comparisons", comparisons(in.outcome) + chip_section(in.outcome)},
+              {"comparisons", comparisons(in.outcome) + recordings(in.outcome) + chip_section(in.outcome)},
               {"setup", setup_section(in.scenario)},
               {"sheet", sheet_section(in.scenario.sheet)},
               {"model", model_section(in.outcome.motor)},

@@ -8,6 +8,7 @@
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
+#include "text/results/verdict_table.hpp"
 
 namespace report {
 namespace {
@@ -108,7 +109,8 @@ std::string comparison_rows(const Outcome& outcome) {
         "<td class=\"num\">{}</td><td class=\"source\">{}</td></tr>\n",
         with_subscripts(c.figure), with_aside(show(c.value, 7, true), aside(c.value, c.unit)),
         with_aside(show(c.measured, 4, false), aside(c.measured, c.unit)),
-        escaped(deviation(c.measured, c.value, c.unit)), with_subscripts(c.source));
+        escaped(c.uncertainty ? text::recorded_verdict(c) : deviation(c.measured, c.value, c.unit)),
+        with_subscripts(c.source));
   }
   return html;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // node tools/picture.mjs [PROGRAM]: writes screenshots of pages into docs/images: report.png (the README's scenario), curve.png (the
-// torque-speed curve), bench.png (a measured back-EMF), and plan.png (the middle of a plan's page). Requires the programs that
+// torque-speed curve), bench.png (a measured back-EMF), plan.png (the middle of
+// a plan's page), and recording.png (a real recording over its simulation). Requires the programs that
 // tools/install.sh test installs (playwright-core and Chromium).
 import {execFileSync, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -42,5 +43,7 @@ await photograph('curve', '#chart-efficiency', ['curve', 'maxon-251601']);
 await photograph('bench', '.columns.wide',
   ['motor', 'emf', 'data/recordings/trampa6340-emf.csv', '--between', 'lines', '--speed', '1000']);
 await photograph('plan', '#front', ['run', 'data/plans/which-pwm.toml'], 'h2:has(+ #heat)');
+await photograph('recording', '#recordings figure:nth-of-type(2)', ['run', 'data/measured/bly172s-3135rpm.toml'],
+  '#recordings figure:nth-of-type(1)');
 await browser.close();
 fs.rmSync(folder, {recursive: true});

@@ -238,7 +238,8 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                                          "missed_edges",
                                          "track",
                                          "excitation",
-                                         "terminal_gain_error"};
+                                         "terminal_gain_error",
+                                         "scale"};
   for (const KeyEntry& key : all_keys()) {
     const bool number = key.type == KeyType::number || key.type == KeyType::whole_number ||
                         key.type == KeyType::numbers || key.type == KeyType::quantity;

@@ -28,7 +28,7 @@ share/doc/sixstep/changelog.gz
 share/sixstep/README.md
 share/sixstep/octave/sixstep.m
 share/sixstep/sixstep_control.hpp""".splitlines()
-FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
+FOLDERS = ["data/controllers", "data/measured", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
            "faces/loop/core", "sixstep/control"]
 DRIVES = ["LEAN", "PRODUCT", "SENSORLESS", "FIELD", "SENSORLESS_FIELD"]
 # At the first Tab zsh reads the file and calls its function.

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <optional>
 
 #include "sixstep/base/written.hpp"
@@ -31,12 +32,19 @@ Json verdicts(const study::Outcome& outcome) {
 
 Json comparisons(const study::Outcome& outcome) {
   Json list = Json::array();
-  for (const study::ComparisonResult& c : outcome.comparisons)
-    list.push_back({{"figure", c.figure},
-                    {"unit", c.unit},
-                    {"measured", figure_json(c.measured)},
-                    {"value", c.value},
-                    {"source", c.source}});
+  for (const study::ComparisonResult& c : outcome.comparisons) {
+    Json& row = list.emplace_back(Json{{"figure", c.figure},
+                                       {"unit", c.unit},
+                                       {"measured", figure_json(c.measured)},
+                                       {"value", c.value},
+                                       {"source", c.source}});
+    if (!c.uncertainty) continue;
+    row["uncertainty"] = *c.uncertainty;
+    row["verdict"] = c.fails                                                  ? "fails"
+                     : !(c.beyond() >= 0.0) || !std::isfinite(*c.uncertainty) ? "none"
+                     : c.beyond() > 0.0                                       ? "beyond"
+                                                                              : "within";
+  }
   return list;
 }
 

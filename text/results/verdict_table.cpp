@@ -68,7 +68,7 @@ Line requirement_line(const study::Verdict& v) {
 }
 
 Line comparison_line(const study::ComparisonResult& c) {
-  return {Kind::comparison,
+  return {c.fails ? Kind::failed : Kind::comparison,
           {"  " + c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit),
            deviation_text(c), c.source}};
 }
@@ -89,8 +89,19 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
 
 }  // namespace
 
+std::string recorded_verdict(const study::ComparisonResult& c) {
+  if (!std::isfinite(c.value)) return "not in the recording";
+  if (!std::isfinite(*c.uncertainty)) return "no verdict: seen once";
+  const double beyond = c.beyond();
+  const std::string percent =
+      c.value == 0.0 ? "" : fmt::format("{:+.3g} %, ", 100.0 * (c.measured - c.value) / std::abs(c.value));
+  return percent + (beyond > 0.0 ? "beyond by " + quantity_text(beyond, c.unit, 2) + " (+- " : "within +- ") +
+         quantity_text(*c.uncertainty, c.unit, 2) + (beyond > 0.0 ? ")" : "") + (c.fails ? ", FAILED" : "");
+}
+
 std::string deviation_text(const study::ComparisonResult& c) {
   if (!std::isfinite(c.measured)) return "not comparable";
+  if (c.uncertainty) return recorded_verdict(c);
   if (c.value == 0.0) return "";
   // The percentage is relative to the magnitude of the expected value. It has no meaning for opposite signs,
   // for a temperature in degC, or for an expected value near zero; the difference is then printed.
@@ -108,8 +119,13 @@ std::string deviation_text(const study::ComparisonResult& c) {
 std::string verdict_table(std::span<const TableEntry> entries, bool colour) {
   const bool only_compares = std::none_of(entries.begin(), entries.end(),
                                           [](const TableEntry& e) { return !e.outcome->verdicts.empty(); });
-  const char* beside = only_compares ? "expected" : "required";
-  std::vector<Line> lines{{Kind::heading, {"experiment", beside, "measured", "", "source"}}};
+  const bool only_recorded =
+      only_compares && std::any_of(entries.begin(), entries.end(), [](const TableEntry& e) {
+        return !e.outcome->comparisons.empty() && e.outcome->comparisons.front().uncertainty;
+      });
+  const char* beside = only_recorded ? "recorded" : only_compares ? "expected" : "required";
+  std::vector<Line> lines{
+      {Kind::heading, {"experiment", beside, only_recorded ? "simulated" : "measured", "", "source"}}};
   for (const TableEntry& entry : entries) add_entry(lines, entry);
   const bool has_source = std::any_of(entries.begin(), entries.end(),
                                       [](const TableEntry& e) { return !e.outcome->comparisons.empty(); });
@@ -142,7 +158,7 @@ std::string faults_text(std::span<const TableEntry> entries) {
 }
 
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
-  std::size_t requirements = 0, misses = 0, stopped = 0;
+  std::size_t requirements = 0, misses = 0, stopped = 0, recorded = 0, within = 0, off = 0;
   std::string which;
   const auto tell = [&which](const std::string& line) { which += "\n  " + visible(line); };
   for (const TableEntry& entry : entries) {
@@ -151,6 +167,16 @@ std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
       if (v.ok) continue;
       ++misses;
       tell(entry.experiment + ": " + v.figure);
+    }
+    for (const study::ComparisonResult& c : entry.outcome->comparisons) {
+      recorded += c.uncertainty ? 1 : 0;
+      within += c.uncertainty && std::isfinite(*c.uncertainty) && c.beyond() == 0.0 &&
+                        std::isfinite(c.measured - c.value)
+                    ? 1
+                    : 0;
+      if (!c.fails) continue;
+      ++off;
+      tell(entry.experiment + ": " + c.figure);
     }
     if (!entry.outcome->fault) continue;
     ++stopped;
@@ -164,8 +190,11 @@ std::string verdict_summary(std::span<const TableEntry> entries, bool colour) {
   else
     text +=
         requirements == 1 ? "the requirement holds" : fmt::format("all {} requirements hold", requirements);
+  if (recorded > 0)
+    text += fmt::format(", {} of {} recorded figures within their uncertainty", within, recorded);
+  if (off > 0) text += fmt::format(", {} beyond their tolerance: FAILED", off);
   if (stopped > 0) text += fmt::format(", {} stopped by a fault", stopped);
-  return coloured(misses + stopped > 0 ? Kind::failed : Kind::ok, text + which, colour);
+  return coloured(misses + stopped + off > 0 ? Kind::failed : Kind::ok, text + which, colour);
 }
 
 }  // namespace text

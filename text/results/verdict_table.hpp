@@ -23,9 +23,12 @@ std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 /// One line for each experiment that a fault stopped, for callers that print no table.
 std::string faults_text(std::span<const TableEntry> entries);
 
+/// Of a recording: "within +- 1.2 us", or "beyond by 0.2 A (+- 0.1 A)" with the deviation in per cent.
+std::string recorded_verdict(const study::ComparisonResult& comparison);
+
 /// The deviation: "-0.25 %", "x 12", or the difference if a percentage has no meaning. "not comparable" if
 /// the measured value is not finite. Empty if the expected value is zero, because the measured value is then
-/// itself the difference.
+/// itself the difference. Of a recording with its verdict.
 std::string deviation_text(const study::ComparisonResult& comparison);
 
 }  // namespace text

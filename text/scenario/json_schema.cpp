@@ -156,6 +156,14 @@ Json schema_of(const KeyEntry& entry, const Place& place) {
   return schema;
 }
 
+/// A table with this key needs no other one.
+void require_unless(Json& schema, const char* key) {
+  if (!schema["properties"].contains(key) || !schema.contains("required")) return;
+  schema["if"] = {{"required", Json::array({key})}};
+  schema["else"] = {{"required", schema["required"]}};
+  schema.erase("required");
+}
+
 Json table(const std::string& path, const Place& place) {
   Json properties = Json::object(), required = Json::array();
   for (const KeyEntry* entry : keys_in(place.keys, path)) {
@@ -166,6 +174,7 @@ Json table(const std::string& path, const Place& place) {
   }
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = required;
+  require_unless(schema, "file");  // a recording in place of a value
   return schema;
 }
 
@@ -174,12 +183,7 @@ std::string document(const std::vector<KeyEntry>& keys, const char* title) {
                  {"title", title},
                  {"$comment", "written by sixstep schema, version " SIXSTEP_VERSION}};
   Json root = table("", {keys});
-  // If the file extends another file, no key is required, because the other file may have the key.
-  if (root["properties"].contains("extends") && root.contains("required")) {
-    root["if"] = {{"required", Json::array({"extends"})}};
-    root["else"] = {{"required", root["required"]}};
-    root.erase("required");
-  }
+  require_unless(root, "extends");  // the other file may have the key
   schema.update(root);
   return schema.dump(1) + "\n";
 }

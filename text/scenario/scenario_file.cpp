@@ -21,6 +21,7 @@
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_library.hpp"
 #include "text/scenario/motion_words.hpp"
+#include "text/scenario/recorded_rows.hpp"
 #include "text/scenario/reference_file.hpp"
 #include "text/scenario/scenario_family.hpp"
 #include "text/scenario/sheet_source.hpp"
@@ -190,6 +191,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   // A wrong duration has already been reported. Times after the run's end must not cause further problems.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
+  read_recordings(document, options.resolve, scenario, complaints, of_other_files);
   load_controller(document, options.resolve, scenario.control.own, complaints);
   for (base::Problem& problem : study::check_columns(scenario)) complaints.later(std::move(problem));
   run_checks(document, source, scenario, complaints, of_other_files);

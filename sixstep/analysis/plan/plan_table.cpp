@@ -75,6 +75,13 @@ TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const
   for (const study::Requirement& r : scenario.require) columns.figures.push_back(column_of(scenario, r));
   for (const study::Comparison& c : scenario.compare)
     columns.figures.push_back(column_of(scenario, c.measure));
+  for (const study::LaidOver& laid : scenario.recordings())
+    for (const std::string& word : laid.recording.asked())
+      if (const std::optional<study::NamedFigure> figure = study::recorded_figure(word))
+        columns.figures.push_back({.name = figure->name(laid.measure),
+                                   .unit = std::string(figure->unit(laid.measure)),
+                                   .min = {},
+                                   .max = {}});
   return std::make_shared<const PlanColumns>(std::move(columns));
 }
 

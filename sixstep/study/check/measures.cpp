@@ -2,6 +2,7 @@
 #include "sixstep/study/check/measures.hpp"
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/recordings.hpp"
 #include "sixstep/study/measure/harmonic_gauge.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -218,6 +219,14 @@ void check_measure(const Measure& m, const std::string& where, const Scenario& s
   check_fundamental(asked);
 }
 
+std::string table_at(std::size_t n) { return std::string("compare[").append(std::to_string(n)).append("]"); }
+
+/// The place of the n-th comparison with a value; those with recordings stand between.
+std::string place_of(const Scenario& s, std::size_t n) {
+  for (const LaidOver& laid : s.recordings()) n += laid.place <= n ? 1 : 0;
+  return table_at(n);
+}
+
 }  // namespace
 
 void check_measures(const Scenario& s, bool sound_references, base::Problems& out) {
@@ -231,7 +240,15 @@ void check_measures(const Scenario& s, bool sound_references, base::Problems& ou
                      "lies above max = " + base::written(*s.require[n].max), "swap them"});
   }
   for (std::size_t n = 0; n < s.compare.size(); ++n)
-    check_measure(s.compare[n].measure, "compare[" + std::to_string(n) + "]", s, sound_references, out);
+    check_measure(s.compare[n].measure, place_of(s, n), s, sound_references, out);
+  for (const LaidOver& laid : s.recordings()) {
+    const std::string where = table_at(laid.place);
+    const std::size_t before = out.size();
+    check_window({laid.measure, where, s, out});
+    check_mode({laid.measure, where, s, out});
+    check_drive({laid.measure, where, s, out});
+    if (out.size() == before) check_recording(laid, where, s, out);
+  }
 }
 
 }  // namespace sixstep::study

@@ -205,4 +205,12 @@ base::Result<std::vector<Column>> record_columns(const Scenario& scenario) {
   return chosen;
 }
 
+std::optional<std::size_t> column_of(Signal signal) {
+  const std::string_view older = base::word(column_words, signal), word = fact_of(signal).word;
+  const std::vector<Column>& all = all_columns();
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (all[n].name == (older.empty() ? word : older)) return n;
+  return {};
+}
+
 }  // namespace sixstep::study

@@ -88,6 +88,9 @@ const std::vector<Column>& all_columns();
 /// scenario's recorded rows have these units; event rows keep the rotary motor's units.
 const std::vector<Column>& all_columns(design::MotorKind kind);
 
+/// The index of a signal's column; empty if the trace has none.
+std::optional<std::size_t> column_of(Signal signal);
+
 /// The columns of the scenario's record.columns, t_s always first. Problems: unknown names.
 base::Result<std::vector<Column>> record_columns(const Scenario& scenario);
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "sixstep/plant/general/audit.hpp"
 #include "sixstep/study/measure/device_watch.hpp"
@@ -35,7 +36,7 @@ struct Observers {
   RunWatch extremes{};
   EndWatch end{};
   Figures figures;
-  std::optional<GridRecorder> grid{};
+  std::vector<GridRecorder> grids{};
   std::optional<EventRecorder> events{}, report{};
   std::optional<LogicRecorder> logic{};
   std::function<bool(double)> keep_going{};
@@ -51,7 +52,7 @@ struct Observers {
     digest.segment(rig, s);
     extremes.segment(rig);
     figures.segment(rig, s);
-    if (grid) grid->segment(rig, s);
+    for (GridRecorder& grid : grids) grid.segment(rig, s);
     if (events) events->segment(rig, s);
     if (report) report->segment(rig, s);
     if (logic) logic->segment(rig, s);

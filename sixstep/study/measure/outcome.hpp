@@ -2,6 +2,7 @@
 // The results of a run: numbers and verdicts.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,23 @@ struct ComparisonResult {
   double measured = 0.0;
   double value = 0.0;  // value of the source to compare with
   std::string source;
-  double zero = 0.0;  // figure_zero()
+  double zero = 0.0;                       // figure_zero()
+  std::optional<double> uncertainty = {};  // of a recording: 95 % bound of measured - value; infinite if a
+                                           // single pulse or period shows no spread
+  bool fails = false;                      // beyond the recording's tolerance
+
+  /// How far measured and value are apart beyond the uncertainty.
+  double beyond() const {
+    const double apart = measured > value ? measured - value : value - measured;
+    return apart > *uncertainty ? apart - *uncertainty : 0.0;
+  }
+};
+
+/// A recording as it was laid over a signal, for a picture: every n-th row.
+struct LaidRecording {
+  std::string name, unit;  // of the signal
+  std::string file;
+  std::vector<double> t_s, recorded, simulated;
 };
 
 using plant::EnergyBook;
@@ -80,8 +97,9 @@ struct ChipReport {
 
 struct Outcome {
   std::vector<Verdict> verdicts;
-  std::vector<ComparisonResult> comparisons;
-  std::optional<plant::EnergyBook> energy;  // empty without Listeners::keep_books
+  std::vector<ComparisonResult> comparisons;               // those with recordings last
+  std::shared_ptr<const std::vector<LaidRecording>> laid;  // null: none
+  std::optional<plant::EnergyBook> energy;                 // empty without Listeners::keep_books
   std::optional<plant::Laws> laws;
   std::vector<DeviceLoss> devices;  // empty if the bridge lacks values (tells_losses)
   std::vector<EventCount> events;
@@ -109,6 +127,8 @@ struct Outcome {
   bool passed() const {
     for (const Verdict& v : verdicts)
       if (!v.ok) return false;
+    for (const ComparisonResult& c : comparisons)
+      if (c.fails) return false;
     return !fault;
   }
 };

@@ -40,8 +40,8 @@ Observers observers_of(const Scenario& s, const Listeners& listeners,
   if (on_record && s.record.events)
     w.events.emplace(gap_s, indices, on_record);
   else if (on_record)
-    w.grid.emplace(sim::to_instant(s.record.grid_s.value_or(s.pwm.period_s)).ticks,
-                   sim::to_instant(s.duration_s), indices, on_record);
+    w.grids.push_back(GridRecorder(sim::to_instant(s.record.grid_s.value_or(s.pwm.period_s)).ticks,
+                                   sim::to_instant(s.duration_s), indices, on_record));
   std::vector<std::size_t> every(column_count);
   for (std::size_t c = 0; c < column_count; ++c) every[c] = c;
   if (listeners.on_event) w.report.emplace(gap_s, every, listeners.on_event);

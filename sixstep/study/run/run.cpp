@@ -8,6 +8,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/live/any_run.hpp"
 #include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/measure/laying.hpp"
 #include "sixstep/study/run/conclude.hpp"
 #include "sixstep/study/run/observers_of.hpp"
 
@@ -41,11 +42,14 @@ base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners, 
   if (!indices) return indices.problems();
 
   Outcome out = outcome_of(*compiled);
+  Laying laying(scenario);
   Observers w = observers_of(scenario, listeners, *indices);
+  laying.watch(w.grids);
   const base::Problems problems = run_on_board(scenario, *compiled, w, out);
   if (!problems.empty()) return problems;
   conclude(scenario, *compiled, w, out);
   w.figures.judge(scenario, out);
+  laying.judge(out);
   return out;
 }
 

@@ -11,9 +11,9 @@ using base::above;
 using base::between;
 using base::from;
 
-inline void describe(base::Visitor& v, Measure& s) {
+inline void describe(base::Visitor& v, Measure& s, bool needs_metric = true) {
   v.choice("metric", s.metric, metric_choices,
-           {.meaning = "figure that is computed from the signal", .required = true});
+           {.meaning = "figure that is computed from the signal", .required = needs_metric});
   v.choice("signal", s.signal, signal_choices, {.meaning = "signal from which the figure is computed"});
   v.value("from_s", s.from_s,
           {.meaning = "start of the window. Default: the start of the run", .unit = "s", .range = from(0)});
@@ -55,13 +55,60 @@ inline void describe(base::Visitor& v, Requirement& s) {
           {.meaning = "the figure must be at most this, in the figure's unit", .unit_here = unit});
 }
 
+inline void describe(base::Visitor& v, Recording& s, Signal signal) {
+  v.value(
+      "column", s.column,
+      {.meaning = "with file: heading of the recorded column; without it the column that the heading names "
+                  "as a trace does"});
+  v.value("figures", s.figures,
+          {.meaning = "with file: figures of both, of difference_rms, mean, rms, min, max, peak_to_peak, "
+                      "harmonic_N (N = 1: amplitude), high_s, low_s, period_s. Default: difference_rms"});
+  v.value("free", s.free,
+          {.meaning = "with file: properties of the probe that are fitted, of scale, offset and shift"});
+  v.value(
+      "scale", s.scale,
+      {.meaning =
+           "with file: the signal's unit per unit of the recorded column; where it is free, only its sign "
+           "counts for the search of the shift"});
+  v.value("offset", s.offset,
+          {.meaning = "with file: added to the scaled recording", .unit_here = unit_of(signal)});
+  v.value(
+      "shift_s", s.shift_s,
+      {.meaning = "with file: time of its first row after from_s; the fit begins here and covers a period",
+       .unit = "s"});
+  v.value("mean_s", s.mean_s,
+          {.meaning = "with file: length of a moving mean that both get", .unit = "s", .range = from(0)});
+  v.value("shortest_s", s.shortest_s,
+          {.meaning = "high_s, low_s, period_s: shortest pulse that counts", .unit = "s", .range = from(0)});
+  v.value("longest_s", s.longest_s,
+          {.meaning = "high_s, low_s, period_s: longest pulse that counts", .unit = "s", .range = above(0)});
+  v.value("conditions_percent", s.conditions_percent,
+          {.meaning = "with file: 95 % uncertainty of the simulated figures, because speed, duty "
+                      "or supply of the recorded drive are not known exactly",
+           .unit = "percent",
+           .range = from(0)});
+  v.value(
+      "tolerance_percent", s.tolerance_percent,
+      {.meaning = "with file: a figure that is farther off, beyond the uncertainty, fails the run. Without "
+                  "it no comparison does",
+       .unit = "percent",
+       .range = from(0)});
+}
+
 inline void describe(base::Visitor& v, Comparison& s) {
-  describe(v, s.measure);
+  if (!s.recording) s.recording = std::make_shared<Recording>();
+  v.value(
+      "file", s.recording->file,
+      {.meaning = "recording of a real drive, laid over the signal: a CSV file beside this one, also packed "
+                  "by gzip; instead of metric, value and source"});
+  const bool by_value = s.recording->file.empty();
+  describe(v, s.measure, by_value);
   v.value("value", s.value,
           {.meaning = "value that the source gives, in the figure's unit",
-           .required = true,
+           .required = by_value,
            .unit_here = figure_unit(s.measure)});
-  v.value("source", s.source, {.meaning = "source of the value", .required = true});
+  v.value("source", s.source, {.meaning = "source of the value", .required = by_value});
+  describe(v, *s.recording, s.measure.signal);
 }
 
 }  // namespace sixstep::study

@@ -3,7 +3,9 @@
 // scenario_description.hpp describes each key, with unit, range and default.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "sixstep/study/scenario/load.hpp"
 #include "sixstep/study/scenario/measure.hpp"
 #include "sixstep/study/scenario/protection.hpp"
+#include "sixstep/study/scenario/recording.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
 
 namespace sixstep::study {
@@ -110,6 +113,7 @@ struct Comparison {
   Measure measure;
   double value = 0.0;
   std::string source;
+  std::shared_ptr<Recording> recording = {};  // instead of value and source; only while a file is read
 };
 
 enum class Distribution : std::uint8_t { uniform, normal };
@@ -157,8 +161,12 @@ struct Scenario {
   Record record;
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
-  std::vector<Spread> spread;           // applies to a series of runs; a single run uses the values as
-                                        // written
+  std::shared_ptr<const std::vector<LaidOver>> laid_over;  // comparisons with a file (moved by text)
+  std::vector<Spread> spread;  // applies to a series of runs; a single run uses the values as
+                               // written
+  std::span<const LaidOver> recordings() const {
+    return laid_over ? std::span<const LaidOver>(*laid_over) : std::span<const LaidOver>();
+  }
   std::optional<Nominal> designed_for;  // design basis, set by study::varied; not given: sheet, supply and
                                         // load of this scenario
 };

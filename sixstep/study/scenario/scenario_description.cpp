@@ -131,7 +131,8 @@ void describe(base::Visitor& v, Scenario& s) {
   v.table("record", s.record, {.meaning = "columns and times of the trace"});
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
   v.list("compare", s.compare,
-         {.meaning = "figures shown beside the values of a source; they do not affect the verdict"});
+         {.meaning = "figures shown beside the values of a source, or a recording laid over a signal; only "
+                     "tolerance_percent makes them affect the verdict"});
   v.list("spread", s.spread,
          {.meaning = "differences between the drives of a series; the controller stays designed for the "
                      "values as written"});

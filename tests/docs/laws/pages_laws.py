@@ -2,7 +2,8 @@
 """The law of each block. A block is found by its page and a part of its text or heading."""
 import re
 
-from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, sheets, tables
+from laws import (bench, capacitor, commutation, contest, curve, design, drives, firmware, recordings, run_output, series, sheets,
+                  tables)
 from page import REPOSITORY
 
 # Blocks with a reader's input contain no results.
@@ -226,6 +227,9 @@ BY_TEXT = [
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
     ("docs/start/tour.md", "settles within", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
     ("docs/howto/design-", "", design.judge),
+    ("docs/explanation/recordings.md", "recorded   simulated", recordings.verdicts), ("docs/explanation/recordings.md", "within +- ", recordings.verdicts),
+    ("docs/explanation/recordings.md", " V left of ", recordings.left_over), ("docs/explanation/recordings.md", "halves thirds", recordings.shares),
+    ("docs/explanation/recordings.md", "deg late", recordings.late_edges),
     ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.
@@ -237,7 +241,7 @@ MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tou
 # Pages and tables with definitions: names, formulas, commands, exit codes, and pages with code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
-DEFINING = [(GUIDE, "| mistake |"), (SHEETS, "| column |"), (SHEETS, "| you need |"), ("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
+DEFINING = [(GUIDE, "| mistake |"), (SHEETS, "| column |"), (SHEETS, "| you need |"), ("README.md", "| task |"), ("docs/explanation/recordings.md", "| scenario |"), ("docs/explanation/recordings.md", "| cause |"), ("docs/howto/export-an-fmu.md", "| file | content |"), ("docs/howto/export-an-fmu.md", "--kind plant"), ("docs/howto/export-an-fmu.md", "| `--inputs` |"),
             ("docs/howto/use-from-octave-and-simulink.md", ""), ("docs/howto/run-a-firmware", "sixstep_status hal_run"), ("docs/howto/run-a-firmware", "static void advance"),
             ("docs/howto/run-a-firmware", "| file in "), ("docs/howto/run-a-firmware", "| function or macro |"), ("docs/reference/glossary.md", "| term |"),
             ("docs/howto/record-a-motor.md", "| column |"), ("docs/howto/measure-a-frequency-response.md", "| what stands there |"), ("docs/howto/commission-a-drive.md", "| phase |"),

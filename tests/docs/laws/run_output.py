@@ -3,6 +3,7 @@
 summary counts the rows above. No quantity exceeds the bounds of motor and supply."""
 import re
 
+from laws import recordings
 from laws.quantities import quantity
 from laws.scenarios import most_of_command
 
@@ -41,6 +42,9 @@ class Table:
         cells = PARTS.split(line.strip())
         if len(cells) >= 4 and cells[3] in ("ok", "FAILED"):
             self.requirement(cells)
+        elif len(cells) >= 4 and (recordings.VERDICT.match(cells[3]) or cells[3] == "no verdict: seen once"):
+            recordings.row(self.test, self.spot, cells)
+            self.compared += 1
         elif len(cells) >= 4 and (cells[3].endswith("%") or cells[3] == "not comparable"):
             self.comparison(cells)
         for cell in cells[1:3]:
