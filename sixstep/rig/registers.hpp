@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registers of a chip: the counts of its converters and capture timer, computed from the plant.
 #pragma once
+#include "sixstep/control/low_side.hpp"
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"
 #include "sixstep/rig/shaft_ports.hpp"
@@ -8,7 +9,7 @@
 
 namespace sixstep::rig {
 
-enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
+enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link, low_side };
 
 /// Source of speed and position between Hall edges.
 enum class HallAngleFrom : std::uint8_t {
@@ -18,9 +19,10 @@ enum class HallAngleFrom : std::uint8_t {
 };
 
 struct SensorsConfig {
-  AdcPath current{};  ///< converter of each phase, or of the shunt
+  AdcPath current{};  ///< converter of each phase, or of each shunt
   AdcPath bus{};
   double least_duty = 1.0;  ///< DC link: a sample is valid only above this duty (one_shunt.hpp)
+  control::LowSideConfig<double> low_side{};  ///< low-side shunts, and the duties at which they count
   double fade = 1.0;        ///< factor per period on the estimate of an unmeasured current, exp(-R T_s/L)
   double capture_Hz = 1e6;  ///< clock of the timer that captures the edges
   double timeout_s = 0.05;  ///< s; the rotor counts as at rest after this time without an edge
@@ -58,6 +60,14 @@ inline std::uint32_t window_ticks(const SensorsConfig& config) {
   return ticks < 1.0 ? 1u : ticks < 0x1p31 ? static_cast<std::uint32_t>(ticks) : 0x80000000u;
 }
 
+/// What a sample of low-side shunts means, by the command in effect. Without such shunts it is not used.
+struct LowSideSample {
+  bool on = false;         ///< the bridge is on
+  bool by_pair = false;    ///< the command drives a pair; if not, three legs
+  std::uint8_t shown = 0;  ///< legs whose sample counts (control/low_side.hpp)
+  control::Pair pair{};
+};
+
 /// The plant's values at one sample instant, in SI, and the command in effect.
 struct Sample {
   double i_A[3]{};
@@ -67,6 +77,7 @@ struct Sample {
   std::uint64_t number = 0;
   double duty = 0.0;
   bool reversed = false;
+  LowSideSample low_side{};
   plant::ShaftAngle<double> shaft{};
 };
 

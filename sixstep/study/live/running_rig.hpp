@@ -40,6 +40,9 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
     out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
   else
     note_trip(rig.firmware().diagnosis(), out);
+  const rig::Diagnosis found = rig.firmware().diagnosis();
+  out.shunt_samples = found.shunt_samples;
+  out.blind_samples = found.blind_samples;
   if constexpr (requires { rig.plant().breaking(); }) note_wires(rig.plant().breaking(), out);
   if constexpr (requires { rig.firmware().latest_edge_s(); })
     out.chip.emplace().latest_edge_s = rig.firmware().latest_edge_s();

@@ -19,6 +19,7 @@
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
+#include "sixstep/study/run/low_side_limits.hpp"
 #include "sixstep/study/run/thermal_remarks.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -297,6 +298,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const 
   add(std::move(thermal.kept));
   for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
     add(std::move(text));
+  add(blind_samples(s, out));
   if (!c.own.is) add_loop_remarks(s, c, w, out);
   add(std::move(thermal.hot));
 }
