@@ -16,7 +16,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
-static_assert(std::is_trivially_copyable_v<LowSideState<Q15>> && std::is_trivially_copyable_v<LowSideConfig<Q15>>);
+static_assert(std::is_trivially_copyable_v<LowSideState<Q15>> &&
+              std::is_trivially_copyable_v<LowSideConfig<Q15>>);
 
 template <class Scalar>
 class LowSide : public ::testing::Test {};
@@ -24,13 +25,16 @@ TYPED_TEST_SUITE(LowSide, Scalars);
 
 TYPED_TEST(LowSide, TwoLegsGiveTheThirdByTheSumOfTheCurrents) {
   using S = TypeParam;
-  const S sample[3] = {S(0.25), S(-0.125), S(0.5)};  // the sum is not 0: one of them is a leg that is not shown
+  const S sample[3] = {S(0.25), S(-0.125),
+                       S(0.5)};  // the sum is not 0: one of them is a leg that is not shown
   for (unsigned hidden = 0; hidden < 3; ++hidden) {
     LowSideState<S> state;
     low_side_legs(state, static_cast<std::uint8_t>(7U & ~(1U << hidden)), sample);
     EXPECT_EQ(state.leg_A[0] + state.leg_A[1] + state.leg_A[2], S{});
     for (unsigned k = 0; k < 3; ++k)
-      if (k != hidden) EXPECT_EQ(state.leg_A[k], sample[k]);
+      if (k != hidden) {
+        EXPECT_EQ(state.leg_A[k], sample[k]);
+      }
     EXPECT_EQ(state.blind, 0U);
   }
   LowSideState<S> state;
@@ -43,7 +47,8 @@ TYPED_TEST(LowSide, FewerThanTwoLegsKeepTheLastCurrents) {
   const S first[3] = {S(0.25), S(-0.125), S(-0.125)}, second[3] = {S(0.5), S(0.5), S(0.5)};
   LowSideState<S> state;
   low_side_legs(state, 7, first);
-  for (const std::uint8_t shown : {0, 1, 2, 4}) low_side_legs(state, shown, second);
+  for (const unsigned shown : {0U, 1U, 2U, 4U})
+    low_side_legs(state, static_cast<std::uint8_t>(shown), second);
   for (unsigned k = 0; k < 3; ++k) EXPECT_EQ(state.leg_A[k], first[k]);
   EXPECT_EQ(state.samples, 5U);
   EXPECT_EQ(state.blind, 4U);
@@ -57,9 +62,12 @@ TYPED_TEST(LowSide, OneLegOfAPairIsEnough) {
   EXPECT_EQ(low_side_pair(state, 0b010, pair, false, sample), S(0.25)) << "the source";
   EXPECT_EQ(low_side_pair(state, 0b100, pair, false, sample), S(0.5)) << "the sink";
   EXPECT_EQ(low_side_pair(state, 0b111, pair, false, sample), S(0.375)) << "half the difference";
-  EXPECT_EQ(low_side_pair(state, 0b001, pair, false, sample), S(0.375)) << "the free leg shows nothing of the pair";
-  EXPECT_EQ(low_side_pair(state, 0, swapped(pair), true, sample), S(0.375)) << "kept: the command turns, not the current";
-  EXPECT_EQ(low_side_pair(state, 0b100, swapped(pair), true, sample), S(0.5)) << "the source of the reversed pair";
+  EXPECT_EQ(low_side_pair(state, 0b001, pair, false, sample), S(0.375))
+      << "the free leg shows nothing of the pair";
+  EXPECT_EQ(low_side_pair(state, 0, swapped(pair), true, sample), S(0.375))
+      << "kept: the command turns, not the current";
+  EXPECT_EQ(low_side_pair(state, 0b100, swapped(pair), true, sample), S(0.5))
+      << "the source of the reversed pair";
   EXPECT_EQ(state.samples, 6U);
   EXPECT_EQ(state.blind, 2U);
 }
@@ -101,7 +109,8 @@ double blind_share(std::uint8_t shunts, double greatest, double modulation) {
   for (int n = 0; n < steps; ++n) {
     const double angle = 2 * std::numbers::pi * (n + 0.5) / steps, third = 2 * std::numbers::pi / 3;
     const double v = modulation / std::sqrt(3.0);
-    const auto legs = space_vector(Abc<double>{v * std::cos(angle), v * std::cos(angle - third), v * std::cos(angle + third)}, 1.0);
+    const auto legs = space_vector(
+        Abc<double>{v * std::cos(angle), v * std::cos(angle - third), v * std::cos(angle + third)}, 1.0);
     blind += std::popcount(shown_legs(config, legs.leg)) < 2;
   }
   return static_cast<double>(blind) / steps;
@@ -125,7 +134,8 @@ TEST(LowSideModulation, TwoShuntsMeasureUpToALowerModulationThanThree) {
 double hidden_arc(double d, double m) {
   const double c = 2 * d - 1;
   if (m <= c) return 0.0;
-  return m * std::cos(std::numbers::pi / 6) <= c ? 4 * std::acos(c / m) : 2 * std::acos(c / (std::sqrt(3.0) * m));
+  return m * std::cos(std::numbers::pi / 6) <= c ? 4 * std::acos(c / m)
+                                                 : 2 * std::acos(c / (std::sqrt(3.0) * m));
 }
 
 TEST(LowSideModulation, TheBlindShareIsTheArcOfTheDuty) {
@@ -133,7 +143,8 @@ TEST(LowSideModulation, TheBlindShareIsTheArcOfTheDuty) {
     for (const double m : {0.5, 0.7, 0.82, 0.9, 0.95, 1.0}) {
       const double each = hidden_arc(d, m);  // the arcs of two legs are 120 degrees apart
       const double both = std::max(0.0, each - 2 * std::numbers::pi / 3);
-      EXPECT_NEAR(blind_share(0b011, d, m), (2 * each - both) / (2 * std::numbers::pi), 2e-4) << d << " " << m;
+      EXPECT_NEAR(blind_share(0b011, d, m), (2 * each - both) / (2 * std::numbers::pi), 2e-4)
+          << d << " " << m;
       EXPECT_NEAR(blind_share(0b111, d, m), 3 * both / (2 * std::numbers::pi), 2e-4) << d << " " << m;
     }
 }

@@ -73,7 +73,9 @@ void expect_path(const Seen& seen) {
 
 void expect_exact(const Seen& seen) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (seen.sample.low_side.shown >> k & 1) EXPECT_EQ(seen.sample.i_A[k], seen.true_A[k]) << k;
+    if ((seen.sample.low_side.shown >> k & 1) != 0) {
+      EXPECT_EQ(seen.sample.i_A[k], seen.true_A[k]) << k;
+    }
 }
 
 struct Case {
@@ -121,7 +123,8 @@ TEST(LowSideShunts, ASixStepSampleThatCountsIsThePhaseCurrent) {
         for (const bool middle : {false, true})
           for (const double duty : {0.04, 0.3, 0.6, 0.95, 1.0, -0.6}) {
             if (chopping == Chopping::hard && (pattern != control::PwmPattern::upper || duty < 0.6)) continue;
-            const Case c{chopping, pattern, centre, middle, duty, chopping == Chopping::complementary ? 0.5e-6 : 0.0};
+            const Case c{chopping, pattern, centre,
+                         middle,   duty,    chopping == Chopping::complementary ? 0.5e-6 : 0.0};
             SCOPED_TRACE(::testing::Message() << c);
             const Board b = six_step(c);
             rig::Rig<double, Sampling> rig(b.plant(), b.drive, b.board, b.timeline);
@@ -219,7 +222,7 @@ TEST(LowSideShunts, ThreeLegsAreShownUpToTheWindowAndExact) {
       if (before_s >= 0) {  // the command in effect is that of the tick before
         const auto in_effect = legs.legs(before_s);
         for (std::size_t k = 0; k < 3; ++k)
-          EXPECT_EQ(seen.sample.low_side.shown >> k & 1, in_effect.leg[k].duty <= limit ? 1 : 0);
+          EXPECT_EQ((seen.sample.low_side.shown >> k & 1), in_effect.leg[k].duty <= limit ? 1 : 0);
         ++ticks;
       }
       before_s = rig.now().seconds();
