@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registers of a chip: the counts of its converters and capture timer, computed from the plant.
 #pragma once
-#include "sixstep/control/low_side.hpp"
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"
+#include "sixstep/rig/low_side_sample.hpp"
 #include "sixstep/rig/shaft_ports.hpp"
 #include "sixstep/sim/instant.hpp"
 
@@ -59,14 +59,6 @@ inline std::uint32_t window_ticks(const SensorsConfig& config) {
   const double ticks = config.window_s * config.capture_Hz;
   return ticks < 1.0 ? 1u : ticks < 0x1p31 ? static_cast<std::uint32_t>(ticks) : 0x80000000u;
 }
-
-/// What a sample of low-side shunts means, by the command in effect. Without such shunts it is not used.
-struct LowSideSample {
-  bool on = false;         ///< the bridge is on
-  bool by_pair = false;    ///< the command drives a pair; if not, three legs
-  std::uint8_t shown = 0;  ///< legs whose sample counts (control/low_side.hpp)
-  control::Pair pair{};
-};
 
 /// The plant's values at one sample instant, in SI, and the command in effect.
 struct Sample {

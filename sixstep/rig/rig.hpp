@@ -253,7 +253,6 @@ class Rig {
   void fail_shaft_sensor(const Action& action);
   void break_divider(std::size_t leg);
   void control_step(bool starts_period);
-  void look_below(SampleInstant<Real>& instant) const;
   void follow_waveform();
   void skip_idle_ticks();
   /// Takes a thermal step if one ends; called at control ticks.

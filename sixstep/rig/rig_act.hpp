@@ -65,7 +65,10 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
   if constexpr (six_step) instant.duty = modulator_.command().duty;
   if constexpr (has_front_end) {
     if (front_end_.follows()) instant.seen = &front_end_.reading();
-    if (board_.sensors.low_side.shunts != 0) look_below(instant);
+    if (board_.sensors.low_side.shunts != 0) {
+      instant.shunts = board_.sensors.low_side.shunts;
+      instant.low_side = low_side_sample(board_.sensors.low_side, modulator_.command());
+    }
   }
   if constexpr (looks_at_terminals)
     if (sees_terminals()) show_terminals();
@@ -94,27 +97,6 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
   if constexpr (six_step)
     if (!starts_period) return modulator_.rearm(now_, command);
   modulator_.start_period(now_, command);
-}
-
-/// Finds the legs whose low-side shunts show their currents, by the command in effect.
-template <class Real, class Firmware, class Plant>
-void Rig<Real, Firmware, Plant>::look_below(SampleInstant<Real>& instant) const {
-  const control::LowSideConfig<double>& config = board_.sensors.low_side;
-  instant.shunts = config.shunts;
-  const auto& command = modulator_.command();
-  instant.low_side.on = command.enabled;
-  if constexpr (six_step) {
-    control::LegCommand<double> leg[3]{};
-    leg[static_cast<unsigned>(command.pair.source)] =
-        control::source_leg(command.chopping, command.chopped, command.duty);
-    leg[static_cast<unsigned>(command.pair.sink)] =
-        control::sink_leg(command.chopping, command.chopped, command.duty);
-    instant.low_side.by_pair = true;
-    instant.low_side.pair = command.pair;
-    instant.low_side.shown = control::shown_legs(config, leg);
-  } else {
-    instant.low_side.shown = control::shown_legs(config, command.leg);
-  }
 }
 
 template <class Real, class Firmware, class Plant>

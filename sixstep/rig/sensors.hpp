@@ -57,7 +57,7 @@ class Sensors {
     return config_.rotor_from_hall && config_.hall_angle != HallAngleFrom::sectors;
   }
   bool decodes_hall() const { return config_.decodes_hall || config_.rotor_from_hall; }
-  void sense_below(control::Measurement<Scalar>& measured, const Sample& sample);
+  [[gnu::noinline]] void sense_below(control::Measurement<Scalar>& measured, const Sample& sample);
   Scalar current(std::size_t input, double i_A, const Sample& s) const {
     return control::adc_value(current_adc_, adc_[input], registers_.current_counts(input, i_A, s.number));
   }

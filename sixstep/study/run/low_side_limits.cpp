@@ -15,11 +15,12 @@ std::string of_pair(const Scenario& s, const control::LowSideConfig<double>& win
   if (s.pwm.chopping == control::Chopping::hard || s.pwm.pattern != control::PwmPattern::upper)
     return "; a sink whose lower switch is chopped is shown at the sample from a duty of " +
            few_digits(window.least_duty) + " on";
-  std::string text = "; a sink's shunt shows the current at every duty, because its lower switch stays on";
   const int shunts = std::popcount(window.shunts);
-  if (shunts < 3) text += ", and in the sectors without such a shunt that of the source does up to this duty";
-  if (shunts < 2) text += "; in a third of the sectors the pair has no shunt";
-  return text;
+  return shunts == 3 ? "; the sink's lower switch stays on, and its shunt shows the current at every duty"
+         : shunts == 2
+             ? "; in a third of the sectors only the source has a shunt, elsewhere that of the sink shows "
+               "the current at every duty"
+             : "; in a third of the sectors the pair has no shunt, in another third only the source has";
 }
 
 }  // namespace

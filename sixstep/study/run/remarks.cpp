@@ -76,7 +76,9 @@ double sector_s(const Compiled& c, double rad_s) {
 /// exp(-2 pi f t) of the current after t = shunt_settle_s, the end of the shortest measured pulse.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
-  if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
+  const bool shunts = s.sensors.currents == rig::CurrentMeasurement::dc_link ||
+                      s.sensors.currents == rig::CurrentMeasurement::low_side;
+  if (!shunts || !s.sensors.current_bandwidth_Hz) return {};
   const double rate = 2 * base::pi * *s.sensors.current_bandwidth_Hz;
   const double shown = 1 - base::exp(-rate * s.sensors.shunt_settle_s);
   if (shown >= enough) return {};
