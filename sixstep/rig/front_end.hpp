@@ -103,7 +103,8 @@ class FrontEnd {
 /// instant is a jump, they get the value before the jump.
 template <class Real>
 void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
-  const series::Coefficients<Real> link = dc_link(of), none{};
+  static const series::Coefficients<Real> none{};
+  const series::Coefficients<Real> link = dc_link(of);
   const int degree = of.y.degree;
   plant::PerLeg<const series::Coefficients<Real>*> leg{};
   for (std::size_t k = 0; k < 3; ++k) {
