@@ -2,7 +2,7 @@
 """Which law judges which block. A block is found by its page and a piece of its text or heading."""
 import re
 
-from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, tables
+from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, shunts, tables
 from page import REPOSITORY
 
 # Blocks of a reader's input are no results.
@@ -214,6 +214,7 @@ BY_TEXT = [
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
     ("docs/start/tour.md", "settles within", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
     ("docs/howto/design-", "", design.judge),
+    ("docs/howto/choose-shunts.md", "control periods", shunts.lost), ("docs/howto/choose-shunts.md", "m w_0", shunts.window),
     ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.
@@ -238,7 +239,7 @@ DEFINING = [("README.md", "| task |"), ("docs/howto/export-an-fmu.md", "| file |
             ("docs/reference/plan-file.md", "title = "), ("docs/howto/find-the-best-point.md", "minimise = "), ("docs/howto/run-many.md", "sixstep run data/scenarios"),
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
             ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |"), ("docs/howto/compare-a-log.md", "| quantity |"),
-            ("docs/howto/take-over-parameters.md", "| program |")]
+            ("docs/howto/take-over-parameters.md", "| program |"), ("docs/howto/choose-shunts.md", "| pulses, sample |")]
 # Tables with a named test that measures every row and has its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
