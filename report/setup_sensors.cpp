@@ -54,10 +54,13 @@ std::string sensors(const study::Sensors& s) {
   using sixstep::rig::CurrentMeasurement;
   std::string text = s.currents == CurrentMeasurement::ideal    ? "ideal currents"
                      : s.currents == CurrentMeasurement::phases ? "phase currents"
-                                                                : "one shunt in the DC link";
+                     : s.currents == CurrentMeasurement::dc_link
+                         ? "one shunt in the DC link"
+                         : fmt::format("low-side shunts {}", base::word(study::shunt_choices, s.shunts));
   if (s.currents != CurrentMeasurement::ideal)
     text += fmt::format(" through {} bits over ±{}", s.adc_bits, given(s.current_range_A.value_or(0.0), "A"));
-  if (s.currents == CurrentMeasurement::dc_link) text += ", settled after " + given(s.shunt_settle_s, "s");
+  if (s.currents == CurrentMeasurement::dc_link || s.currents == CurrentMeasurement::low_side)
+    text += ", settled after " + given(s.shunt_settle_s, "s");
   if (s.currents != CurrentMeasurement::ideal && s.current_noise_A > 0.0)
     text += ", noise " + given(s.current_noise_A, "A");
   if (s.currents != CurrentMeasurement::ideal && s.current_bandwidth_Hz)

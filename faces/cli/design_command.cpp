@@ -318,7 +318,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option(
       "--lowest-speed", a.lowest_speed_rad_s,
       "speed, position: lowest speed that the loop must control, in rad/s or m/s. Default: a tenth of the speed that the bus allows");
-  design.add_option("--currents", a.currents, "phases, dc-link or ideal. Default: phases");
+  design.add_option("--currents", a.currents, "phases, dc-link, low-side or ideal. Default: phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2,
                     "speed, position: inertia on the shaft besides the rotor's, in kg m2. Default: 0");
   design.add_option("--load-mass", a.load_mass_kg,

@@ -24,6 +24,7 @@ using PerLeg = std::array<Real, 3>;
 
 constexpr bool is_floating(Connection c) { return c == Connection::floating; }
 constexpr bool is_high(Connection c) { return c == Connection::high_switch || c == Connection::high_diode; }
+constexpr bool is_low(Connection c) { return c == Connection::low_switch || c == Connection::low_diode; }
 constexpr bool is_diode(Connection c) { return c == Connection::high_diode || c == Connection::low_diode; }
 
 /// |S|: number of connected legs.

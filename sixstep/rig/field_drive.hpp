@@ -66,7 +66,9 @@ class FieldDrive {
     Diagnosis found{.hall_line = sensors_.broken_line(),
                     .at = core_.at(),
                     .shaft = sensors_.shaft_found(),
-                    .core = core_.trouble()};
+                    .core = core_.trouble(),
+                    .shunt_samples = sensors_.low_side().samples,
+                    .blind_samples = sensors_.low_side().blind};
     if (state_.estimator.phase != control::EstimatorPhase::unseen) return found;
     found.gave_up = true;
     if (state_.estimator.failures > 0) {

@@ -34,13 +34,15 @@ struct SampleInstant {
   sim::Instant at{};
   std::uint64_t number = 0;  ///< index of the sample
   std::uint8_t pins = 0;
-  bool reversed = false;  ///< sign of the six-step command in effect
-  double duty = 0.0;      ///< duty of the command in effect; needed to evaluate the shunt in the DC link
+  bool reversed = false;    ///< sign of the six-step command in effect
+  double duty = 0.0;        ///< duty of the command in effect; the DC link's shunt is evaluated by it
+  std::uint8_t shunts = 0;  ///< legs with a low-side shunt, as bits; 0: the currents are not measured so
+  LowSideSample low_side{};
   const FrontEndReading* seen =
       nullptr;  ///< values at the converters' inputs; null if the board's front end has no lag
 };
 
-/// What a firmware has found out about a fault.
+/// Findings of a firmware about a fault, and how often its low-side shunts showed too little.
 struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that turned the drive off
   std::uint8_t hall_line = 0;  ///< 1..3: the line that caused an invalid code; 0: no line, or unknown
@@ -54,8 +56,9 @@ struct Diagnosis {
   double north = 0.0;                                ///< last result of the pulses: signal divided by noise
   double certain = 0.0;                              ///< least sufficient value of `north`
   ShaftFinding shaft{};                              ///< reason why an encoder or resolver counts as lost
-  OwnFinding own{};                                  ///< invalid answer of a user's controller
-  CoreTrouble core = CoreTrouble::none;              ///< failure of a core or chip
+  OwnFinding own{};                                  ///< error in the answer of a user's controller
+  CoreTrouble core = CoreTrouble::none;              ///< trouble of a core in parallel to the host
+  std::uint32_t shunt_samples = 0, blind_samples = 0;  ///< samples of low-side shunts; those without a result
 };
 
 /// New configuration of a running chip (control/retune.hpp).
@@ -99,11 +102,15 @@ Sample sample_of(const SampleInstant<Real>& instant) {
                 .number = instant.number,
                 .duty = instant.duty,
                 .reversed = instant.reversed,
+                .low_side = instant.low_side,
                 .shaft = {s.sector, static_cast<double>(s.x), static_cast<std::int64_t>(instant.pole_pairs)}};
   for (std::size_t k = 0; k < 3; ++k) {
     sample.i_A[k] = static_cast<double>(s.i[k]);
     if (plant::is_high(instant.legs[k])) sample.dc_link_A += sample.i_A[k];
   }
+  if (instant.shunts != 0)
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((instant.shunts >> k & 1) == 0 || !plant::is_low(instant.legs[k])) sample.i_A[k] = 0.0;
   if (instant.seen == nullptr) return sample;
   if (instant.seen->currents) {
     for (std::size_t k = 0; k < 3; ++k) sample.i_A[k] = instant.seen->i_A[k];

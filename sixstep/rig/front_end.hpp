@@ -103,14 +103,21 @@ class FrontEnd {
 /// outputs jump at this instant, the converters receive the values before the jump.
 template <class Real>
 void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
+  static const series::Coefficients<Real> none{};
   const series::Coefficients<Real> link = dc_link(of);
   const int degree = of.y.degree;
+  plant::PerLeg<const series::Coefficients<Real>*> leg{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t phase = of.phase[k];
+    const bool shows = (config_.shunts >> k & 1) != 0 && plant::is_low(of.legs[phase]);
+    leg[k] = config_.shunts == 0 || shows ? &of.y.i[phase] : &none;
+  }
   const auto show = [&](double s) {
     const series::LagWeights w = weights(config_.amplifier_s, of, s);
     const auto at = [&](const series::Coefficients<Real>& u, const Kept& x) {
       return x.value + series::lag_increment(u, degree, s, w, x.value);
     };
-    for (std::size_t k = 0; k < 3; ++k) reading_.i_A[k] = at(of.y.i[of.phase[k]], i_[k]);
+    for (std::size_t k = 0; k < 3; ++k) reading_.i_A[k] = at(*leg[k], i_[k]);
     reading_.dc_link_A = at(link, dc_link_);
   };
   const sim::Instant seen{of.next_sample.ticks - config_.amplifier_delay_ticks, of.next_sample.offset};
@@ -119,8 +126,7 @@ void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
     show(sim::seconds_between(of.from, seen) / static_cast<double>(of.y.h));
   const auto s = static_cast<double>(of.s);
   const series::LagWeights w = weights(config_.amplifier_s, of, s);
-  for (std::size_t k = 0; k < 3; ++k)
-    i_[k].add(series::lag_increment(of.y.i[of.phase[k]], degree, s, w, i_[k].value));
+  for (std::size_t k = 0; k < 3; ++k) i_[k].add(series::lag_increment(*leg[k], degree, s, w, i_[k].value));
   dc_link_.add(series::lag_increment(link, degree, s, w, dc_link_.value));
   if (delayed) return;
   for (std::size_t k = 0; k < 3; ++k) reading_.i_A[k] = i_[k].value;

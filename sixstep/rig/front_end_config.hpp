@@ -23,8 +23,9 @@ struct CrossingComparators {
 /// Time constants of first-order lags, s; 0: no lag.
 struct FrontEndConfig {
   double amplifier_s = 0.0;                ///< lag of each current amplifier, 1/(2 pi bandwidth)
-  std::int64_t amplifier_delay_ticks = 0;  ///< delay of the amplifiers, ps; must be shorter than the time
-                                           ///< between two samples
+  std::int64_t amplifier_delay_ticks = 0;  ///< ps; must be shorter than the time between two samples
+  std::uint8_t shunts =
+      0;                   ///< legs with a low-side shunt, as bits; 0: the amplifiers show the phase currents
   double divider_s = 0.0;  ///< lag of the bus divider, and of terminals that a firmware samples
   plant::PerLeg<double> divider_gain_error{};  ///< relative gain error of each terminal's divider
   CrossingComparators comparators{};

@@ -118,7 +118,9 @@ class SensedDrive {
     return {.hall_line = sensors_.broken_line(),
             .at = core_.at(),
             .shaft = sensors_.shaft_found(),
-            .core = core_.trouble()};
+            .core = core_.trouble(),
+            .shunt_samples = sensors_.low_side().samples,
+            .blind_samples = sensors_.low_side().blind};
   }
   /// Inputs of the firmware's converters and timers.
   Registers& registers() { return sensors_.registers(); }

@@ -103,6 +103,8 @@ class OwnDrive {
   Diagnosis diagnosis() const {
     Diagnosis found{
         .hall_line = sensors_.broken_line(), .at = wrong_at_, .shaft = sensors_.shaft_found(), .own = wrong_};
+    found.shunt_samples = sensors_.low_side().samples;
+    found.blind_samples = sensors_.low_side().blind;
     found.own.controller = config_.file.c_str();
     return found;
   }

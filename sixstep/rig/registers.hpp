@@ -3,12 +3,13 @@
 #pragma once
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"
+#include "sixstep/rig/low_side_sample.hpp"
 #include "sixstep/rig/shaft_ports.hpp"
 #include "sixstep/sim/instant.hpp"
 
 namespace sixstep::rig {
 
-enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
+enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link, low_side };
 
 /// Source of speed and position between Hall edges.
 enum class HallAngleFrom : std::uint8_t {
@@ -18,10 +19,10 @@ enum class HallAngleFrom : std::uint8_t {
 };
 
 struct SensorsConfig {
-  AdcPath current{};  ///< converter of each phase, or of the shunt
+  AdcPath current{};  ///< converter of each phase, or of each shunt
   AdcPath bus{};
-  double least_duty = 1.0;  ///< for the shunt in the DC link: a sample is valid only above this duty
-                            ///< (one_shunt.hpp)
+  double least_duty = 1.0;  ///< DC link: a sample is valid only above this duty (one_shunt.hpp)
+  control::LowSideConfig<double> low_side{};  ///< low-side shunts, and the duties at which they count
   double fade = 1.0;        ///< factor per period on the estimate of an unmeasured current, exp(-R T_s/L)
   double capture_Hz = 1e6;  ///< clock of the timer that captures the edges
   double timeout_s = 0.05;  ///< s; the rotor counts as at rest after this time without an edge
@@ -69,6 +70,7 @@ struct Sample {
   std::uint64_t number = 0;
   double duty = 0.0;
   bool reversed = false;
+  LowSideSample low_side{};
   plant::ShaftAngle<double> shaft{};
 };
 

@@ -63,8 +63,13 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
                               chip_pins(),
                               reversed_};
   if constexpr (six_step) instant.duty = modulator_.command().duty;
-  if constexpr (has_front_end)
+  if constexpr (has_front_end) {
     if (front_end_.follows()) instant.seen = &front_end_.reading();
+    if (board_.sensors.low_side.shunts != 0) {
+      instant.shunts = board_.sensors.low_side.shunts;
+      instant.low_side = low_side_sample(board_.sensors.low_side, modulator_.command());
+    }
+  }
   if constexpr (looks_at_terminals)
     if (sees_terminals()) show_terminals();
   const auto& answer = firmware_.tick(instant, setpoint_);

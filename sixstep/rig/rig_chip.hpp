@@ -14,10 +14,14 @@ bool Rig<Real, Firmware, Plant>::do_chip() {
       if (moving_) follow_waveform();
       const plant::State<Real>& state = wires_.at_legs(plant_.state());
       const plant::Legs& legs = wires_.at_legs(plant_.mode().legs);
-      firmware_.sample(
-          SampleInstant<Real>{state, legs, plant_.constants().pole_pairs, now_,
-                              static_cast<std::uint64_t>(event_count(EventKind::tick)), chip_pins()},
-          setpoint_);
+      SampleInstant<Real> instant{state,
+                                  legs,
+                                  plant_.constants().pole_pairs,
+                                  now_,
+                                  static_cast<std::uint64_t>(event_count(EventKind::tick)),
+                                  chip_pins()};
+      instant.shunts = board_.sensors.low_side.shunts;
+      firmware_.sample(instant, setpoint_);
     }
     if (firmware_.samples_current()) {
       warm_up();

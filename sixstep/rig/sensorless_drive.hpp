@@ -129,7 +129,9 @@ class SensorlessDrive {
             .gave_up = rotor().phase == control::SensorlessPhase::gave_up,
             .unseen = unseen_,
             .north = state_.found.north_16 / 16.0,
-            .certain = static_cast<double>(config_.pulses.certain)};
+            .certain = static_cast<double>(config_.pulses.certain),
+            .shunt_samples = sensors_.low_side().samples,
+            .blind_samples = sensors_.low_side().blind};
   }
   /// True if the core has failed. This ends the run, because no controller can continue.
   bool core_lost() const { return core_.trouble() != CoreTrouble::none; }

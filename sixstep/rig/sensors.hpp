@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures currents, bus voltage, speed and position with the blocks of control/. Currents are from phase
-// amplifiers or one shunt in the DC link; speed and position are from Hall edges, an encoder or a resolver. A
-// value is ideal if the scenario has no sensor for it.
+// Measures with the controller's own blocks: phase currents, one shunt in the DC link or low-side shunts,
+// the bus, and speed and position from captured Hall edges, an encoder or a resolver. Every input is ideal
+// unless the scenario switches its sensor on.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/adc.hpp"
@@ -46,7 +46,8 @@ class Sensors {
   }
   /// Fault of an encoder or a resolver.
   const ShaftFinding& shaft_found() const { return rotor_.found(); }
-  /// 1..3: the line that caused an invalid code; 0: no line, or unknown.
+  const control::LowSideState<Scalar>& low_side() const { return low_side_; }
+  /// 1..3: the line that caused an invalid code; 0: none, or the line cannot be determined.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:
@@ -56,6 +57,7 @@ class Sensors {
     return config_.rotor_from_hall && config_.hall_angle != HallAngleFrom::sectors;
   }
   bool decodes_hall() const { return config_.decodes_hall || config_.rotor_from_hall; }
+  [[gnu::noinline]] void sense_below(control::Measurement<Scalar>& measured, const Sample& sample);
   Scalar current(std::size_t input, double i_A, const Sample& s) const {
     return control::adc_value(current_adc_, adc_[input], registers_.current_counts(input, i_A, s.number));
   }
@@ -71,6 +73,7 @@ class Sensors {
   control::AdcState adc_[4]{};
   control::OneShuntConfig<Scalar> shunt_config_{};
   control::OneShuntState<Scalar> shunt_{};
+  control::LowSideState<Scalar> low_side_{};
   control::HallConfig hall_config_{};
   control::HallState hall_{};
   control::HallSpeedConfig<Scalar> speed_config_{};
@@ -149,6 +152,8 @@ void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
     const Scalar i_m =
         control::one_shunt_step(shunt_config_, shunt_, s.reversed, from_si<Scalar>(s.duty, 1.0), shunt_A);
     control::set_phase_currents(m, control::positive_pair(control::sector_of_hall(m.hall)), i_m);
+  } else if (config_.currents == CurrentMeasurement::low_side) {
+    sense_below(m, s);
   }
   if (config_.measures_bus) m.bus_V = control::adc_value(bus_adc_, adc_[bus_input], registers_.bus_counts(s));
   if (!config_.rotor_from_hall || interpolates()) return;
@@ -156,6 +161,24 @@ void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
   m.speed_rad_s = control::hall_speed(speed_config_, speed_, now);
   m.position_deg = control::hall_position(position_config_, position_, speed_.direction,
                                           control::sector_fraction(speed_config_, speed_, now));
+}
+
+/// While the bridge is off, the drive takes the currents as 0.
+template <class Scalar>
+void Sensors<Scalar>::sense_below(control::Measurement<Scalar>& m, const Sample& s) {
+  const LowSideSample& by = s.low_side;
+  m.i_a_A = m.i_b_A = m.i_c_A = Scalar{};
+  if (!by.on) return;
+  const Scalar sample_A[3] = {current(0, s.i_A[0], s), current(1, s.i_A[1], s), current(2, s.i_A[2], s)};
+  if (by.by_pair) {
+    const Scalar i_m = control::low_side_pair(low_side_, by.shown, by.pair, s.reversed, sample_A);
+    control::set_phase_currents(m, control::positive_pair(control::sector_of_hall(m.hall)), i_m);
+    return;
+  }
+  control::low_side_legs(low_side_, by.shown, sample_A);
+  m.i_a_A = low_side_.leg_A[0];
+  m.i_b_A = low_side_.leg_A[1];
+  m.i_c_A = low_side_.leg_A[2];
 }
 
 }  // namespace sixstep::rig

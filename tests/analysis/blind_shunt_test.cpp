@@ -74,4 +74,30 @@ TEST(BlindShunt, ASpeedThatSwingsWithoutALoadIsNotUsable) {
   }
 }
 
+/// Three shunts in the legs show a pair's current at every duty; two do not in every sector, and with one a third of
+/// the sectors is not measured at all.
+TEST(BlindShunt, ShuntsInTheLegsHideNothingIfThereAreThree) {
+  using study::ShuntLegs;
+  for (const ShuntLegs shunts : {ShuntLegs::abc, ShuntLegs::ab, ShuntLegs::a}) {
+    study::Scenario board;
+    board.motor = "maxon-251601";
+    board.sheet = *text::read_sheet(board.motor);
+    board.sensors.currents = rig::CurrentMeasurement::low_side;
+    board.sensors.current_range_A = 20.0;
+    board.sensors.shunts = shunts;
+    DesignOrder order{.subject = {.motor = board.motor, .sheet = board.sheet},
+                      .spec = design::on_a_board(),
+                      .advises = false};
+    order.spec.mode = Mode::current;
+    order.subject.board = board;
+    const auto study = study_design(order);
+    ASSERT_TRUE(study) << to_string(study.problems().front());
+    ASSERT_EQ(of_shunt(*study) != nullptr, shunts != ShuntLegs::abc);
+    EXPECT_EQ(study->outcome.blind_samples, 0) << "with the rotor held, the sink's leg has a shunt";
+    if (of_shunt(*study)) {
+      EXPECT_EQ(of_shunt(*study)->grave, shunts == ShuntLegs::a);
+    }
+  }
+}
+
 }  // namespace SIXSTEP_TEST_FILE

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -128,8 +129,33 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// The linear loop predicts the settling time of a step of i_q at a locked rotor. The simulated settling time
-/// is equal to it within one sample.
+/// The settling time of a step of i_q at a locked rotor, predicted by the linear loop, is equal to the
+/// simulated one within one sample.
+/// Low-side shunts: of the circle's speed w_0 the part 2 d - 1 for two shunts, (4/sqrt 3)(d - 1/2) for three.
+TEST(FieldStudy, LowSideShuntsBoundTheModulation) {
+  study::Scenario s = field_oriented(Mode::speed, 600.0);
+  s.sensors.currents = rig::CurrentMeasurement::low_side;
+  s.sensors.current_range_A = 20.0;
+  s.sensors.shunt_settle_s = 2e-6;
+  s.bridge.dead_time_s = 0.5e-6;
+  const double d = 1 - 2 * 2.5e-6 / T, w_0 = 24 / std::sqrt(3.0) / K_e;
+  for (const auto& [shunts, m] : {std::pair{study::ShuntLegs::ab, 2 * d - 1},
+                                  std::pair{study::ShuntLegs::abc, 4 / std::sqrt(3.0) * (d - 0.5)}}) {
+    s.sensors.shunts = shunts;
+    for (const double asked : {0.98 * m * w_0, 1.02 * m * w_0}) {
+      s.reference.value = asked;
+      const FieldStudy f = studied(s);
+      EXPECT_NEAR(value(f.limits, "d"), d, 1e-12);
+      EXPECT_NEAR(value(f.limits, "m"), m, 1e-12);
+      EXPECT_NEAR(value(f.limits, "m w_0"), m * w_0, 1e-9);
+      const bool warned = std::any_of(f.warnings.begin(), f.warnings.end(), [](const design::Warning& w) {
+        return w.what.find("fewer than two currents") != std::string::npos;
+      });
+      EXPECT_EQ(warned, asked > m * w_0) << asked;
+    }
+  }
+}
+
 TEST(FieldStudy, TheStepIsTheRuns) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.load.locked = true;

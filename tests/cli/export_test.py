@@ -124,6 +124,15 @@ class Gate(ProgramTest):
         self.assertIn("gain on the error is negative", slow)
         self.assertNotIn("gain on the error is negative", plain)
 
+    def test_a_header_has_the_window_of_low_side_shunts(self):
+        for shunts, mask, modulation in (("ab", 3, 2 * 0.9 - 1), ("abc", 7, 0.4 * 4 / 3**0.5)):
+            header = self.run_program("export", "header", self.scenario("gallery/shunts-three"), *DESPITE, "--set", f"sensors.shunts={shunts}").stdout
+            self.assertRegex(header, rf"low_side_shunts = {mask}; ")
+            duty = re.search(r"low_side_greatest_duty = (\S+);", header).group(1)
+            self.assertAlmostEqual(float.fromhex(duty), 1 - 2 * (2e-6 + 0.5e-6) / 50e-6, 12)
+            self.assertIn(f"up to a modulation of {modulation:.3g}, where 1 is a phase voltage of U_s/sqrt 3", re.sub(r"\n// +", " ", header))
+        self.assertNotIn("low_side", self.run_program("export", "header", self.scenario(BOARD), *DESPITE).stdout)
+
     def test_the_run_computes_as_the_chip_will(self):
         text = self.run_program("export", "header", self.scenario(BOARD), "--arithmetic", "q15").stdout
         ran = self.run_program("run", self.scenario(BOARD), "--set", "control.arithmetic=q15", "--json", "-").stdout

@@ -10,11 +10,11 @@
 
 namespace sixstep::control {
 
-using Scalars = testing::Types<double, float, Q14, Q30>;
+using Scalars = ::testing::Types<double, float, Q14, Q30>;
 
 /// The scalars, including the types whose largest number is below 1. A decoder's result may be 1: at half a
 /// turn, or at the peak of the sine.
-using SensingScalars = testing::Types<double, float, Q15, Q14, Q31, Q30>;
+using SensingScalars = ::testing::Types<double, float, Q15, Q14, Q31, Q30>;
 
 template <class Scalar>
 constexpr bool is_fixed = !std::is_floating_point_v<Scalar>;

@@ -258,6 +258,8 @@ LAWS = {
     "wind-up-none": [(None, T + 1e-3), near(300, 1e-3)],
     "wind-up": [made_up(0.02, 0.9, 0.1, [(0, 900), (0.25, 300)], 0.8), near(300, 1e-3)],
     "one-shunt": [(5 - 0.005 - 0.22 * T / TAU / 24, 5 + 0.005 + 0.22 * T / TAU / 24), (None, 2e-6 / T * STALL)],
+    "shunts-three": [(0.99 * 3 * K_E_SINE, 1.01 * 3 * K_E_SINE)] * 2,
+    "shunts-two": [(0.99 * 3 * K_E_SINE, 1.01 * 3 * K_E_SINE)],
     "slow-amplifier": [(AMPLIFIED - 20.48 / 2**16, AMPLIFIED + 20.48 / 2**16)],
     "wrong-gains": [near(overshoot(4.1, 4.0, 2.0))],
     "sampled-too-slowly": [(0.02 - 2 * 500e-6, None)],

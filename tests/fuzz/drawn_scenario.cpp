@@ -6,6 +6,8 @@
 #include "files/scenario_on_disk.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/compile/compile.hpp"
 #include "tests/fuzz/draw.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
 #include "text/motor/motor_library.hpp"
@@ -55,6 +57,18 @@ void redraw(Draw& draw, design::Sheet& sheet) {
   }
 }
 
+/// Replaces the phase currents of a part of the scenarios by low-side shunts, if the drive can use them. Nothing is drawn,
+/// so that a seed keeps all else.
+void measure_below(Scenario& s) {
+  Sensors& x = s.sensors;
+  if (x.currents != rig::CurrentMeasurement::phases || x.seed % 3 != 0) return;
+  Scenario below = s;
+  below.sensors.currents = rig::CurrentMeasurement::low_side;
+  below.sensors.shunts = static_cast<study::ShuntLegs>(1 + x.seed / 3 % 7);
+  below.sensors.shunt_least_on_s = x.seed % 2 == 0 ? 0.0 : 0.1 * s.pwm.period_s;
+  if (check(below).empty() && study::compile(below)) s = below;
+}
+
 }  // namespace
 
 DrawnScenario drawn_scenario(std::uint64_t seed) {
@@ -73,6 +87,7 @@ DrawnScenario drawn_scenario(std::uint64_t seed) {
   }
   if (!s.motor_sheet) s.motor_sheet = s.sheet;
   draw_parts(draw, s);
+  measure_below(s);
   s.title = "drawn with seed " + std::to_string(seed);
   out.text = text::scenario_text(s);
   return out;

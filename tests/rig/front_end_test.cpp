@@ -105,6 +105,28 @@ TEST(FrontEnd, ALinksAmplifierSeesPulses) {
   EXPECT_GT(x, 0.1);
 }
 
+/// In the on-time leg a is above and leg b below; in the off-time the current flows through a's lower diode.
+TEST(FrontEnd, AnAmplifierOfALowSideShuntFollowsTheLowerPathOnly) {
+  const double tau = 8e-6, duty = 0.3, on_s = duty * period_s, off_s = period_s - on_s;
+  const Board board = held(duty, {.amplifier_s = tau, .shunts = 0b011});
+  LookingRig rig = rig_of(board);
+  const double I = 24 / board.R_tt(), T = board.tau();
+  double i = 0, a = 0, b = 0;
+  for (int n = 1; n <= 200; ++n) {
+    a *= std::exp(-on_s / tau);
+    b = lagged(b, -I, I - i, T, tau, on_s);
+    i = I + (i - I) * std::exp(-on_s / T);
+    a = lagged(a, 0, i, T, tau, off_s);
+    b = lagged(b, 0, -i, T, tau, off_s);
+    i *= std::exp(-off_s / T);
+    ASSERT_EQ(run_to(rig, n * period_s), sim::Stop::end);
+    EXPECT_NEAR(rig.front_end().reading().i_A[0], a, amp) << n;
+    EXPECT_NEAR(rig.front_end().reading().i_A[1], b, amp) << n;
+    EXPECT_EQ(rig.front_end().reading().i_A[2], 0) << n;
+  }
+  EXPECT_GT(a, 0.1);
+}
+
 TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   const double tau = 100e-6, duty = 0.3;
   LookingRig rig = rig_of(held(duty, {.divider_s = tau}));

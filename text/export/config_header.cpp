@@ -86,7 +86,18 @@ std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
   if (c.sensorless || (c.product && has_probes))
     timer = constant("double", "timer_Hz", hex_float(sensors.capture_Hz),
                      sixstep::base::six_digits(sensors.capture_Hz) + " Hz, counts up and wraps at 2^32");
-  if (c.product || c.field || sensors.currents != sixstep::rig::CurrentMeasurement::phases) return timer;
+  const control::LowSideConfig<double>& shunts = c.board.sensors.low_side;
+  if (shunts.shunts != 0)
+    timer += constant("std::uint8_t", "low_side_shunts", std::to_string(shunts.shunts),
+                      "legs with a shunt: bit 0 is leg a") +
+             constant("double", "low_side_greatest_duty", hex_float(shunts.greatest_duty),
+                      sixstep::base::six_digits(shunts.greatest_duty) +
+                          ": after its pulse a leg is shown up to it") +
+             constant("double", "low_side_least_duty", hex_float(shunts.least_duty),
+                      sixstep::base::six_digits(shunts.least_duty) +
+                          ": in a lower switch's pulse a leg is shown from it on");
+  const bool by_leg = shunts.shunts != 0 || sensors.currents == sixstep::rig::CurrentMeasurement::phases;
+  if (c.product || c.field || !by_leg) return timer;
   const double lsb = c.board.sensors.current.lsb(), range = c.setpoint_range;
   return timer +
          constant("int", "adc_bits", std::to_string(sensors.adc_bits), "bits of each current converter") +

@@ -8,6 +8,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/compile/pulse.hpp"
 #include "sixstep/study/run/keep_going.hpp"
+#include "sixstep/study/run/low_side_limits.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace sixstep::analysis {
@@ -36,6 +37,22 @@ std::string hiding(const study::Scenario& s) {
          (study::pulse_late_s(s) > 0.0 ? ", bridge.dead_time_s" : "");
 }
 
+/// Three shunts show the current of a pair at every duty if only upper switches are chopped. Two hide it at large
+/// duties, one in a third of the sectors.
+void look_at_low_side(DesignStudy& s) {
+  const auto legs = static_cast<unsigned>(s.scenario.sensors.shunts);
+  const bool below = s.scenario.pwm.chopping == control::Chopping::hard ||
+                     s.scenario.pwm.pattern != control::PwmPattern::upper;
+  if (legs == 7 && !below) return;
+  s.warnings.push_back({.what = study::low_side_limits(s.scenario) +
+                                "; a drive keeps the last value of a current that is not shown",
+                        .cure =
+                            "set sensors.shunts = \"abc\" and pwm.pattern = \"upper\", or measure the phase "
+                            "currents",
+                        .grave = (legs & (legs - 1)) == 0,
+                        .of = design::Concern::shunt});
+}
+
 }  // namespace
 
 double unseen_current_A(const design::DriveDesign& d, const study::Scenario& s) {
@@ -44,6 +61,7 @@ double unseen_current_A(const design::DriveDesign& d, const study::Scenario& s) 
 }
 
 void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
+  if (s.scenario.sensors.currents == rig::CurrentMeasurement::low_side) return look_at_low_side(s);
   if (s.scenario.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const double unseen_A = unseen_current_A(s.design, s.scenario);
   if (unseen_A == 0.0) return;

@@ -67,8 +67,9 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   if (d.spec.rotor.shaft.kind != design::ShaftSensorKind::none &&
       s.sensors.shaft == study::SensorShaft::motor)
     s.pwm.commutation = study::CommutationAt::sample;
-  if (s.sensors.currents == rig::CurrentMeasurement::dc_link || (!subject.board && d.spec.sampled_in_middle))
-    s.pwm.alignment = study::Alignment::centre;
+  const bool shunts = s.sensors.currents == rig::CurrentMeasurement::dc_link ||
+                      s.sensors.currents == rig::CurrentMeasurement::low_side;
+  if (shunts || (!subject.board && d.spec.sampled_in_middle)) s.pwm.alignment = study::Alignment::centre;
   if (d.spec.sampled_in_middle || samples_in_middle(subject)) s.pwm.sample = study::SampleAt::middle;
   if (d.spec.rotor.shaft.capture_Hz > 0.0) s.sensors.capture_Hz = d.spec.rotor.shaft.capture_Hz;
   if (d.spec.rotor.hall && d.spec.rotor.capture_Hz > 0.0) s.sensors.capture_Hz = d.spec.rotor.capture_Hz;

@@ -16,6 +16,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/belief_costs.hpp"
 #include "sixstep/study/scenario/believed_motor.hpp"
+#include "sixstep/study/scenario/low_side_window.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::analysis {
@@ -209,8 +210,26 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
                           "set control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
-/// Adds the lag of the estimated speed. For a tracking loop with natural frequency w_n and damping 1 it is
-/// w_n^2/(s + w_n)^2.
+/// Adds the window of low-side shunts, and warns if the reference needs a greater modulation than they allow.
+void look_at_low_side(const study::Scenario& s, double asked_rad_s, FieldStudy& f) {
+  const std::optional<double> most = study::greatest_modulation(s);
+  if (s.sensors.currents != rig::CurrentMeasurement::low_side || !most) return;
+  const double up_to = *most * base_speed_rad_s(f);
+  f.limits.push_back({"d", "duty up to which a low-side shunt shows its leg's current",
+                      study::low_side_of(s).greatest_duty, ""});
+  f.limits.push_back({"m", "modulation up to which two legs are shown at every angle", *most, ""});
+  f.limits.push_back({"m w_0", "speed at which the magnet's back-EMF needs this modulation", up_to, "rad/s"});
+  if (asked_rad_s > up_to)
+    f.warnings.push_back(
+        {"the reference is " + base::three_digits(asked_rad_s) + " rad/s, and above " +
+             base::three_digits(up_to) +
+             " rad/s the back-EMF alone needs duties at which the low-side shunts show fewer than two "
+             "currents (" +
+             study::window_keys(s) + ")",
+         "shorten these times, raise supply.voltage_V, or set sensors.shunts = \"abc\"", false});
+}
+
+/// Adds the lag of the estimated speed: w_n^2/(s + w_n)^2 for a tracking loop with damping 1.
 void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f) {
   if (!c.estimator.on) return;
   f.axes.insert(f.axes.end(), c.estimator_steps.begin(), c.estimator_steps.end());
@@ -274,6 +293,7 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   look_at_separation(f);
   look_at_estimator(*c, s.pwm.period_s, f);
   look_at_bus(*c->field, fastest_asked_rad_s(s), f);
+  look_at_low_side(s, fastest_asked_rad_s(s), f);
   return f;
 }
 

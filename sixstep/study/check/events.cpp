@@ -97,7 +97,7 @@ void check_drift(const Event& e) {
   const std::string value = written(offset ? *offset : *e.at.sensors.current_gain_error);
   if (sensors.currents == rig::CurrentMeasurement::ideal)
     return e.say(key, value, "applies to an amplifier only, and sensors.currents = \"ideal\"",
-                 "set sensors.currents = \"phases\" or \"dc-link\", and current_range_A");
+                 "set sensors.currents = \"phases\", \"dc-link\" or \"low-side\", and current_range_A");
   if (offset && sensors.current_range_A && std::fabs(*offset) >= *sensors.current_range_A)
     e.say(key, value, "leaves no range within sensors.current_range_A = " + written(*sensors.current_range_A),
           "lower it, or raise sensors.current_range_A");

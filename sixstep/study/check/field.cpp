@@ -104,7 +104,7 @@ void check_sensing(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"sensors.currents", "\"dc-link\"",
          "measures only the current of a driven pair, and the field-oriented drive needs all phase currents",
-         "set currents = \"phases\", or \"ideal\""});
+         "set currents = \"phases\", \"low-side\" or \"ideal\""});
   if (s.control.field.angle != FieldAngle::sensors) return check_unsensed(s, out);
   if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
     out.push_back({"sensors.hall_angle", "\"sectors\"", "gives no angle between two Hall edges",

@@ -28,6 +28,10 @@ void check_registers(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents == rig::CurrentMeasurement::ideal)
     out.push_back({"sensors.currents", "\"ideal\"", asks,
                    "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
+  if (s.sensors.currents == rig::CurrentMeasurement::low_side)
+    out.push_back({"sensors.currents", "\"low-side\"",
+                   "is not read by the product drive, which measures all phases or the DC link",
+                   "set currents = \"phases\" or \"dc-link\", or control.drive = \"lean\""});
   if (s.sensors.bus == BusSensing::ideal)
     out.push_back({"sensors.bus", "\"ideal\"", asks, "set bus = \"adc\" and bus_range_V"});
   if (s.sensors.rotor == RotorSensing::ideal)

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/scenario/low_side_window.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
 
@@ -28,6 +30,33 @@ void check_currents(const Scenario& s, base::Problems& out) {
         {"sensors.currents", "\"dc-link\"",
          "shows the current only in the on-time, and samples at the start of the period come before it",
          "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
+}
+
+/// Requires shunts and sample instants by which a field-oriented drive gets two currents at least without a voltage.
+void check_low_side(const Scenario& s, base::Problems& out) {
+  if (s.sensors.currents != CurrentMeasurement::low_side) return;
+  const CurrentLoop& loop = s.control.current;
+  if (loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event)
+    out.push_back({"sensors.currents", "\"low-side\"",
+                   "gives one sample a period, and event comparators watch the currents all the time",
+                   "set currents = \"ideal\", or control.current.comparator = \"sampled\""});
+  if (s.control.drive != FirmwareKind::field) return;
+  const auto legs = static_cast<unsigned>(s.sensors.shunts);
+  if ((legs & (legs - 1)) == 0)
+    out.push_back({"sensors.shunts", '"' + std::string(base::word(shunt_choices, s.sensors.shunts)) + '"',
+                   "shows one current, and the field-oriented drive needs two",
+                   "set shunts = \"ab\" or \"abc\""});
+  const double most = low_side_of(s).greatest_duty;
+  if (s.pwm.sample == SampleAt::middle)
+    out.push_back({"pwm.sample", "\"middle\"",
+                   "samples within the pulses of the upper switches, where low-side shunts show nothing",
+                   "set sample = \"start\", which is the middle of the lower switches' on-time"});
+  else if (s.control.field.law == FieldLaw::pi && s.pwm.period_s > 0 && most < 0.5)
+    out.push_back(
+        {"sensors.currents", "\"low-side\"",
+         "shows no current: without a voltage each leg has a duty of 0.5, and a leg is shown up to " +
+             base::three_digits(most) + " (" + window_keys(s) + ")",
+         "shorten these times, or lengthen pwm.period_s"});
 }
 
 /// The converter shows the current as it was current_delay_s before the sample. This instant must lie in the
@@ -98,6 +127,7 @@ void check_probes(const Scenario& s, const std::optional<design::MotorModel>& mo
 
 void check_sensors(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   check_currents(s, out);
+  check_low_side(s, out);
   check_front_end(s, out);
   check_bits(s, out);
   check_hall(s, out);

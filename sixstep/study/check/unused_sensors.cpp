@@ -73,10 +73,18 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
   of_other_sensor(RotorSensing::encoder, x.encoder, x.rotor, out);
   of_other_sensor(RotorSensing::absolute, x.absolute, x.rotor, out);
   of_other_sensor(RotorSensing::resolver, x.resolver, x.rotor, out);
-  if (x.currents != rig::CurrentMeasurement::dc_link) {
-    constexpr char reason[] = "sensors.currents is not dc-link";
-    out.add("sensors.shunt_settle_s", x.shunt_settle_s, usual.shunt_settle_s, reason);
-    out.add("sensors.commutation_samples", x.commutation_samples, usual.commutation_samples, reason);
+  const bool link = x.currents == rig::CurrentMeasurement::dc_link;
+  const bool below = x.currents == rig::CurrentMeasurement::low_side;
+  if (!link && !below)
+    out.add("sensors.shunt_settle_s", x.shunt_settle_s, usual.shunt_settle_s,
+            "sensors.currents is not dc-link or low-side");
+  if (!link)
+    out.add("sensors.commutation_samples", x.commutation_samples, usual.commutation_samples,
+            "sensors.currents is not dc-link");
+  if (!below) {
+    constexpr char reason[] = "sensors.currents is not low-side";
+    out.add("sensors.shunts", x.shunts, usual.shunts, reason);
+    out.add("sensors.shunt_least_on_s", x.shunt_least_on_s, usual.shunt_least_on_s, reason);
   }
   if (!(x.hall_glitches_Hz > 0))
     out.add("sensors.hall_glitch_s", x.hall_glitch_s, usual.hall_glitch_s, "no sensors.hall_glitches_Hz");

@@ -17,6 +17,7 @@
 #include "sixstep/study/compile/timeline.hpp"
 #include "sixstep/study/scenario/believed_motor.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/low_side_window.hpp"
 
 namespace sixstep::study {
 
@@ -98,6 +99,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.calibrated = from.calibrated;
   to.least_duty = least_visible_duty(s);
   to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
+  to.low_side = low_side_of(s);
   to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
   to.measures_bus = from.bus == BusSensing::adc;
   // Terminals have converters like the converter of the bus, even if the bus is not measured.

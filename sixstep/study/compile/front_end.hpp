@@ -29,6 +29,7 @@ inline rig::FrontEndConfig front_end_of(const Sensors& s, bool looks_at_terminal
     to.amplifier_s = lag_s(s.current_bandwidth_Hz);
     to.amplifier_delay_ticks = sim::to_instant(s.current_delay_s).ticks;
   }
+  if (s.currents == rig::CurrentMeasurement::low_side) to.shunts = static_cast<std::uint8_t>(s.shunts);
   if (s.bus == BusSensing::adc || looks_at_terminals) to.divider_s = lag_s(s.bus_bandwidth_Hz);
   to.divider_gain_error = per_terminal(s.terminal_gain_error);
   if (looks_at_terminals && follows_comparators)

@@ -39,14 +39,16 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
                                                  : "raise it, or lower control.current.limit_A"});
 }
 
-/// Refuses limits with one shunt: it does not show a current that flows through the lower switches, or in a
-/// pulse that is too short.
+/// Refuses limits with shunts: one in the DC link does not show a current that flows through the lower
+/// switches, or in a pulse that is too short; those in the legs show only currents of the lower switches.
 void check_shunt(const Scenario& s, base::Problems& out) {
-  if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return;
-  const auto refuse = [&out](const char* key, const std::optional<double>& value) {
+  const bool link = s.sensors.currents == rig::CurrentMeasurement::dc_link;
+  if (!link && s.sensors.currents != rig::CurrentMeasurement::low_side) return;
+  const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, base::three_digits(*value),
-                     "needs the current of every phase, and a DC-link shunt does not measure all of them",
+                     std::string("needs the current of every phase, and ") +
+                         (link ? "a DC-link shunt does" : "low-side shunts do") + " not measure all of them",
                      "set sensors.currents = \"phases\", or remove it"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);

@@ -30,6 +30,7 @@ template <class Rig>
 base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
   const double t_s = rig.now().seconds();
   const bool away = has_run_away(rig.plant());
+  const rig::Diagnosis found = rig.firmware().diagnosis();
   if (!away && (stop == sim::Stop::unsettled || stop == sim::Stop::no_progress || w.crowded))
     return {{"t = " + std::to_string(t_s) + " s", "",
              stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
@@ -38,9 +39,11 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   if (away)
     out.fault = ran_away(rig.plant().state(), t_s);
   else if (stop == sim::Stop::fault)
-    out.fault = stopped_by(rig.fault(), rig.firmware().diagnosis(), t_s);
+    out.fault = stopped_by(rig.fault(), found, t_s);
   else
-    note_trip(rig.firmware().diagnosis(), out);
+    note_trip(found, out);
+  out.shunt_samples = found.shunt_samples;
+  out.blind_samples = found.blind_samples;
   if constexpr (requires { rig.plant().breaking(); }) note_wires(rig.plant().breaking(), out);
   if constexpr (requires { rig.firmware().latest_edge_s(); })
     out.chip.emplace().latest_edge_s = rig.firmware().latest_edge_s();

@@ -118,6 +118,8 @@ struct Outcome {
                                        // a sentence each
   std::optional<CoreRun> core;         // empty: only the host ran
   std::optional<ChipReport> chip;      // empty: no chip
+  std::int64_t shunt_samples = 0, blind_samples = 0;  // samples of low-side shunts; those that showed too
+                                                      // little, so that the drive kept its last values
   double simulated_s = 0.0;
   std::int64_t segments = 0;
   std::int64_t turn_ons = 0;  // of the leg that is chopped at the time, or of all three upper switches

@@ -15,6 +15,7 @@
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/export_watch.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
+#include "sixstep/study/run/low_side_limits.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
@@ -118,8 +119,8 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
                    "is not supported by the header's drive, which reads Hall probes", cure_by_hall(s)});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
     ideal("sensors.currents", "currents without the errors of amplifier and converter",
-          in_the_field(s) ? "set currents = \"phases\" and current_range_A"
-                          : "set currents = \"phases\" or \"dc-link\", and current_range_A");
+          in_the_field(s) ? "set currents = \"phases\" or \"low-side\", and current_range_A"
+                          : "set currents = \"phases\", \"dc-link\" or \"low-side\", and current_range_A");
   if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)
     ideal("sensors.bus", "a bus voltage without the errors of a converter",
           "set bus = \"adc\" and bus_range_V");
@@ -247,6 +248,7 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   for (std::string& text : unchecked(s, c.outcome.motor)) add(std::move(text));
   add(setpoint_bound(s));
   add(short_dead_time(s));
+  add(low_side_limits(s));
   add(without_protection(s));
   // Conditions apply only to a scenario that is cleared for export.
   if (!c.clear()) return;

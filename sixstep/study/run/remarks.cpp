@@ -19,6 +19,7 @@
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
+#include "sixstep/study/run/low_side_limits.hpp"
 #include "sixstep/study/run/thermal_remarks.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -75,7 +76,9 @@ double sector_s(const Compiled& c, double rad_s) {
 /// exp(-2 pi f t) of the current after t = shunt_settle_s, the end of the shortest measured pulse.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
-  if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
+  const bool shunts = s.sensors.currents == rig::CurrentMeasurement::dc_link ||
+                      s.sensors.currents == rig::CurrentMeasurement::low_side;
+  if (!shunts || !s.sensors.current_bandwidth_Hz) return {};
   const double rate = 2 * base::pi * *s.sensors.current_bandwidth_Hz;
   const double shown = 1 - base::exp(-rate * s.sensors.shunt_settle_s);
   if (shown >= enough) return {};
@@ -298,6 +301,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const 
   add(std::move(thermal.kept));
   for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
     add(std::move(text));
+  add(blind_samples(s, out));
   if (!c.own.is) add_loop_remarks(s, c, w, out);
   add(std::move(thermal.hot));
 }

@@ -12,7 +12,7 @@ namespace sixstep::study {
 /// Adds to outcome.remarks:
 ///   - the reason why the scenario's design called it not usable,
 ///   - values of the reference that come after the end of the run,
-///   - shunt samples that fell outside of the pulse,
+///   - shunt samples that fell outside of the pulse, and control periods in which low-side shunts showed too little,
 ///   - a speed reference whose Hall edges come later than sensors.timeout_s,
 ///   - a current loop that is unstable with its gains,
 ///   - a negative gain from pole placement,

@@ -32,6 +32,9 @@ enum class HallLines : std::uint8_t {
   all = 7
 };
 
+/// Legs with a shunt below their lower switch, as bits.
+enum class ShuntLegs : std::uint8_t { a = 1, b = 2, ab = 3, c = 4, ac = 5, bc = 6, abc = 7 };
+
 /// A Hall line that breaks.
 struct HallBreak {
   std::optional<double> at_s;
@@ -64,7 +67,9 @@ struct Sensors {
   std::optional<double> current_bandwidth_Hz;
   double current_delay_s = 0.0;
   bool calibrated = true;
+  ShuntLegs shunts = ShuntLegs::abc;
   double shunt_settle_s = 1e-6;
+  double shunt_least_on_s = 0.0;
   int commutation_samples = 4;
   BusSensing bus = BusSensing::ideal;
   std::optional<double> bus_range_V;

@@ -12,7 +12,20 @@ inline constexpr base::Choice<rig::CurrentMeasurement> current_sensing_choices[]
     {"ideal", rig::CurrentMeasurement::ideal, "the exact phase currents"},
     {"phases", rig::CurrentMeasurement::phases, "an amplifier and a converter per phase"},
     {"dc-link", rig::CurrentMeasurement::dc_link,
-     "one shunt or Hall transducer in the DC link, which shows the motor current within the on-time only"},
+     "one shunt or Hall transducer in the DC link, or in the bus's return, which shows the motor current "
+     "within the on-time only"},
+    {"low-side", rig::CurrentMeasurement::low_side,
+     "shunts below the lower switches of the legs that shunts names, each of which shows its leg's current while "
+     "the lower switch or its diode conducts"},
+};
+inline constexpr base::Choice<ShuntLegs> shunt_choices[] = {
+    {"abc", ShuntLegs::abc, "all three legs"},
+    {"ab", ShuntLegs::ab, "two legs; the third current is the negative sum"},
+    {"ac", ShuntLegs::ac, "two legs"},
+    {"bc", ShuntLegs::bc, "two legs"},
+    {"a", ShuntLegs::a, "one leg, of a driven pair only"},
+    {"b", ShuntLegs::b, "one leg"},
+    {"c", ShuntLegs::c, "one leg"},
 };
 inline constexpr base::Choice<BusSensing> bus_sensing_choices[] = {
     {"ideal", BusSensing::ideal, "the exact bus voltage"},
@@ -110,8 +123,15 @@ inline void describe_currents(base::Visitor& v, Sensors& s) {
           {.meaning = "whether the controller measured the offset before the run, in 64 noisy samples"});
   v.value("shunt_settle_s", s.shunt_settle_s,
           {.meaning =
-               "dc-link: least on-time of a switch before a sample that counts; with complementary chopping "
-               "the switch turns on bridge.dead_time_s later",
+               "dc-link, low-side: least on-time of a switch before a sample that counts; with complementary "
+               "chopping the switch turns on bridge.dead_time_s later",
+           .unit = "s",
+           .range = base::from(0)});
+  v.choice("shunts", s.shunts, shunt_choices, {.meaning = "low-side: legs that have a shunt"});
+  v.value("shunt_least_on_s", s.shunt_least_on_s,
+          {.meaning =
+               "low-side: least on-time of a lower switch in a period whose sample counts, such as twice the "
+               "converter's sampling time",
            .unit = "s",
            .range = base::from(0)});
   v.value(

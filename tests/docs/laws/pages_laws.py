@@ -3,7 +3,7 @@
 import re
 
 from laws import (bench, capacitor, commutation, contest, curve, design, drives, firmware, recordings, run_output, series, sheets,
-                  tables)
+                  shunts, tables)
 from page import REPOSITORY
 
 # Blocks with a reader's input contain no results.
@@ -230,6 +230,7 @@ BY_TEXT = [
     ("docs/explanation/recordings.md", "recorded   simulated", recordings.verdicts), ("docs/explanation/recordings.md", "within +- ", recordings.verdicts),
     ("docs/explanation/recordings.md", " V left of ", recordings.left_over), ("docs/explanation/recordings.md", "halves thirds", recordings.shares),
     ("docs/explanation/recordings.md", "deg late", recordings.late_edges),
+    ("docs/howto/choose-shunts.md", "control periods", shunts.lost), ("docs/howto/choose-shunts.md", "m w_0", shunts.window),
     ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.
@@ -254,7 +255,7 @@ DEFINING = [(GUIDE, "| mistake |"), (SHEETS, "| column |"), (SHEETS, "| you need
             ("docs/reference/plan-file.md", "title = "), ("docs/howto/find-the-best-point.md", "minimise = "), ("docs/howto/run-many.md", "sixstep run data/scenarios"),
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
             ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |"), ("docs/howto/compare-a-log.md", "| quantity |"),
-            ("docs/howto/take-over-parameters.md", "| program |")]
+            ("docs/howto/take-over-parameters.md", "| program |"), ("docs/howto/choose-shunts.md", "| pulses, sample |")]
 # Tables whose rows are all checked by a named test with its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
