@@ -90,7 +90,7 @@ struct PlanStore::Inside {
       return {
           {db.path() + ":", "",
            fmt::format("cannot store run {}: its columns differ from the columns of the plan", row->number),
-           "this is a defect of sixstep: please report it with the command"}};
+           "this is a defect of sixstep: report this message, with the command, in the issues of the repository"}};
     std::vector<Cell> cells = cells_of(row);
     cells.emplace_back(static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums)));
     for (std::size_t n = 0; n < cells.size(); ++n) insert->bind_cell(static_cast<int>(n) + 1, cells[n]);

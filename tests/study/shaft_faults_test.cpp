@@ -78,8 +78,7 @@ TEST(EncoderFault, EdgesAreMissedAtTheRateAskedFor) {
   EXPECT_TRUE(missed(7).empty());
 }
 
-/// The drive controls 2 A, with the rotor locked at an electrical angle. A sensor fails in the middle of the
-/// run.
+/// The drive holds 2 A with the rotor locked at an electrical angle. Each test adds its sensor fault to the event at 5 ms.
 Scenario held_at(double electrical_deg) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.duration_s = 10e-3;

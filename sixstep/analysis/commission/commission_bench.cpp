@@ -184,7 +184,10 @@ base::Problems too_weak(const CommissionBench& b, const design::MotorModel& moto
              "pulls the rotor with " + base::rounded(1e3 * torque, 3) + " mNm against " +
                  base::rounded(1e3 * against, 3) +
                  " mNm of friction and cogging: the rotor does not align with the field",
-             "raise the test current until its torque is above 10/3 of friction and cogging"}};
+             "raise current_A above " +
+                 base::written(
+                     base::shortened(b.wish.test_A * against / (most_part * torque), 3, base::Towards::up)) +
+                 " A: the torque must exceed 10/3 times the sum of friction and cogging"}};
   if (!(b.longest_s < most_s))
     return {{"current_A", base::written(b.wish.test_A),
              "makes the test last up to " + base::rounded(b.longest_s, 3) + " s, more than " +

@@ -29,10 +29,11 @@ double sector_seconds(const Bench& b, double speed) {
 /// The Problem of a run that stopped before its end or its target edge.
 base::Problem ended_early(double speed, sim::Stop stop) {
   if (stop == sim::Stop::end || stop == sim::Stop::observer) return interrupted_work();
-  return {"speed " + base::written(speed) + " rad/s", "",
-          stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                       : "switching events repeat without end at one instant",
-          "this is a defect of sixstep: please report it with the motor file"};
+  return {
+      "speed " + base::written(speed) + " rad/s", "",
+      stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                   : "switching events repeat without end at one instant",
+      "this is a defect of sixstep: report this message, with the motor file, in the issues of the repository"};
 }
 
 /// Electrical mean values of the orbit; take_to_shaft() subtracts the friction.

@@ -70,10 +70,11 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
   const std::vector<double>& own = x.hall_edges_deg;
   const std::size_t all = motor ? 6 * static_cast<std::size_t>(motor->machine.pole_pairs) : own.size();
   if (!own.empty() && own.size() != 6 && own.size() != all)
-    return out.push_back({"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
-                          "must be 6, the edges of an electrical turn, or " + std::to_string(all) +
-                              ", the edges of a mechanical turn",
-                          "give 6 or " + std::to_string(all) + " values"});
+    return out.push_back(
+        {"sensors.hall_edges_deg", "",
+         "has " + std::to_string(own.size()) + " values, and must have 6 (edges of an electrical turn)" +
+             (all > 6 ? " or " + std::to_string(all) + " (edges of a mechanical turn)" : ""),
+         "give 6 " + (all > 6 ? "or " + std::to_string(all) + " " : std::string()) + "values"});
   for (std::size_t n = 0; n < own.size(); ++n) {
     const std::size_t next = (n + 1) % own.size();
     const double gap = 60 + own[next] - own[n] - x.hall_hysteresis_deg;

@@ -144,7 +144,7 @@ base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
   if (trouble == CoreTrouble::differs)
     return {
         at(t_s), "", "the core's answer differs from the host's; both must agree in every bit",
-        "check the core's compiler and flags; if they are the usual ones, report this with the scenario file"};
+        "check the core's compiler and flags; if they are the usual ones, report this message, with the scenario file, in the issues of the repository"};
   if (trouble == CoreTrouble::silent)
     return {at(t_s), "", "the core did not answer in time: its program hangs, or its emulator does",
             "check the function that was called last"};
