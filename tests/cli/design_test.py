@@ -169,7 +169,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
             # The board has no dead time. The design's test uses a value that is usual for gate drivers.
-            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: simulated with the usual value of small bridges")
+            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: the design used 0\.5 us, the usual value of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
             mantissa, exponent = d1.split("p")

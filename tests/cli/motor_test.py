@@ -43,7 +43,7 @@ class Motor(ProgramTest):
         (self.path / "a.toml").write_text(shipped.replace("value = 23.3,", "value = 32.3,"))
         result = self.run_program("motor", "check", "a.toml", code=1)
         self.assertRegex(result.stdout, r"BROKEN stall current .*\n")
-        self.assertTrue(result.stdout.endswith("INCONSISTENT: 5 of 7 relations hold, 1 broken, as the file states, 1 broken\n"), result.stdout)
+        self.assertTrue(result.stdout.endswith("INCONSISTENT: 5 of 7 relations hold, 1 broken as known_deviation states, 1 broken\n"), result.stdout)
         checked = json.loads(self.run_program("motor", "check", "--json", "a.toml", code=1).stdout)
         self.assertEqual([r["name"] for r in checked["relations"] if r["verdict"] == "broken"], ["stall current"])
         self.assertIs(checked["consistent"], False)

@@ -30,9 +30,10 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
       told("no_symbol.so"),
       folder +
           "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
-  EXPECT_EQ(told("answers_nothing.so")
-                .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller answers a null"),
-            0u);
+  EXPECT_EQ(
+      told("answers_nothing.so")
+          .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller returned a null"),
+      0u);
   EXPECT_EQ(
       told("other_interface.so"),
       folder +

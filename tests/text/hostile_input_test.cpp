@@ -175,7 +175,7 @@ TEST(HostileInput, AKeyOfAHundredThousandPartsDoesNotTakeTheStack) {
   EXPECT_THAT(
       told(head + repeated("a.", 100'000) + "b = 1\n"),
       ElementsAre(
-          "x.toml:3:66: nests deeper than 32 tables or lists; remove levels: no key is deeper than control.current.settle_s"));
+          "x.toml:3:66: nests deeper than 32 tables or lists; remove levels: the deepest keys have three parts, as control.current.settle_s"));
   EXPECT_THAT(told(head + "[" + repeated("a.", 100'000) + "b]\n"), ElementsAre(HasSubstr("nests deeper")));
   EXPECT_THAT(told(head + "a = " + repeated("[", 100'000)), ElementsAre(HasSubstr("nests deeper")));
   EXPECT_THAT(told(head + "a = " + repeated("{a = ", 100'000)), ElementsAre(HasSubstr("nests deeper")));
@@ -244,7 +244,7 @@ TEST(HostileInput, ATableOfRowsIsHeldToTheSameNumbers) {
   EXPECT_THAT(
       told_of_rows("t_s,i_A\n0,1\n1e-3,1e308\n"),
       ElementsAre(
-          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; check the unit of this column"));
+          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; correct the unit in this column's heading"));
   EXPECT_THAT(told_of_rows("0,1\n1e10,2\n"),
               ElementsAre(HasSubstr("time 10000000000 must lie in -9000000 to 9000000, in s")));
   for (const char* none : {"nan", "inf", "-inf", "1e999"})

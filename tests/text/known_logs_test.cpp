@@ -146,8 +146,10 @@ TEST(KnownLogs, ColumnsOfAnotherMeaningAreNamedWithTheReason) {
   std::string text;
   for (const text::NotUsed& column : log->not_used) text += column.column + ": " + column.reason + "\n";
   EXPECT_THAT(text, HasSubstr("current_in: a mean over PWM periods"));
-  EXPECT_THAT(text,
-              HasSubstr("q_axis_current: of the rotor's axes, and the simulated drive commutates in blocks"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "q_axis_current: a value of the rotor's d or q axis; the simulated drive is a six-step drive"));
 }
 
 TEST(KnownLogs, OfSeveralDrivesOneIsChosen) {

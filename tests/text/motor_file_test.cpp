@@ -90,7 +90,7 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
       {"winding = \"12N14P\"\n" + sheet_with("pole_pairs = 14"),
        "m.toml:8:14: pole_pairs = 14 is the number of poles of winding = \"12N14P\"; write pole_pairs = 7"},
       {sheet_with("line_10_terminal_resistance_ohm = 1.03"),
-       "m.toml:8:35: line_10_terminal_resistance_ohm = 1.03 is given already, as resistance_ohm; keep one of the two keys, which have the same meaning"},
+       "m.toml:8:35: line_10_terminal_resistance_ohm = 1.03 is already given, as resistance_ohm; keep one of the two keys, which have the same meaning"},
       {sheet_with("back_emf_mV_s = 16"),
        "m.toml:8:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; keep one of the two"},
       {sheet_with("stall_current_A = { value = 23.3, range = [24, 25] }"),

@@ -204,7 +204,7 @@ std::vector<std::string> contest_notes(const Contest& c) {
           controller_name(c, n)));
     if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
       notes.push_back(fmt::format(
-          "{} has no current loop, so that the torque limit does not limit its current; instead its setpoint changes only as fast as the torque limit allows",
+          "{} has no current loop, so the torque limit does not limit its current. Instead, its setpoint changes only as fast as the torque limit allows",
           controller_name(c, n)));
   }
   return notes;
@@ -232,7 +232,7 @@ std::vector<std::string> contest_legend(const Contest& c) {
           base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
       "lowest: slowest speed that the controller holds against the full load; each try halves the speed",
       fmt::format(
-          "ripple to turn-ons: measured at the high speed against half of the full load; slow swing, slow ripple: measured at {} rad/s against the full load",
+          "columns from ripple to turn-ons: measured at the high speed against half of the full load; columns slow swing and slow ripple: measured at {} rad/s against the full load",
           base::rounded(c.bench.course.slow_rad_s, 4)),
       fmt::format(
           "tick: largest number of instructions in one tick; flash: bytes of code, both on {} in {}. A dash means not counted. To count your own controller, run tools/own_cost.sh.",

@@ -96,9 +96,9 @@ TEST(ContestWords, AgainstNothingStandsAValue) {
   EXPECT_THAT(words({{0, 0.0, 1.0}, {1, 0.005, 2.0}}),
               Contains(HasSubstr(phrase + " (0 ms, the next 5 ms)")));
   const double never = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(
-      words({{0, never, 1.0}, {1, 0.005, 2.0}}),
-      Contains(HasSubstr(name(1) + " has these least values: " + phrase + " (5 ms, the others never)")));
+  EXPECT_THAT(words({{0, never, 1.0}, {1, 0.005, 2.0}}),
+              Contains(HasSubstr(name(1) + " has these least values: " + phrase +
+                                 " (5 ms; the other controllers never settle)")));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -84,7 +84,7 @@ inline constexpr bool command_delayed = true;                             // tru
 inline constexpr bool sampled_in_middle = true;                           // true: sample in the middle of the period; false: at its start
 inline constexpr int adc_bits = 10;                                       // bits of each current converter
 inline constexpr double adc_amperes_per_count = 0x1.4p-6;                 // 0.0195312 A
-inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit, at each end of a potentiometer
+inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1: setpoint at each end of a potentiometer, in the mode's unit
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;
