@@ -18,7 +18,7 @@ base::Problems lagging(const study::Scenario& s) {
       out.push_back(
           {key, "",
            "has no effect on the counts of sixstep_convert(), which are those of the present instant",
-           "remove it, or read measurements with sixstep_measure()"});
+           "remove this key, or read measurements with sixstep_measure()"});
   };
   refuse(s.sensors.current_bandwidth_Hz.has_value(), "sensors.current_bandwidth_Hz");
   refuse(s.sensors.current_delay_s > 0.0, "sensors.current_delay_s");

@@ -32,9 +32,10 @@ base::Problems strangers(const RunArguments& a) {
   base::Problems problems;
   const auto refuse = [&](const char* option, bool given) {
     if (given)
-      problems.push_back({.where = option,
-                          .limit = "has no effect with --bode",
-                          .cure = "leave it out; the outputs of --bode are --html, --json and --csv"});
+      problems.push_back(
+          {.where = option,
+           .limit = "has no effect with --bode",
+           .cure = "leave this option out; the outputs of --bode are --html, --json and --csv"});
   };
   refuse("--out", !a.out.empty());
   refuse("--junit", !a.junit.empty());

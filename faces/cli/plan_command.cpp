@@ -262,7 +262,7 @@ base::Problems plan_contradictions(const RunArguments& a) {
   if (a.watch)
     problems.push_back({.where = "--watch",
                         .limit = "repeats one scenario, and this is a plan of many runs",
-                        .cure = "leave it out, or watch one run with --only N"});
+                        .cure = "leave this option out, or watch one run with --only N"});
   const bool both = compares(a);
   if (both && a.files.size() > report::most_plans_on_a_page)
     problems.push_back({.where = "--html",

@@ -121,7 +121,7 @@ base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
   if (a.kind == "drive") {
     if (a.inputs.empty()) return text::FmiChip::of_scenario;
     return base::Problem{"--inputs", a.inputs, "has no effect on a unit of the kind drive",
-                         "add --kind plant, or leave it out"};
+                         "add --kind plant, or leave this option out"};
   }
   if (a.inputs.empty() || a.inputs == "gates") return text::FmiChip::gates;
   if (a.inputs == "pair") return text::FmiChip::pair;

@@ -203,7 +203,7 @@ class Design(ProgramTest):
         said = self.run_program("design", "--scenario", "s.toml", code=2).stderr
         for key in ("control.current.type", "control.speed.law"):
             self.assertIn(f"{key} = ", said)
-        self.assertIn('set it to "pi"', said)
+        self.assertIn('set this key to "pi"', said)
 
     def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
         (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
@@ -273,7 +273,7 @@ class Design(ProgramTest):
             with self.subTest(option=option):
                 self.assertRegex(self.run_program(*quick, option, values[option], code=2).stderr, f"(^|design ){option} ")
         self.assertEqual(self.run_program(*quick, "--torque-limit", "0.3", code=2).stderr,
-                         "--torque-limit applies to a speed loop only, and --mode current has none; add --mode speed or --mode position, or leave it out\n")
+                         "--torque-limit applies only to a speed loop, which --mode current does not have; add --mode speed or --mode position, or leave this option out\n")
 
     def test_design_writes_a_page_that_needs_nothing(self):
         self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")

@@ -62,7 +62,7 @@ class Export(ProgramTest):
             self.assertEqual(result.stdout, "")
             return result.stderr
         off = told(position, "--set", "control.mode=off")
-        self.assertEqual(off, f"{position}: control.mode = off leaves no drive to export; set it to duty, current, speed or position\n")
+        self.assertEqual(off, f"{position}: control.mode = off leaves no drive to export; set control.mode to duty, current, speed or position\n")
         self.assertIn("absent.toml", told("absent.toml"))
         self.assertEqual(told(position, "--arithmetic", "q51"),
                          "--arithmetic = q51 must be one of double, float, q15, q14, q31, q30; did you mean q15?\n")

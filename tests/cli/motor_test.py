@@ -48,7 +48,7 @@ class Motor(ProgramTest):
         self.assertEqual([r["name"] for r in checked["relations"] if r["verdict"] == "broken"], ["stall current"])
         self.assertIs(checked["consistent"], False)
         (self.path / "a.toml").write_text(shipped.replace('["nominal torque"]', '["stall current"]'))
-        self.assertIn("names a relation that holds; remove it", self.run_program("motor", "check", "a.toml", code=2).stderr)
+        self.assertIn("names a relation that holds; remove this name", self.run_program("motor", "check", "a.toml", code=2).stderr)
 
     def test_motor_check_says_what_a_simulation_lacks(self):
         words = 'name = "a"\npole_pairs = 7\nresistance_ohm = { value = 0.1, frame = "phase" }\n'

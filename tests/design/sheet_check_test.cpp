@@ -285,7 +285,7 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
   EXPECT_EQ(relation(checked(s), "nominal torque").verdict, RelationVerdict::known);
   s.known_deviation = {"stall torque"};
   EXPECT_EQ(to_string(check_sheet(s).problems().at(0)),
-            "known_deviation = \"stall torque\" names a relation that holds; remove it");
+            "known_deviation = \"stall torque\" names a relation that holds; remove this name");
   s.known_deviation = {"stall"};
   EXPECT_EQ(to_string(check_sheet(s).problems().at(0)).substr(0, 78),
             "known_deviation = \"stall\" names no relation of this sheet; name one of these: ");

@@ -38,7 +38,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
       told("other_interface.so"),
       folder +
           "/other_interface.so has a controller whose interface = 2 is not 1, the interface of this program: compile it "
-          "with this program's own_controller.h; compare the controller's description with sixstep/control/own/own_controller.h");
+          "with this program's own_controller.h; correct this member as sixstep/control/own/own_controller.h describes it");
   EXPECT_EQ(told("in_float.so"),
             folder +
                 "/in_float.so has a controller whose interface = 257 is compiled for float, and this program "

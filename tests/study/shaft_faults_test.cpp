@@ -201,7 +201,7 @@ TEST(ShaftSensorFaults, WhatCannotBeIsRefused) {
                 s.sensors.rotor = RotorSensing::absolute;
                 s.at[0].sensors.bad_track = AtTrack{.track = 15};
               }),
-              HasSubstr("an existing track"));
+              HasSubstr("name a track from 1 to sensors.absolute.bits"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.missed_Hz = 1e7; }), HasSubstr("100000"));
   EXPECT_THAT(refused([](Scenario& s) { s = tracked(s, 9); }), HasSubstr("converter chip"));
   EXPECT_THAT(refused([](Scenario& s) {

@@ -256,7 +256,7 @@ TEST(Spread, RefusesWhatCannotStray) {
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 1.5)),
               HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside the key's range"));
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 0.4, Distribution::normal)),
-              HasSubstr("lower it, or lower cut_sigma"));
+              HasSubstr("lower this value, or lower cut_sigma"));
   Spread none;
   none.key = "supply.voltage_V";
   EXPECT_THAT(refusal(none), HasSubstr("spread[0].relative is missing"));

@@ -276,7 +276,7 @@ TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
       ElementsAre(
-          "x.toml:7:1: require.level is missing, and the reference belongs to another signal; give the level that the signal must reach, in the signal's unit"));
+          "x.toml:7:1: require.level is missing, and the reference belongs to another signal; give level, the value that the signal must reach, in the signal's unit"));
 }
 
 TEST_F(WrongInput, FrequentSlipsOfSyntaxHaveTheirCure) {

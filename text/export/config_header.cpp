@@ -293,7 +293,7 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
         "use letters, digits and _, for example product or product::left_wheel, but no C++ keyword, std or sixstep"};
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
-                         "set it to duty, current, speed or position"};
+                         "set control.mode to duty, current, speed or position"};
   // A header would configure the library's drive, but the run used the user's controller.
   if (w.scenario.control.drive == study::FirmwareKind::own)
     return base::Problem{

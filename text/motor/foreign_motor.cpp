@@ -59,7 +59,7 @@ class ForeignMotor {
         problems_.push_back(bounded({.where = "answer",
                                      .value = answer,
                                      .limit = fmt::format("names no question about {}", file_),
-                                     .cure = "leave it out"}));
+                                     .cure = "leave this answer out"}));
     if (problems_.empty() && taken_ == 0)
       tell(0,
            fmt::format("contains no known value of a motor: the values of {} are {}", tool_.name,

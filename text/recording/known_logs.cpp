@@ -164,7 +164,7 @@ base::Problem one_drive_only(const Recording& r) {
   return bounded({.where = "esc",
                   .value = {},
                   .limit = fmt::format("has no effect, because {} is not a log of several ESCs", r.name),
-                  .cure = "leave it out"});
+                  .cure = "leave --esc out"});
 }
 
 /// The number of the motor whose eRPM counts.

@@ -62,11 +62,11 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
     problems.push_back(
         {"control.slew", "",
          "limits how fast the setpoint changes, so that the response of the loop cannot be measured",
-         "remove it for this measurement"});
+         "remove this key for this measurement"});
   if (s.control.position.profile.on && s.control.mode == Mode::position)
     problems.push_back({"control.position.profile", "",
                         "shapes the setpoint, so that the response of the loop cannot be measured",
-                        "remove it for this measurement"});
+                        "remove this key for this measurement"});
   if (problems.empty()) append(problems, still_moving(run));
   return problems;
 }

@@ -169,8 +169,8 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
         "must be above 0 and at most " + base::rounded(most_A, 4) +
             " A, which the bus can drive and at which the rotor stays aligned with the field",
         nominal.printed
-            ? "remove it: the default is twice the sheet's nominal current, at most half of that bound"
-            : "remove it: the default is at most half of that bound"};
+            ? "leave the current out: the default is twice the sheet's nominal current, at most half of this largest current"
+            : "leave the current out: the default is at most half of this largest current"};
   return TestCurrentFrom{I, from};
 }
 

@@ -34,7 +34,7 @@ void check_pace(const Bench& b, base::Problems& problems) {
   if (plant::winding_rate(m, b.devices) > plant::fastest_answer_1_s)
     refuse("on_resistance_ohm", b.devices.R_on_ohm,
            "makes the time constant of winding and bridge shorter than 100 ns",
-           "check its unit: a MOSFET has milliohms");
+           "check the unit of this value: a MOSFET has milliohms");
   const bool chops = b.duty != 1 && b.duty != -1;
   if (chops && m.L_H / m.R_ohm > most_periods * b.pwm_period_s)
     refuse("pwm_period_s", b.pwm_period_s,

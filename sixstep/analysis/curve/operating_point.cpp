@@ -269,7 +269,7 @@ OperatingPoint stall(const Bench& b) {
 base::Result<OperatingPoint> operating_point(const Bench& b, double speed) {
   base::Problems problems = check(b);
   if (!(speed - speed == 0.0))
-    problems.push_back({"speed", base::written(speed), "must be a finite number", "give it in rad/s"});
+    problems.push_back({"speed", base::written(speed), "must be a finite number", "give the speed in rad/s"});
   if (!problems.empty()) return problems;
   if (told_to_stop(b)) return interrupted_work();
   const bool full = b.duty == 1 || b.duty == -1;

@@ -48,8 +48,8 @@ base::Problems set_current(const WiringSubject& subject, WiringBench& b) {
     return {{"current_A", base::written(b.current_A),
              "must be above 0 and at most " + base::rounded(stall_A, 4) +
                  " A, which the bus drives through the stalled motor",
-             printed ? "remove it: the default is the sheet's nominal current"
-                     : "remove it: the default is a tenth of that current"}};
+             printed ? "leave the current out: the default is the sheet's nominal current"
+                     : "leave the current out: the default is a tenth of the current at full duty"}};
   b.duty = b.current_A / stall_A;
   return {};
 }

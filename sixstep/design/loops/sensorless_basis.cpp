@@ -17,12 +17,12 @@ constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the 
 /// rails within half of the on-time.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
-  return {
-      "terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
-      "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
-          " us (7 time constants), longer than the least on-time of " +
-          base::rounded(1e6 * b.least_on_s(), 4) + " us",
-      "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or raise lowest_part, the speed of the hand-over"};
+  return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
+          "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
+              " us (7 time constants), longer than the least on-time of " +
+              base::rounded(1e6 * b.least_on_s(), 4) + " us",
+          "raise this value to " + base::rounded(needed_Hz, 4) +
+              " Hz, or raise lowest_part, the speed of the hand-over"};
 }
 
 /// Problem of the comparators' low-pass. Without a low-pass, comparators switch at each edge of the pulse;
@@ -39,8 +39,9 @@ base::Problem badly_filtered(const SensorlessBasis& b) {
           c.against_half_bus
               ? "is too low: the low-pass does not settle within half of the least on-time"
               : "is too low: at no-load speed the low-pass still shows the freewheel at the crossing",
-          c.against_half_bus ? "raise it to " + least + ", or raise lowest_part, the speed of the hand-over"
-                             : "raise it to " + least};
+          c.against_half_bus
+              ? "raise this value to " + least + ", or raise lowest_part, the speed of the hand-over"
+              : "raise this value to " + least};
 }
 
 base::Problem hidden_below(const SensorlessBasis& b) {

@@ -115,10 +115,11 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
       std::string known;
       for (const Relation& r : check.relations) known += (known.empty() ? "" : ", ") + r.name;
       problems.push_back({"known_deviation", "\"" + name + "\"", "names no relation of this sheet",
-                          known.empty() ? "remove it: no two values of this sheet can be compared"
+                          known.empty() ? "remove this name: no two values of this sheet can be compared"
                                         : "name one of these: " + known});
     } else if (relation->verdict == RelationVerdict::holds) {
-      problems.push_back({"known_deviation", "\"" + name + "\"", "names a relation that holds", "remove it"});
+      problems.push_back(
+          {"known_deviation", "\"" + name + "\"", "names a relation that holds", "remove this name"});
     } else {
       relation->verdict = RelationVerdict::known;
     }

@@ -120,7 +120,7 @@ base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,
     return base::Problem{
         "control.field.weakening_A", base::written(*wanted.weakening_A),
         "is more than psi/L_d = " + base::rounded(most, 4) + " A; above it more current needs more voltage",
-        "lower it"};
+        "lower this value"};
   if (wanted.weakening_A)
     out.config.weakening = {design::weakening_gain(machine, basis.bus_V, loop_spec(s)),
                             design::usual_weakening_part, *wanted.weakening_A};

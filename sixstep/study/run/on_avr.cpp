@@ -27,7 +27,7 @@ void need(bool has, base::Problems& out, const char* where, const char* what, co
 void need_drive(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   need(c.drive == FirmwareKind::lean, out, "control.drive",
-       "is not \"lean\", the only drive that the AVR is fast enough for", "leave it out");
+       "is not \"lean\", the only drive that the AVR is fast enough for", "remove this key");
   need(c.mode == control::Mode::duty ||
            (c.mode == control::Mode::current && c.current.type == CurrentLoopType::pi),
        out, "control.mode",
@@ -69,7 +69,7 @@ void need_converter(const Scenario& s, base::Problems& out) {
   need(s.sensors.adc_bits == converter_bits, out, "sensors.adc_bits",
        "is not supported: the AVR's converter has 10 bits", "set sensors.adc_bits = 10");
   need(!s.sensors.current_bandwidth_Hz, out, "sensors.current_bandwidth_Hz",
-       "is not supported: the amplifiers of the AVR's board have no lag", "leave it out");
+       "is not supported: the amplifiers of the AVR's board have no lag", "remove this key");
 }
 
 }  // namespace

@@ -182,11 +182,11 @@ struct Checker {
         width(spread, *at.number) * (spread.distribution == Distribution::uniform ? 1.0 : spread.cut_sigma);
     for (const double end : {*at.number - reach, *at.number + reach})
       if (!at.range.holds(end))
-        return add(
-            where + (spread.relative ? ".relative" : ".absolute"),
-            base::written(spread.relative ? *spread.relative : *spread.absolute),
-            "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
-            spread.distribution == Distribution::uniform ? "lower it" : "lower it, or lower cut_sigma");
+        return add(where + (spread.relative ? ".relative" : ".absolute"),
+                   base::written(spread.relative ? *spread.relative : *spread.absolute),
+                   "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
+                   spread.distribution == Distribution::uniform ? "lower this value"
+                                                                : "lower this value, or lower cut_sigma");
   }
 
   void add(std::string where, std::string value, std::string limit, std::string cure) {

@@ -48,7 +48,7 @@
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
 // The counts cover the control code only; an image also contains the board's code.
-// Note: a control period of 30 us is shorter than the ATmega2560's image needs (100 us). Below 69.6 us the STM32F303's image may apply a command one period late: check `missed`.
+// Note: a control period of 30 us is shorter than the shortest period of the ATmega2560's image (100 us). Below 69.6 us the STM32F303's image may apply a command one period late: look for `missed` above 0 in its log.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"
