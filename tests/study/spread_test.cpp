@@ -261,7 +261,7 @@ TEST(Spread, RefusesWhatCannotStray) {
   none.key = "supply.voltage_V";
   EXPECT_THAT(refusal(none), HasSubstr("spread[0].relative is missing"));
   none.relative = none.absolute = 0.1;
-  EXPECT_THAT(refusal(none), HasSubstr("the width is given twice"));
+  EXPECT_THAT(refusal(none), HasSubstr("both keys give the width"));
 }
 
 TEST(Spread, RefusesOneQuantityTwice) {

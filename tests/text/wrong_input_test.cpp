@@ -203,7 +203,7 @@ TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
       complaints(head + "[control]\nmode = \"current\"\n[control.current]\nsettle_s = 1e-3\ndamping = 0.9\n"
                         "d1 = 4.5\nd0 = -4.04\n"),
       ElementsAre(
-          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s and damping, which compute the gains; keep only one form: d1 and d0, kp with ki or ki_per_s, or settle_s and damping"));
+          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s and damping, which compute the gains; remove all forms of the gains except one: d1 and d0, kp with ki or ki_per_s, or settle_s and damping"));
 }
 
 TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {

@@ -32,11 +32,15 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
   const double read =
       range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
   if (asked < read) return;
+  const double enough = base::shortened((asked + std::fabs(sensors.current_offset_A)) /
+                                            (1 - 2 / std::ldexp(1.0, sensors.adc_bits)) * (1 + 1e-9),
+                                        3, base::Towards::up);
   out.push_back({"sensors.current_range_A", base::three_digits(range),
-                 "lets the converter read up to " + base::three_digits(read) + " A, but the drive " +
-                     (limited ? "turns off above " : "may command ") + base::three_digits(asked) + " A",
-                 s.control.mode == Mode::current ? "raise this value, or lower the reference"
-                                                 : "raise this value, or lower control.current.limit_A"});
+                 "lets the converter read up to " + base::three_digits(read) + " A, and the drive " +
+                     (limited ? "turns off only above " : "may command ") + base::three_digits(asked) + " A",
+                 "raise this value to " + base::three_digits(enough) +
+                     (s.control.mode == Mode::current ? " A or more, or lower the reference"
+                                                      : " A or more, or lower control.current.limit_A")});
 }
 
 /// Refuses limits with one shunt: it does not show a current that flows through the lower switches, or in a
@@ -116,7 +120,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
     out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
                    "must be above the highest voltage of the supply or at the start, " +
                        base::three_digits(from) + " V",
-                   "raise this value: below that voltage the drive could never brake"});
+                   "raise this value: with a lower limit the drive could never brake"});
     return;
   }
   // At worst the bus exceeds the limit by as much as the limit exceeds the supply.
@@ -147,7 +151,7 @@ void check_saliency(const Scenario& s, const design::Sheet& sheet, base::Problem
     if (value)
       out.push_back(
           {key, base::three_digits(*value),
-           "is guaranteed only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
+           "can be kept only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
                base::three_digits(ratio) + " times its L_d",
            "remove this key, and limit the references: control.current.limit_A, control.speed.torque_limit_Nm"});
   };

@@ -84,7 +84,7 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
   out.push_back({"protection.over_current_A", written(*over_A),
                  "stops the drive at a current that the drive's limits allow: " +
                      base::three_digits(most.ampere) + " A, " + most.by,
-                 "raise this value above that current plus the ripple, or lower the limit"});
+                 "raise this value above this current plus the ripple, or lower the current limit"});
 }
 
 /// A blocked rotor: two phases carry the current, and friction does not heat the motor.

@@ -16,7 +16,7 @@
 //   mean of the samples at 5 A: 4.75 .. 5.25 A required, 4.96589 A measured
 //   greatest current: <= 9 A required, 6.83261 A measured
 // Note: control.drive = "lean" has no protection: the bridge stays on at over-current, over-voltage and a stall; add a protection to your firmware, or export control.drive = "product" with [protection]
-// Note: cleared for a supply that takes current back (supply.sinks = true). This stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and sinks = false
+// Note: cleared for a supply that takes current back (supply.sinks = true). The voltage of this stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and supply.sinks = false
 // Assumptions of that run:
 //   supply    24 V, stiff, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
