@@ -65,7 +65,7 @@ class Design(ProgramTest):
         the warning disappears. At a period 5 % longer the warning is printed."""
         def cures(period_s):
             told = self.run_program("design", "maxon-251601", "--quick", "--chopping", "complementary", "--period", f"{period_s!r}").stdout
-            found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) this warning does not appear)?", told) for word in ("has a phase margin", "PWM ripple")}
+            found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) the design gives no such warning)?", told) for word in ("has a phase margin", "PWM ripple")}
             return {word: m and float(m[1] or "nan") for word, m in found.items()}
         both = cures(69.6e-6)
         self.assertGreater(both["has a phase margin"], 1.2 * both["PWM ripple"])

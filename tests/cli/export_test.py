@@ -141,7 +141,7 @@ class Gate(ProgramTest):
     def test_a_requirement_that_fails_is_refused(self):
         told = self.refused(1, BOARD, "--set", "supply.voltage_V=6")
         self.assertEqual(len(told), 1)
-        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; read the report")
+        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; find the cause")
 
     def test_what_was_never_measured_is_refused_all_at_once_beside_what_fails(self):
         told = self.refused(2, "current-square", "--set", "supply.voltage_V=6", "--set", "pwm.chopping=complementary")

@@ -47,7 +47,7 @@ TEST(BodeText, WithoutALinearLoopSaysWhy) {
   EXPECT_THAT(
       text,
       HasSubstr(
-          "no linear loop can be compared with the measurement: the current loop is a hysteresis, which is not linear"));
+          "no linear loop can be compared with the measurement: the current controller is a hysteresis, which is not linear"));
   EXPECT_THAT(text, Not(HasSubstr("designed")));
   EXPECT_THAT(text::bode_csv(s), Not(HasSubstr("designed")));
 }

@@ -126,7 +126,7 @@ base::Result<CommissionStudy> study_commission(const CommissionOrder& order) {
       return base::Problem{"motor", s.subject.motor,
                            std::string("cannot be commissioned: the simulation ended with ") + reason(stop) +
                                " before the commissioning test was complete",
-                           "check the values of the motor's sheet"};
+                           "correct the values in the motor file"};
     note(rig, s.bench, t_s, s);
   }
   s.state = rig.firmware().found();

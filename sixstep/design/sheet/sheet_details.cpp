@@ -71,9 +71,10 @@ void read_delta(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.connection == WindingConnection::star) {
     if (s.mutual_inductance_mH != 0)
-      reader.problem("mutual_inductance_mH", base::written(s.mutual_inductance_mH),
-                     "applies to a delta's branches only; a star's inductance_mH includes it",
-                     "remove this key");
+      reader.problem(
+          "mutual_inductance_mH", base::written(s.mutual_inductance_mH),
+          "applies to a delta's branches only; inductance_mH of a star includes the mutual inductance",
+          "remove this key");
     return;
   }
   const auto look = [&](const char* key, const std::optional<base::Quantity>& q, const char* cure) {
@@ -81,8 +82,7 @@ void read_delta(SheetReader& reader) {
       reader.wrong(key, *q, "is given for a phase, and a delta needs the value between two terminals", cure);
   };
   constexpr const char* winding_cure =
-      "write frame = \"terminal\". If a drive identified the value (VESC, ODrive), write twice the value; "
-      "if it is of one branch of the delta, write 2/3 of it";
+      "write frame = \"terminal\". If a drive identified the value (VESC, ODrive), write twice the value; if the value is of one branch of the delta, write 2/3 of the value";
   look("resistance_ohm", s.resistance_ohm, winding_cure);
   look("inductance_mH", s.inductance_mH, winding_cure);
   look("back_emf_mV_s", s.back_emf_mV_s,
