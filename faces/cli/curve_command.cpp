@@ -185,7 +185,7 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--pwm-period", a.pwm_period_s, "PWM period in s, for a duty below 1. Default: 30e-6");
   curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm. Default: 0");
   curve.add_option("--diode-drop", a.diode_drop_V, "forward voltage of a diode, V. Default: 0");
-  curve.add_option("--points", a.points, "number of points from standstill to no load. Default: 41");
+  curve.add_option("--points", a.points, "number of speeds from standstill to no load. Default: 41");
   curve.add_option("--ambient", a.ambient_degC, "temperature of the air around the motor, degC. Default: 25");
   curve.add_option("--winding", a.winding_degC,
                    "winding temperature at which the curve is computed, degC. Default: 25");
@@ -204,8 +204,8 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
 }  // namespace
 
 Verb declare_curve(CLI::App& app) {
-  CLI::App& curve =
-      *app.add_subcommand("curve", "torque-speed curve of a motor; force over speed of a linear motor");
+  CLI::App& curve = *app.add_subcommand(
+      "curve", "compute the torque-speed curve of a motor; of a linear motor, force over speed");
   const auto a = std::make_shared<CurveArguments>();
   declare_options(curve, *a);
   return {&curve, calling(curve_command, a)};

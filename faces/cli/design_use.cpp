@@ -13,7 +13,7 @@ namespace cli {
 namespace {
 
 constexpr const char* in_scenario =
-    "set the value in the scenario, in [control], [pwm], [supply], [sensors] or [load]";
+    "set the value in the scenario: in [control], [pwm], [supply], [sensors] or [load]";
 constexpr const char* by_bandwidth = "set control.field.bandwidth_Hz in the scenario";
 constexpr const char* not_written = "leave this option out: --json has all numbers";
 

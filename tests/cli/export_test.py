@@ -194,7 +194,7 @@ class Gate(ProgramTest):
 
     def test_despite_needs_a_reason_and_is_told_where_it_was_not_needed(self):
         told = self.run_program("export", "header", self.scenario(BOARD), "--despite", " \n", code=2).stderr
-        self.assertEqual(told, "--despite gives no reason; give the reason for writing the header anyway; the header quotes it\n")
+        self.assertEqual(told, "--despite gives no reason; give the reason for which you write the header anyway; the header quotes this reason\n")
         clear = self.run_program("export", "header", self.scenario(BOARD), *DESPITE)
         self.assertIn("--despite was not needed: the run holds every requirement, and the header states this\n", clear.stderr)
         self.assertIn("Cleared by its run", clear.stdout)

@@ -66,7 +66,7 @@ class OnCore(ProgramTest):
     def test_says_what_is_missing_and_leaves_no_file(self):
         for environment, said in (({"PATH": "/nowhere"}, "arm-none-eabi-g++ is not installed on this machine; install it"),
                                   ({"SIXSTEP_SOURCES": "/nowhere"}, "set SIXSTEP_SOURCES to the folder"),
-                                  ({"TMPDIR": "/proc"}, "set TMPDIR to a folder that can be written to")):
+                                  ({"TMPDIR": "/proc"}, "set TMPDIR to a folder in which you may write")):
             with self.subTest(said=said), tempfile.TemporaryDirectory() as folder:
                 made = subprocess.run([PROGRAM, "run", SPEED, "--on", "cortex-m4", "--html", "x.html"], cwd=self.path, text=True, check=False,
                                       capture_output=True, timeout=300, env={**os.environ, "TMPDIR": folder, **environment})

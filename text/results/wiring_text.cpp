@@ -114,7 +114,7 @@ std::string agreement(const WiringStudy& s) {
                           hall_lines_word(c.wiring), does_text(c.theory.does), does_text(c.measured.does));
   return text +
          fmt::format(
-             "{} of {} move in simulation as theory predicts; friction or cogging stops the rotor in the other wirings. Give a larger --current.\n",
+             "{} of {} wirings move in simulation as theory predicts; friction or cogging stops the rotor in the other wirings. Give a larger --current.\n",
              s.agreeing(), s.cases.size());
 }
 
