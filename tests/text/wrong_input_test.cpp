@@ -123,7 +123,7 @@ TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
           "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name looked up beside "
           "the scenario, in the data folder and in the built-in list",
           "x.toml:1:1: duration_s is missing; write duration_s = ..: simulated time, in s",
-          "x.toml:2:1: require.metric is missing; write metric = ..: figure that is computed from the signal"));
+          "x.toml:2:1: require.metric is missing; write metric = ..: name of the figure that is computed from the signal"));
 }
 
 TEST_F(WrongInput, MissingMotor) {
